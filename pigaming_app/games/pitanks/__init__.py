@@ -1,0 +1,1 @@
+"""PiTanks: hit, and don't get hit."""

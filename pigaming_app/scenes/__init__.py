@@ -1,0 +1,1 @@
+"""What people see, hear and press: the only place that knows pygame."""

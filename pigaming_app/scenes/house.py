@@ -1,0 +1,24 @@
+"""What every scene may use: settings, scores, words, devices, sounds and the window."""
+
+from dataclasses import dataclass
+
+from pigaming_app.scenes.canvas import Canvas
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.sounds import Sounds
+from pigaming_app.scenes.words import Words
+from pigaming_app.scores import Scores
+from pigaming_app.settings import Settings
+
+
+@dataclass
+class House:
+    """One of each, made once, handed to every scene."""
+
+    settings: Settings
+    scores: Scores
+    words: Words
+    controls: Controls
+    sounds: Sounds
+    canvas: Canvas
+    kiosk: bool = False
+    idle: float = 0.0  # seconds since anyone pressed anything

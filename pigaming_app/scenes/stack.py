@@ -1,0 +1,88 @@
+"""Scenes lie on a stack; a scene answers a press with what shall become of the stack, and reaches for nothing."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import pygame
+
+from pigaming_app.scenes.press import Press
+
+
+class Scene(Protocol):
+    """One screen."""
+
+    def entered(self) -> None:
+        """The scene has become the top one: just pushed, or what lay above it has gone."""
+
+    def on(self, press: Press) -> "Turn":
+        """Answer a press."""
+
+    def update(self, seconds: float) -> "Turn":
+        """Let `seconds` of real time pass."""
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the whole canvas, 1920 x 1080."""
+
+
+@dataclass(frozen=True)
+class Push:
+    """Put a scene on top."""
+
+    scene: Scene
+
+
+@dataclass(frozen=True)
+class Pop:
+    """Take the top scene away."""
+
+
+@dataclass(frozen=True)
+class Swap:
+    """Put a scene in the place of the top one."""
+
+    scene: Scene
+
+
+@dataclass(frozen=True)
+class Home:
+    """Back to the lowest scene, or to `scene` on top of it."""
+
+    scene: Scene | None = None
+
+
+@dataclass(frozen=True)
+class Quit:
+    """Close the arcade."""
+
+
+Turn = Push | Pop | Swap | Home | Quit | None
+
+
+class Stack:
+    """The scenes that lie on each other; only the top one hears, moves and paints."""
+
+    def __init__(self, first: Scene) -> None:
+        self.scenes = [first]
+        first.entered()
+
+    @property
+    def top(self) -> Scene:
+        return self.scenes[-1]
+
+    def turn(self, turn: Turn) -> None:
+        """Carry out what the top scene answered. An empty stack means: close."""
+        match turn:
+            case None:
+                return
+            case Push(scene):
+                self.scenes.append(scene)
+            case Pop():
+                self.scenes.pop()
+            case Swap(scene):
+                self.scenes[-1] = scene
+            case Home(scene):
+                self.scenes[1:] = [scene] if scene else []
+            case Quit():
+                self.scenes.clear()
+        if self.scenes:
+            self.top.entered()

@@ -1,0 +1,1 @@
+"""The world: robots, walls, contact, sight. It knows no game and no screen."""

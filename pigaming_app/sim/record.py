@@ -1,0 +1,170 @@
+"""Declare a state once: as plain objects to play with, as NumPy records to train with.
+
+A record is a class of annotated fields: `float`, `int`, another record, or a list of fixed length,
+`Annotated[list[Robot], 4]`. Lists of small whole numbers may name a narrower type: `Annotated[list[int], 576, "h"]`.
+
+    @record
+    class Robot:
+        x: float
+        y: float
+
+`Robot()` is a plain object with every number zero. `dtype(Robot)` is the same layout as a NumPy record; `pack` and
+`unpack` copy between the two, and `digest` gives the same hash for both.
+"""
+
+import hashlib
+import struct
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_hints
+
+if TYPE_CHECKING:
+    import numpy as np
+
+T = TypeVar("T")
+
+_CODES = {float: "d", int: "q"}
+_NUMPY = {"d": "<f8", "q": "<i8", "h": "<i2"}
+
+
+class Field:
+    """One field of a record: its name, what one element is, and how many (None: a single one)."""
+
+    def __init__(self, name: str, hint: Any) -> None:
+        self.name = name
+        self.count: int | None = None
+        code: str | None = None
+        if hasattr(hint, "__metadata__"):
+            listed, (self.count, *narrow) = get_args(hint)[0], hint.__metadata__
+            if get_origin(listed) is not list:
+                raise TypeError(f"{name}: Annotated goes with list[...], not {listed}")
+            hint, code = get_args(listed)[0], narrow[0] if narrow else None
+        self.kind: type = hint
+        self.code = code or _CODES.get(hint)
+        if self.code is None and not hasattr(hint, "_fields"):
+            raise TypeError(f"{name}: {hint} is not float, int or a record")
+
+    def zero(self) -> Any:
+        """The field with every number zero."""
+        one = self.kind
+        return one() if self.count is None else [one() for _ in range(self.count)]
+
+    def elements(self, owner: Any) -> Any:
+        value = getattr(owner, self.name)
+        return (value,) if self.count is None else value
+
+
+def record(cls: type[T]) -> type[T]:
+    """Make a class of annotated fields (its own and those of its base) a record."""
+    fields = tuple(Field(name, hint) for name, hint in get_type_hints(cls, include_extras=True).items())
+    zeros = tuple((field.name, field.zero) for field in fields)
+
+    def __init__(self: Any) -> None:
+        for name, zero in zeros:
+            setattr(self, name, zero())
+
+    body = {
+        "__slots__": tuple(field.name for field in fields),
+        "__init__": __init__,
+        "__annotations__": get_type_hints(cls, include_extras=True),
+        "__doc__": cls.__doc__,
+        "__module__": cls.__module__,
+        "__qualname__": cls.__qualname__,
+        "_fields": property(lambda self: fields),
+    }
+    made = type(cls.__name__, (), body)
+    made._fields = fields  # type: ignore[attr-defined]
+    return made
+
+
+def fields_of(kind: type) -> tuple[Field, ...]:
+    """The fields of a record, in the order in which they lie in memory."""
+    return kind._fields  # type: ignore[attr-defined, no-any-return]
+
+
+@cache
+def dtype(kind: type) -> "np.dtype[Any]":
+    """The NumPy record type of a record: packed, little-endian, every number on its natural boundary."""
+    import numpy as np
+
+    parts: list[tuple[Any, ...]] = []
+    for field in fields_of(kind):
+        one = _NUMPY[field.code] if field.code else dtype(field.kind)
+        parts.append((field.name, one) if field.count is None else (field.name, one, (field.count,)))
+    made = np.dtype(parts)
+    if made.itemsize % 8:
+        raise TypeError(f"{kind.__name__}: {made.itemsize} bytes; lists of narrow numbers must fill whole 8 bytes")
+    return made
+
+
+def numbers(state: Any) -> Iterator[float]:
+    """Every number of a plain record, in the order in which they lie in memory."""
+    for field in state._fields:
+        if field.code:
+            yield from field.elements(state)
+        else:
+            for element in field.elements(state):
+                yield from numbers(element)
+
+
+@cache
+def _layout(kind: type) -> struct.Struct:
+    def codes(kind: type) -> str:
+        parts = []
+        for field in fields_of(kind):
+            one = field.code or codes(field.kind)
+            parts.append(one * (1 if field.count is None else field.count))
+        return "".join(parts)
+
+    return struct.Struct("<" + codes(kind))
+
+
+def to_bytes(state: Any) -> bytes:
+    """A plain record as the bytes that the NumPy record has in memory."""
+    return _layout(type(state)).pack(*numbers(state))
+
+
+def pack(state: Any, row: Any) -> None:
+    """Copy a plain record into one element of a NumPy array of `dtype(type(state))`."""
+    import numpy as np
+
+    row[...] = np.frombuffer(to_bytes(state), dtype(type(state)))[0]
+
+
+def unpack(kind: type[T], row: Any) -> T:
+    """A plain record with the numbers of one element of a NumPy array of `dtype(kind)`."""
+    stream = iter(_layout(kind).unpack(row.tobytes()))
+    state = kind()
+    _fill(state, stream)
+    return state
+
+
+def _fill(state: Any, stream: Iterator[float]) -> None:
+    for field in state._fields:
+        if not field.code:
+            for element in field.elements(state):
+                _fill(element, stream)
+        elif field.count is None:
+            setattr(state, field.name, next(stream))
+        else:
+            getattr(state, field.name)[:] = [next(stream) for _ in range(field.count)]
+
+
+def copy(state: T) -> T:
+    """A snapshot of a plain record that shares nothing with it."""
+    twin = type(state)()
+    for field in state._fields:  # type: ignore[attr-defined]
+        value = getattr(state, field.name)
+        if field.code:
+            setattr(twin, field.name, value if field.count is None else list(value))
+        else:
+            setattr(twin, field.name, copy(value) if field.count is None else [copy(one) for one in value])
+    return twin
+
+
+def digest(state: Any) -> str:
+    """SHA-256 over every bit of a plain record or of one element of a NumPy array: equal states, equal digests."""
+    raw = to_bytes(state) if hasattr(state, "_fields") else state.tobytes()
+    return hashlib.sha256(raw).hexdigest()
+
+
