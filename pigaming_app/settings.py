@@ -1,0 +1,123 @@
+"""What an operator may change, and where the arcade keeps its files.
+
+Settings are one TOML file in the platform's own place. It may be edited by hand: whatever in it is wrong is named,
+with file, key and reason, and its default is used instead.
+"""
+
+import os
+import tomllib
+from dataclasses import asdict, dataclass, field, fields
+from pathlib import Path
+from typing import Any, Protocol
+
+from pigaming_app.keeping import keep, recall
+
+FILE = "settings.toml"
+
+
+@dataclass(frozen=True)
+class Folders:
+    """The user's folders of this program. They need not exist."""
+
+    config: Path
+    data: Path
+    cache: Path
+
+
+def folders() -> Folders:
+    """The platform's folders; the environment variable PIGAMING_HOME puts all three into one place."""
+    if home := os.environ.get("PIGAMING_HOME"):
+        return Folders(Path(home, "config"), Path(home, "data"), Path(home, "cache"))
+    from platformdirs import PlatformDirs
+
+    place = PlatformDirs("pigaming", appauthor=False)
+    return Folders(place.user_config_path, place.user_data_path, place.user_cache_path)
+
+
+class Fit(Protocol):
+    """What may stand in a setting."""
+
+    def wrong(self, value: object) -> str | None:
+        """Why the value does not fit, to follow "is", or None."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """Whole numbers, or any where `low` is a float, from `low` to `high`, both allowed."""
+
+    low: float
+    high: float
+
+    def wrong(self, value: object) -> str | None:
+        whole = isinstance(self.low, int)
+        if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
+            return "not a whole number" if whole else "not a number"
+        return None if self.low <= value <= self.high else f"not between {self.low} and {self.high}"
+
+
+@dataclass(frozen=True)
+class OneOf:
+    """One of these words."""
+
+    words: tuple[str, ...]
+
+    def wrong(self, value: object) -> str | None:
+        return None if value in self.words else f"none of {', '.join(self.words)}"
+
+
+class Switch:
+    """True or false."""
+
+    def wrong(self, value: object) -> str | None:
+        return None if isinstance(value, bool) else "neither true nor false"
+
+
+class Name:
+    """A name of something that may have gone since: who uses it looks whether it is there."""
+
+    def wrong(self, value: object) -> str | None:
+        return None if isinstance(value, str) and len(value) <= 60 else "not a short text"
+
+
+def _setting(default: Any, fit: Fit) -> Any:
+    return field(default=default, metadata={"fit": fit})
+
+
+@dataclass
+class Settings:
+    """What the operator chose, and what was last chosen in the setup of a match."""
+
+    language: str = _setting("en", OneOf(("en", "pt")))
+    music: int = _setting(6, Range(0, 10))
+    sounds: int = _setting(8, Range(0, 10))
+    flashes: str = _setting("full", OneOf(("off", "soft", "full")))
+    shake: bool = _setting(True, Switch())
+    display: int = _setting(0, Range(0, 15))
+    fullscreen: bool = _setting(True, Switch())
+    attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # of nobody pressing anything
+    minutes: int = _setting(2, Range(1, 60))
+    arena: str = _setting("classic", Name())
+    strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
+    variant: str = _setting("", Name())  # empty: the game's first
+
+    @classmethod
+    def load(cls, folder: Path) -> "tuple[Settings, list[str]]":
+        """The settings kept in the folder, and one sentence for everything that was wrong with them."""
+        path = folder / FILE
+        found, said = recall(path, tomllib.loads)
+        settings = cls()
+        fits = {one.name: one.metadata["fit"] for one in fields(cls)}
+        for key, value in (found or {}).items():
+            if key not in fits:
+                said.append(f"{path}: {key} is not a setting; it is ignored.")
+            elif wrong := fits[key].wrong(value):
+                said.append(f"{path}: {key} = {value!r} is {wrong}; {getattr(settings, key)!r} is used.")
+            else:
+                setattr(settings, key, float(value) if isinstance(getattr(settings, key), float) else value)
+        return settings, said
+
+    def save(self, folder: Path) -> None:
+        """Keep the settings in the folder. Raises NotSaved; then the settings kept before are intact."""
+        import tomli_w
+
+        keep(folder / FILE, tomli_w.dumps(asdict(self)))
