@@ -1,0 +1,85 @@
+"""What every screen agrees on: colours, line weights, type sizes, faces, and the shapes of the house.
+
+Colour belongs to players (Okabe-Ito, lifted for a projector); everything else is ice, focus is yellow.
+"""
+
+import math
+from collections.abc import Sequence
+from functools import cache
+
+import pygame
+
+from pigaming_app import ASSETS
+
+Color = tuple[int, int, int]
+Point = tuple[float, float]
+Points = Sequence[Point]
+
+BLUE, ORANGE, GREEN, PURPLE = (60, 160, 255), (255, 146, 0), (20, 228, 140), (255, 144, 214)
+PLAYERS: tuple[Color, Color, Color, Color] = (BLUE, ORANGE, GREEN, PURPLE)
+ICE, MIST, WALL, STEEL = (226, 238, 255), (150, 172, 206), (168, 176, 204), (58, 76, 112)
+FOCUS, ALARM, GREY, BLACK, WHITE = (255, 236, 64), (255, 72, 72), (112, 112, 112), (0, 0, 0), (255, 255, 255)
+
+# Line weights, px: the only four.
+HAIR, THIN, LINE, BOLD = 2, 4, 6, 9
+# Type sizes, px: the only five.
+BODY, LABEL, SUB, TITLE, HERO = 40, 52, 72, 96, 200
+
+CAPITALS = 0.70  # height of the capitals of both faces, em
+_FACES = {
+    "head": "oxanium-latin-700-normal.woff2",
+    "hero": "oxanium-latin-800-normal.woff2",
+    "body": "lexend-latin-500-normal.woff2",
+}
+
+
+def mix(a: Color, b: Color, t: float) -> Color:
+    """Colour `a` moved towards `b` by `t`, 0..1."""
+    return round(a[0] + (b[0] - a[0]) * t), round(a[1] + (b[1] - a[1]) * t), round(a[2] + (b[2] - a[2]) * t)
+
+
+def dim(color: Color, k: float) -> Color:
+    """A colour at `k` of its brightness, 0..1."""
+    return mix(BLACK, color, k)
+
+
+@cache
+def font(face: str, size: int) -> pygame.font.Font:
+    """One of the faces "head", "hero" (Oxanium) and "body" (Lexend) at a size in px."""
+    return pygame.font.Font(ASSETS / "fonts" / _FACES[face], size)
+
+
+def text_width(text: str, size: int, face: str = "head") -> float:
+    """Width of one line of text, px."""
+    return font(face, size * 2).size(text)[0] / 2
+
+
+def cut(x: float, y: float, w: float, h: float, c: float = 16) -> list[Point]:
+    """A rectangle with its corners cut at 45 degrees: the house shape, as in the letters of Oxanium."""
+    return [
+        (x + c, y),
+        (x + w - c, y),
+        (x + w, y + c),
+        (x + w, y + h - c),
+        (x + w - c, y + h),
+        (x + c, y + h),
+        (x, y + h - c),
+        (x, y + c),
+    ]
+
+
+def regular(n: int, r: float, turn: float = 0.0, cx: float = 0, cy: float = 0) -> list[Point]:
+    """A regular polygon of `n` corners on a circle of radius `r` px round (cx, cy), the first at angle `turn` rad."""
+    angles = [turn + i * math.tau / n for i in range(n)]
+    return [(cx + r * math.cos(a), cy + r * math.sin(a)) for a in angles]
+
+
+def shape_points(player: int, r: float) -> list[Point]:
+    """The shape of seat 0..3, pointing along +x and of equal visual weight: circle, triangle, square, diamond."""
+    if player == 0:
+        return regular(48, r * 0.98)
+    if player == 1:
+        return regular(3, r * 1.28)
+    if player == 2:
+        return regular(4, r * 1.22, math.pi / 4)
+    return regular(4, r * 1.24)
