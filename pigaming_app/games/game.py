@@ -54,6 +54,7 @@ class Game:
 
     name: str
     state: type
+    eyes: type  # the record that shapes a view
     view: type
     variants: tuple[str, ...]  # the first is the default
     minutes: tuple[int, ...]

@@ -124,11 +124,11 @@ def to_bytes(state: Any) -> bytes:
     return _layout(type(state)).pack(*numbers(state))
 
 
-def pack(state: Any, row: Any) -> None:
+def pack(state: Any, rows: Any, index: int) -> None:
     """Copy a plain record into one element of a NumPy array of `dtype(type(state))`."""
     import numpy as np
 
-    row[...] = np.frombuffer(to_bytes(state), dtype(type(state)))[0]
+    rows[index] = np.frombuffer(to_bytes(state), dtype(type(state)))[0]
 
 
 def unpack(kind: type[T], row: Any) -> T:

@@ -9,9 +9,10 @@ DT = 1.0 / HZ
 WIDTH, HEIGHT = 1600.0, 900.0
 ROBOTS = 4
 WALLS = 24
-CELL = 50
-COLUMNS, ROWS = int(WIDTH) // CELL, int(HEIGHT) // CELL
-CELLS = COLUMNS * ROWS
+CELL = 50.0  # px between the nodes of the grid
+COLUMNS, ROWS = 33, 19  # nodes at 0, 50 .. 1600 and 0, 50 .. 900; those on the rim are never free
+NODES = COLUMNS * ROWS
+NODES_KEPT = NODES + 1  # fills whole 8 bytes
 
 
 @record
@@ -74,4 +75,4 @@ class World:
     actions: Annotated[list[Action], ROBOTS]
     wall_count: int
     walls: Annotated[list[Wall], WALLS]
-    grid: Annotated[list[int], CELLS, "h"]  # how many walls keep a robot's centre out of this cell
+    grid: Annotated[list[int], NODES_KEPT, "h"]  # see navigate: walls that block a node, and walls near it

@@ -8,6 +8,7 @@ from pigaming_app.sim.world import ROBOTS, World
 SHIELD, SPEED, RAPID, TRIPLE, RICOCHET, MINE = range(6)
 POWERS = ("shield", "speed", "rapid", "triple", "ricochet", "mine")
 OWN_BULLETS = 8  # places for each robot's bullets
+OUTER = 100
 BULLETS = ROBOTS * OWN_BULLETS
 PICKUPS = 3
 OWN_MINES = 2
@@ -70,6 +71,8 @@ class Bullet:
     vy: float
     bounces: int  # left
     fresh: int  # 1 until it has left the barrel: it is then still at the robot's centre
+    struck: int  # in this tick: 0 nothing, 1.. a robot, -1.. a wall, OUTER an outer wall
+    when: float  # the share of the tick's way after which it struck
 
 
 @record

@@ -1,0 +1,58 @@
+"""What a brain is: a function that sees and decides, and a record of what it remembers; both work in both bodies."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from pigaming_app.sim.action import press
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One sort of brain: `think(match, seat, mind)` sets the seat's action; `wake(mind, seed)` fills a fresh mind."""
+
+    name: str
+    mind: type
+    think: Callable[[Any, int, Any], None]
+    wake: Callable[[Any, int], None]
+
+
+class Thinker:
+    """A brain of some kind on a seat of a plain match."""
+
+    def __init__(self, kind: Kind, seed: int) -> None:
+        self.kind = kind
+        self.mind = kind.mind()
+        kind.wake(self.mind, seed)
+
+    def think(self, state: Any, seat: int) -> None:
+        """Set the seat's action for this tick."""
+        self.kind.think(state, seat, self.mind)
+
+
+class Held(Protocol):
+    """Anything that is held like a pad: stick in [-1, 1], two buttons."""
+
+    @property
+    def linear(self) -> float: ...
+
+    @property
+    def angular(self) -> float: ...
+
+    @property
+    def fire(self) -> bool: ...
+
+    @property
+    def turbo(self) -> bool: ...
+
+
+class Hands:
+    """A person: `read` is called on the tick on which it acts."""
+
+    def __init__(self, read: Callable[[], Held]) -> None:
+        self.read = read
+
+    def think(self, state: Any, seat: int) -> None:
+        """Set the seat's action from how the device is held right now."""
+        held = self.read()
+        press(state.actions[seat], held.linear, held.angular, int(held.fire), int(held.turbo))

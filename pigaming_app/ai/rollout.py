@@ -1,0 +1,104 @@
+"""Whole matches with the brains inside the loop, in both bodies.
+
+A rollout is a closure over a game's rules and the brains of its four seats, so that numba compiles all of it into one
+loop. Played plain, the very same closure runs over plain records.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any
+
+from pigaming_app.ai.brain import Kind
+from pigaming_app.ai.simple import IDLE
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Setup
+from pigaming_app.sim.arena import Arena, load
+from pigaming_app.sim.contact import drive
+from pigaming_app.sim.kernel import compiled
+from pigaming_app.sim.record import dtype, pack
+from pigaming_app.sim.world import ROBOTS
+
+Loop = Callable[[Any, Any, Any, Any, Any, int], None]
+Think = Callable[[Any, int, Any], None]
+
+
+def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think, Think]) -> Loop:
+    """A loop over matches that plays each on for `ticks`, or to its end."""
+    first, second, third, fourth = think
+
+    def rollout(matches: Any, ones: Any, twos: Any, threes: Any, fours: Any, ticks: int) -> None:
+        for i in range(len(matches)):
+            match, one, two, three, four = matches[i], ones[i], twos[i], threes[i], fours[i]
+            for _ in range(ticks):
+                if match.over:
+                    break
+                first(match, 0, one)
+                second(match, 1, two)
+                third(match, 2, three)
+                fourth(match, 3, four)
+                judge(match)
+                drive(match)
+
+    return rollout
+
+
+@cache
+def plain_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
+    """The rollout of a game over plain records."""
+    return make_rollout(GAMES[game].judge, think)
+
+
+@cache
+def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
+    """The rollout of a game over NumPy records. Raises ImportError without numba."""
+    return compiled(make_rollout(GAMES[game].judge, think))
+
+
+class Batch:
+    """Many matches of one game, all with the same kinds of brains, in either body."""
+
+    def __init__(self, setups: Sequence[Setup], kinds: Sequence[Kind | None], fast: bool, arena: Arena | None = None):
+        """One match for each setup; kinds of the four seats, None for an empty one; `fast`: compiled."""
+        self.fast = fast
+        self.game = GAMES[setups[0].game]
+        self.kinds = tuple(kind or IDLE for kind in kinds)
+        states, minds = [], []
+        for setup in setups:
+            state = self.game.state()
+            self.game.start(state, arena or load(setup.game, setup.arena), setup)
+            states.append(state)
+            minds.append([awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)])
+        columns = [list(column) for column in zip(*minds, strict=True)]
+        think = tuple(kind.think for kind in self.kinds)
+        self.matches: Any = packed(states) if fast else states
+        self.minds = [packed(column) for column in columns] if fast else columns
+        self.loop = (compiled_rollout if fast else plain_rollout)(self.game.name, think)
+
+    def play(self, ticks: int) -> None:
+        """Play every match on."""
+        self.loop(self.matches, *self.minds, ticks)
+
+    def scores(self) -> list[list[int]]:
+        """For each match the scores of its seats."""
+        if self.fast:
+            return self.matches["robots"]["score"].tolist()  # type: ignore[no-any-return]
+        return [[robot.score for robot in match.robots] for match in self.matches]
+
+
+def awake(kind: Kind, seed: int, seat: int) -> Any:
+    """A fresh mind for a seat of the match with that seed."""
+    mind = kind.mind()
+    kind.wake(mind, seed * ROBOTS + seat)
+    return mind
+
+
+def packed(records: Sequence[Any]) -> Any:
+    """Plain records of one type as a NumPy array."""
+    import numpy as np
+
+    rows = np.zeros(len(records), dtype(type(records[0])))
+    for i, record in enumerate(records):
+        pack(record, rows, i)
+    return rows
+
+

@@ -1,0 +1,6 @@
+"""The rules of the games, and the only list of them."""
+
+from pigaming_app.games.game import Game
+from pigaming_app.games.pitanks import PITANKS
+
+GAMES: dict[str, Game] = {"pitanks": PITANKS}

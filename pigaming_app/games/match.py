@@ -1,0 +1,112 @@
+"""One tick of any game on any plant: sense, think, judge, drive.
+
+The plant says where the robots are; the brain on each seat says what it wants; the game judges and asks for speeds; the
+plant drives. A game never moves a robot, and a seat can change hands between any two ticks.
+"""
+
+from typing import Any, Protocol
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.sim.arena import Arena, load
+from pigaming_app.sim.plant import Plant, SimPlant
+from pigaming_app.sim.world import DT, ROBOTS, Action
+
+
+class Brain(Protocol):
+    """Whoever sits on a seat."""
+
+    def think(self, state: Any, seat: int) -> None:
+        """Set `state.actions[seat]` for this tick."""
+
+
+class Nobody:
+    """An empty seat, or a robot that stands still."""
+
+    def think(self, state: Any, seat: int) -> None:
+        action = state.actions[seat]
+        action.linear, action.angular, action.fire, action.turbo = 0.0, 0.0, 0, 0
+
+
+class Match:
+    """A match of any game. All brains are `Nobody` until somebody sits down."""
+
+    def __init__(self, setup: Setup, plant: Plant | None = None, arena: Arena | None = None) -> None:
+        self.setup = setup
+        self.game = GAMES[setup.game]
+        self.arena = arena or load(setup.game, setup.arena)
+        self.state: Any = self.game.state()
+        self.game.start(self.state, self.arena, setup)
+        self.plant = plant or SimPlant(self.state)
+        self.plant.place([(robot.x, robot.y, robot.heading) for robot in self.state.robots])
+        self.brains: list[Brain] = [Nobody() for _ in range(ROBOTS)]
+        self.log = Log()
+        self.series: list[list[tuple[float, int]]] = [[(0.0, 0)] for _ in range(ROBOTS)]
+
+    def sit(self, seat: int, brain: Brain) -> None:
+        """Hand a seat over: from the next tick on `brain` decides what it does."""
+        self.brains[seat] = brain
+
+    @property
+    def over(self) -> bool:
+        return bool(self.state.over)
+
+    @property
+    def seconds(self) -> float:
+        """Played so far."""
+        return self.state.tick * DT  # type: ignore[no-any-return]
+
+    @property
+    def seconds_left(self) -> float:
+        return max(0.0, self.setup.minutes * 60 - self.seconds)
+
+    def tick(self) -> None:
+        """Advance by 1/50 s."""
+        state = self.state
+        for robot, sighting in zip(state.robots, self.plant.sense(), strict=True):
+            robot.x, robot.y, robot.heading = sighting.x, sighting.y, sighting.heading
+        for seat in range(ROBOTS):
+            self.brains[seat].think(state, seat)
+        self.log.note(state.actions)
+        self.game.judge(state)
+        self.plant.drive([(robot.ask_linear, robot.ask_angular) for robot in state.robots], DT)
+        for robot, line in zip(state.robots, self.series, strict=True):
+            if robot.score != line[-1][1]:
+                line.append((state.tick * DT, robot.score))
+
+    def outcome(self) -> Outcome:
+        """How it stands, or how it ended."""
+        state = self.state
+        seats = [i for i in range(ROBOTS) if state.robots[i].present]
+        teams = {state.robots[i].team for i in seats}
+        totals = {team: sum(state.robots[i].score for i in seats if state.robots[i].team == team) for team in teams}
+        best = max(totals.values())
+        leaders = [team for team in teams if totals[team] == best]
+        winners = tuple(i for i in seats if state.robots[i].team == leaders[0]) if len(leaders) == 1 else ()
+        order = sorted(seats, key=lambda i: (-totals[state.robots[i].team], state.robots[i].team, -state.robots[i].score))
+        scores = [totals[state.robots[i].team] for i in order]
+        rows = tuple(
+            Row(i, state.robots[i].team, 1 + scores.index(score), state.robots[i].score, self.game.facts(state, i))
+            for i, score in zip(order, scores, strict=True)
+        )
+        return Outcome(rows, winners, tuple(tuple(line) for line in self.series), state.tick * DT)
+
+
+class Log:
+    """What every seat did on every tick, three bytes a seat: stick in 64ths, buttons."""
+
+    def __init__(self) -> None:
+        self.ticks = bytearray()
+
+    def note(self, actions: list[Action]) -> None:
+        """Add one tick."""
+        for action in actions:
+            self.ticks += bytes(
+                (
+                    int(action.linear * 64.0) + 64,
+                    int(action.angular * 64.0) + 64,
+                    action.fire + 2 * action.turbo,
+                )
+            )
+
+

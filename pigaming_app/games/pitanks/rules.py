@@ -1,0 +1,362 @@
+"""PiTanks, as a player would hear it: hit the others, don't get hit.
+
+Every hit you make is a point, every hit you take costs one; a team adds up. Nobody is out: when the time is up, the most
+points win. Bullets stop at walls; an inner wall takes five and is gone. They pass your team mates and yourself. After a
+hit you blink and cannot be hit again for three quarters of a second. Turbo makes you faster while its meter lasts.
+Pick-ups: a shield takes the next hit for you; speed; rapid fire; three bullets at once; bullets that bounce off walls; a
+mine, which your next shot lays behind you.
+"""
+
+from math import cos, sin, sqrt
+from typing import Any
+
+from pigaming_app.games.pitanks.state import (
+    MINE,
+    MINES,
+    OUTER,
+    OWN_BULLETS,
+    OWN_MINES,
+    PICKUPS,
+    POWERS,
+    RAPID,
+    RICOCHET,
+    SHIELD,
+    SPEED,
+    TRIPLE,
+)
+from pigaming_app.sim.chance import chance
+from pigaming_app.sim.grid import BLOCKED, ONE_NEAR, node_at, wall_on_grid
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robots import RADIUS, burn
+from pigaming_app.sim.sweep import meets_bounds, meets_disc, meets_wall, off_wall
+from pigaming_app.sim.world import CELL, COLUMNS, DT, HEIGHT, ROBOTS, ROWS, WIDTH
+
+ALL_POWERS = len(POWERS)
+BACK_OFF = 0.5  # px that a bullet keeps from the wall it bounced off
+
+
+@kernel
+def judge(match: Any) -> None:
+    """One tick of the rules: shots, bullets, mines and pick-ups, then the speeds that robots ask for."""
+    if match.over:
+        for robot in match.robots:
+            robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        return
+    for k in range(ROBOTS):
+        if match.robots[k].present:
+            wear_off(match.tanks[k])
+            shoot(match, k)
+    if fly(match):
+        strike(match)
+    if match.rules.pickups:
+        mind_mines(match)
+        mind_pickups(match)
+    for k in range(ROBOTS):
+        if match.robots[k].present:
+            steer(match, k)
+    match.tick += 1
+    if match.tick >= match.rules.ticks:
+        match.over = 1
+
+
+@kernel
+def wear_off(tank: Any) -> None:
+    """One tick less of everything that lasts."""
+    if tank.cooldown:
+        tank.cooldown -= 1
+    if tank.protected:
+        tank.protected -= 1
+    for power in range(ALL_POWERS):
+        if tank.powers[power]:
+            tank.powers[power] -= 1
+
+
+@kernel
+def steer(match: Any, k: int) -> None:
+    """Ask for the speeds that robot k's stick, turbo and powers give."""
+    rules, robot, action = match.rules, match.robots[k], match.actions[k]
+    speed = rules.speed
+    if rules.turbo:
+        burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
+        if robot.boosting:
+            speed *= rules.turbo_factor
+    if match.tanks[k].powers[SPEED]:
+        speed *= rules.speed_factor
+    robot.ask_linear = action.linear * speed
+    robot.ask_angular = action.angular * rules.turn_rate
+
+
+# ------------------------------------------------------------------------------------------------------------ bullets
+
+
+@kernel
+def shoot(match: Any, k: int) -> None:
+    """Fire, or lay a mine, if robot k's button is down and its gun is ready."""
+    rules, tank = match.rules, match.tanks[k]
+    if not match.actions[k].fire or tank.cooldown:
+        return
+    if tank.powers[MINE] and lay_mine(match, k):
+        tank.powers[MINE] = 0
+        tank.cooldown = rules.cooldown
+        return
+    most = rules.boosted_alive if tank.powers[RAPID] or tank.powers[TRIPLE] else rules.bullets_alive
+    heading, bounces = match.robots[k].heading, rules.bounces if tank.powers[RICOCHET] else 0
+    if not load(match, k, most, heading, bounces):
+        return
+    if tank.powers[TRIPLE]:
+        load(match, k, most, heading - rules.triple_spread, bounces)
+        load(match, k, most, heading + rules.triple_spread, bounces)
+    tank.cooldown = rules.rapid_cooldown if tank.powers[RAPID] else rules.cooldown
+
+
+@kernel
+def load(match: Any, k: int, most: int, heading: float, bounces: int) -> int:
+    """Put a bullet of robot k into the barrel, unless `most` are alive; 1 if it did."""
+    free, alive = -1, 0
+    for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
+        if match.bullets[i].alive:
+            alive += 1
+        elif free < 0:
+            free = i
+    if free < 0 or alive >= most:
+        return 0
+    bullet, robot, speed = match.bullets[free], match.robots[k], match.rules.bullet_speed
+    bullet.alive, bullet.fresh, bullet.bounces = 1, 1, bounces
+    bullet.x, bullet.y = robot.x, robot.y
+    bullet.vx, bullet.vy = speed * cos(heading), speed * sin(heading)
+    match.tanks[k].shots += 1
+    return 1
+
+
+@kernel
+def fly(match: Any) -> int:
+    """Move every bullet to where its tick ends, and note what it struck; nothing is damaged yet. How many struck.
+
+    All bullets see robots and walls as the tick began, so that their order does not matter.
+    """
+    muzzle = match.rules.muzzle / match.rules.bullet_speed
+    strikes = 0
+    for k in range(ROBOTS):
+        if not match.robots[k].present:
+            continue
+        for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
+            bullet = match.bullets[i]
+            if bullet.alive:
+                sweep(match, k, bullet, DT + muzzle if bullet.fresh else DT)
+                if bullet.struck:
+                    strikes += 1
+    return strikes
+
+
+@kernel
+def sweep(match: Any, k: int, bullet: Any, seconds: float) -> None:
+    """One bullet of robot k on its way."""
+    x, y, radius = bullet.x, bullet.y, match.rules.bullet_radius
+    dx, dy = bullet.vx * seconds, bullet.vy * seconds
+    first = meets_bounds(x, y, dx, dy, WIDTH, HEIGHT, radius)
+    struck = OUTER if first <= 1.0 else 0
+    if bullet.fresh or match.grid[node_at(x, y)] >= ONE_NEAR:
+        left, right = (x, x + dx) if dx > 0.0 else (x + dx, x)
+        top, bottom = (y, y + dy) if dy > 0.0 else (y + dy, y)
+        for i in range(match.wall_count):
+            wall = match.walls[i]
+            if left < wall.right and right > wall.left and top < wall.bottom and bottom > wall.top and wall.health:
+                t = meets_wall(x, y, dx, dy, wall, radius)
+                if t < first:
+                    first, struck = t, -1 - i
+    reach = RADIUS + radius
+    for j in range(ROBOTS):
+        robot = match.robots[j]
+        if (
+            robot.present
+            and robot.team != match.robots[k].team
+            and -80.0 < robot.x - x < 80.0
+            and -80.0 < robot.y - y < 80.0
+        ):
+            t = meets_disc(x, y, dx, dy, robot.x, robot.y, reach)
+            if t < first:
+                first, struck = t, 1 + j
+    share = first if struck else 1.0
+    bullet.x, bullet.y = x + share * dx, y + share * dy
+    bullet.struck, bullet.when, bullet.fresh = struck, first, 0
+
+
+@kernel
+def strike(match: Any) -> None:
+    """What the bullets of this tick do to what they struck."""
+    for k in range(ROBOTS):
+        if not match.robots[k].present:
+            continue
+        for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
+            bullet = match.bullets[i]
+            if not bullet.alive or not bullet.struck:
+                continue
+            if bullet.struck > 0 and bullet.struck != OUTER:
+                bullet.alive = 0
+                hit_robot(match, k, bullet.struck - 1, i)
+            elif bullet.bounces:
+                bounce(match, bullet)
+            else:
+                bullet.alive = 0
+                if bullet.struck < 0:
+                    hit_wall(match, match.walls[-1 - bullet.struck])
+    for bullet in match.bullets:
+        bullet.struck = 0
+
+
+@kernel
+def hit_wall(match: Any, wall: Any) -> None:
+    """One bullet less that the wall takes."""
+    if wall.health > 0:
+        wall.health -= 1
+        if wall.health == 0:
+            wall_on_grid(match, wall, -1)
+
+
+@kernel
+def bounce(match: Any, bullet: Any) -> None:
+    """Turn a bullet back from the wall that it struck, straight off its surface."""
+    bullet.bounces -= 1
+    if bullet.struck == OUTER:
+        edge = match.rules.bullet_radius + 0.01
+        if bullet.x <= edge or bullet.x >= WIDTH - edge:
+            bullet.vx = -bullet.vx
+        if bullet.y <= edge or bullet.y >= HEIGHT - edge:
+            bullet.vy = -bullet.vy
+        return
+    nx, ny = off_wall(match.walls[-1 - bullet.struck], bullet.x, bullet.y)
+    n2 = nx * nx + ny * ny
+    into = bullet.vx * nx + bullet.vy * ny
+    if n2 > 0.0 and into < 0.0:
+        bullet.vx -= 2.0 * into / n2 * nx
+        bullet.vy -= 2.0 * into / n2 * ny
+        gap = sqrt(n2)
+        bullet.x += BACK_OFF * nx / gap
+        bullet.y += BACK_OFF * ny / gap
+
+
+@kernel
+def hit_robot(match: Any, k: int, victim: int, shot: int) -> None:
+    """Bullet `shot` of robot k has struck robot `victim`: a point, unless blinking, shielded, or another came first."""
+    tank = match.tanks[victim]
+    if match.rules.protection:
+        if tank.protected:
+            return
+        for other in match.bullets:
+            if other.struck == victim + 1 and other.when < match.bullets[shot].when:
+                return
+    if score(match, k, victim):
+        match.tanks[k].landed += 1
+
+
+@kernel
+def score(match: Any, k: int, victim: int) -> int:
+    """Robot k has hit robot `victim`. 1 if it counts; a shield takes it and is gone."""
+    tank = match.tanks[victim]
+    tank.protected = match.rules.protection
+    if tank.powers[SHIELD]:
+        tank.powers[SHIELD] = 0
+        return 0
+    match.robots[k].score += 1
+    match.tanks[k].hits += 1
+    match.robots[victim].score -= 1
+    tank.taken += 1
+    return 1
+
+
+# ---------------------------------------------------------------------------------------------------- mines, pick-ups
+
+
+@kernel
+def lay_mine(match: Any, k: int) -> int:
+    """Lay a mine of robot k behind it; 0 if two lie already."""
+    robot = match.robots[k]
+    for i in range(k * OWN_MINES, (k + 1) * OWN_MINES):
+        mine = match.mines[i]
+        if not mine.alive:
+            mine.alive, mine.age = match.rules.mine_life, 0
+            mine.x, mine.y = robot.x, robot.y
+            return 1
+    return 0
+
+
+@kernel
+def mind_mines(match: Any) -> None:
+    """Mines arm, go off under an opponent, and vanish in the end."""
+    rules = match.rules
+    reach = RADIUS + rules.mine_radius
+    for i in range(MINES):
+        mine = match.mines[i]
+        if not mine.alive:
+            continue
+        mine.alive -= 1
+        mine.age += 1
+        if mine.age < rules.mine_arming:
+            continue
+        owner = i // OWN_MINES
+        for j in range(ROBOTS):
+            robot = match.robots[j]
+            if not robot.present or robot.team == match.robots[owner].team or match.tanks[j].protected:
+                continue
+            dx, dy = robot.x - mine.x, robot.y - mine.y
+            if mine.alive and dx * dx + dy * dy < reach * reach:
+                mine.alive = 0
+                score(match, owner, j)
+
+
+@kernel
+def mind_pickups(match: Any) -> None:
+    """Pick-ups appear, are taken by whoever touches them, and vanish in the end."""
+    rules = match.rules
+    reach = RADIUS + rules.pickup_reach
+    match.next_pickup -= 1
+    if match.next_pickup <= 0:
+        match.next_pickup = rules.pickup_every
+        drop_pickup(match)
+    for pickup in match.pickups:
+        if not pickup.alive:
+            continue
+        pickup.alive -= 1
+        for j in range(ROBOTS):
+            robot = match.robots[j]
+            dx, dy = robot.x - pickup.x, robot.y - pickup.y
+            if robot.present and pickup.alive and dx * dx + dy * dy < reach * reach:
+                pickup.alive = 0
+                match.tanks[j].powers[pickup.kind] = rules.power_life
+
+
+@kernel
+def drop_pickup(match: Any) -> None:
+    """Put a pick-up of any kind on a free node, away from robots and other pick-ups; not if three lie already."""
+    free = -1
+    for i in range(PICKUPS):
+        if not match.pickups[i].alive:
+            free = i
+    if free < 0:
+        return
+    for _ in range(8):
+        column = 1 + int(chance(match) * (COLUMNS - 2))
+        row = 1 + int(chance(match) * (ROWS - 2))
+        x, y = column * CELL, row * CELL
+        if not match.grid[row * COLUMNS + column] & BLOCKED and lonely(match, x, y):
+            pickup = match.pickups[free]
+            pickup.kind = int(chance(match) * ALL_POWERS)
+            pickup.alive = match.rules.pickup_life
+            pickup.x, pickup.y = x, y
+            return
+
+
+@kernel
+def lonely(match: Any, x: float, y: float) -> int:
+    """1 if no robot is within 200 px and no pick-up within 300 px."""
+    for robot in match.robots:
+        dx, dy = robot.x - x, robot.y - y
+        if robot.present and dx * dx + dy * dy < 200.0 * 200.0:
+            return 0
+    for pickup in match.pickups:
+        dx, dy = pickup.x - x, pickup.y - y
+        if pickup.alive and dx * dx + dy * dy < 300.0 * 300.0:
+            return 0
+    return 1
+
+

@@ -1,0 +1,50 @@
+"""PiTanks: how a match begins, with the numbers of its rules, and what it counts in the end."""
+
+from collections.abc import Mapping
+
+from pigaming_app.games.game import Setup
+from pigaming_app.games.pitanks.state import PiTanks, Rules
+from pigaming_app.sim.arena import Arena, build
+from pigaming_app.sim.chance import seeded
+from pigaming_app.sim.world import HZ
+
+VARIANTS = ("pickups", "plain", "classic")
+
+
+def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
+    """Fill a fresh match: walls, robots on their starts, rules, chance."""
+    build(match, arena)
+    match.random = seeded(setup.seed)
+    for robot, seat in zip(match.robots, setup.seats, strict=True):
+        robot.present = int(seat.brain != "off")
+        robot.team = seat.team
+    set_rules(match.rules, setup)
+    match.next_pickup = match.rules.pickup_every // 2
+
+
+def set_rules(rules: Rules, setup: Setup) -> None:
+    """The numbers of DESIGN.md's rules. `classic`: no protection, no turbo, no pick-ups."""
+    classic = setup.variant == "classic"
+    rules.ticks = round(setup.minutes * 60 * HZ)
+    rules.speed, rules.turn_rate = 260.0, 3.0
+    rules.turbo = 0 if classic else 1
+    rules.turbo_factor, rules.turbo_drain, rules.turbo_refill = 1.3, 1.0 / (2 * HZ), 1.0 / (4 * HZ)
+    rules.bullet_speed, rules.bullet_radius, rules.muzzle = 560.0, 6.0, 64.0
+    rules.cooldown, rules.bullets_alive = HZ // 2, 5
+    rules.protection = 0 if classic else round(0.75 * HZ)
+    rules.pickups = int(setup.variant == "pickups")
+    rules.pickup_every, rules.pickup_life, rules.pickup_reach = 7 * HZ, 12 * HZ, 40.0
+    rules.power_life = 8 * HZ
+    rules.speed_factor, rules.rapid_cooldown, rules.boosted_alive = 1.25, HZ // 5, 8
+    rules.triple_spread, rules.bounces = 0.21, 2
+    rules.mine_radius, rules.mine_arming, rules.mine_life = 22.0, HZ, 30 * HZ
+
+
+def facts(match: PiTanks, seat: int) -> Mapping[str, float]:
+    """What one seat did: hits made, hits taken, and the share of its bullets that scored."""
+    tank = match.tanks[seat]
+    return {
+        "hits": tank.hits,
+        "taken": tank.taken,
+        "aim": tank.landed / tank.shots if tank.shots else 0.0,
+    }

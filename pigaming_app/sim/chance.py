@@ -1,0 +1,26 @@
+"""Chance that is alike in both bodies: the generator is a number in the match record.
+
+A linear congruential step modulo 2**31 (the constants of ISO C's example); only its high bits are used. Products stay
+below 2**62, so that numba's wrapping integers and Python's unbounded ones agree.
+"""
+
+from typing import Any
+
+from pigaming_app.sim.kernel import kernel
+
+MASK = (1 << 31) - 1
+
+
+@kernel
+def chance(owner: Any) -> float:
+    """The next number in [0, 1) of the generator `owner.random`."""
+    owner.random = (owner.random * 1103515245 + 12345) & MASK
+    return float(owner.random >> 8) / 8388608.0
+
+
+def seeded(seed: int) -> int:
+    """A state of the generator, far from those of neighbouring seeds. Any whole number will do."""
+    mixed = (seed ^ 0x5DEECE66D) & ((1 << 64) - 1)
+    for _ in range(2):
+        mixed = ((mixed ^ (mixed >> 31)) * 0x9E3779B97F4A7C15) & ((1 << 64) - 1)
+    return (mixed >> 17) & MASK

@@ -1,0 +1,141 @@
+"""Robots against robots and walls: they slide along walls and part from each other.
+
+Nothing here bounces. After every robot has rolled, overlaps are taken back along their normals, which lets a robot keep
+the part of its way that leads along the wall. What still touches a wall when the rounds are used up goes back to where
+it stood before the tick, and nobody stood in a wall then: so no crush, however hard, can press a robot into one. Nor can
+it throw one, since contact moves a robot by at most SHOVE px a tick.
+"""
+
+from math import sqrt
+from typing import Any
+
+from pigaming_app.sim.grid import ONE_NEAR, node_at
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robots import RADIUS, roll
+from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+
+ROUNDS = 6
+SHOVE = 16.0
+SLOP = 1e-6  # px by which a robot may touch a wall, for rounding
+APART = 4.0 * RADIUS * RADIUS
+
+
+@kernel
+def drive(world: Any) -> None:
+    """One tick of the floor: every present robot drives, then contact sorts them out."""
+    robots = world.robots
+    r0, r1, r2, r3 = robots[0], robots[1], robots[2], robots[3]
+    x0, y0, x1, y1 = r0.x, r0.y, r1.x, r1.y
+    x2, y2, x3, y3 = r2.x, r2.y, r3.x, r3.y
+    for robot in robots:
+        if robot.present:
+            roll(robot)
+    touched = 0
+    for _ in range(ROUNDS):
+        moved = part(robots)
+        for robot in robots:
+            if robot.present and keep_out(world, robot):
+                moved = 1
+        if not moved:
+            break
+        touched = 1
+    if touched:
+        settle(world, r0, x0, y0)
+        settle(world, r1, x1, y1)
+        settle(world, r2, x2, y2)
+        settle(world, r3, x3, y3)
+
+
+@kernel
+def part(robots: Any) -> int:
+    """Move every two robots that overlap apart, half the way each. 1 if any did."""
+    moved = 0
+    for i in range(ROBOTS - 1):
+        one = robots[i]
+        if not one.present:
+            continue
+        for j in range(i + 1, ROBOTS):
+            other = robots[j]
+            if not other.present:
+                continue
+            dx, dy = other.x - one.x, other.y - one.y
+            apart = dx * dx + dy * dy
+            if apart >= APART:
+                continue
+            gap = sqrt(apart)
+            if gap > 1e-9:
+                nx, ny = dx / gap, dy / gap
+            else:  # on the same spot: any direction will do
+                nx, ny = 1.0, 0.0
+            push = 0.5 * (2.0 * RADIUS - gap)
+            one.x -= push * nx
+            one.y -= push * ny
+            other.x += push * nx
+            other.y += push * ny
+            moved = moved or push > SLOP
+    return 1 if moved else 0
+
+
+@kernel
+def keep_out(world: Any, robot: Any) -> int:
+    """Move a robot that overlaps a wall straight out of it. 1 if it did."""
+    moved = 0
+    if robot.x < RADIUS:
+        robot.x = RADIUS
+        moved = 1
+    elif robot.x > WIDTH - RADIUS:
+        robot.x = WIDTH - RADIUS
+        moved = 1
+    if robot.y < RADIUS:
+        robot.y = RADIUS
+        moved = 1
+    elif robot.y > HEIGHT - RADIUS:
+        robot.y = HEIGHT - RADIUS
+        moved = 1
+    if world.grid[node_at(robot.x, robot.y)] < ONE_NEAR:
+        return moved
+    for i in range(world.wall_count):
+        wall = world.walls[i]
+        if wall.left < robot.x < wall.right and wall.top < robot.y < wall.bottom and wall.health:
+            dx, dy = off_wall(wall, robot.x, robot.y)
+            reach = wall.half + RADIUS
+            gap2 = dx * dx + dy * dy
+            if gap2 < reach * reach:
+                gap = sqrt(gap2)
+                if gap > 1e-9:
+                    robot.x += dx / gap * (reach - gap)
+                    robot.y += dy / gap * (reach - gap)
+                    moved = moved or reach - gap > SLOP
+    return 1 if moved else 0
+
+
+@kernel
+def in_wall(world: Any, x: float, y: float) -> int:
+    """1 if a robot with its centre at (x, y) would overlap a wall."""
+    if x < RADIUS or x > WIDTH - RADIUS or y < RADIUS or y > HEIGHT - RADIUS:
+        return 1
+    if world.grid[node_at(x, y)] < ONE_NEAR:
+        return 0
+    for i in range(world.wall_count):
+        wall = world.walls[i]
+        if wall.left < x < wall.right and wall.top < y < wall.bottom and wall.health:
+            dx, dy = off_wall(wall, x, y)
+            reach = wall.half + RADIUS - SLOP
+            if dx * dx + dy * dy < reach * reach:
+                return 1
+    return 0
+
+
+@kernel
+def settle(world: Any, robot: Any, from_x: float, from_y: float) -> None:
+    """The last word on a robot that stood at (from_x, from_y): not thrown, and not in a wall."""
+    dx, dy = robot.x - from_x, robot.y - from_y
+    way2 = dx * dx + dy * dy
+    if way2 > SHOVE * SHOVE:
+        share = SHOVE / sqrt(way2)
+        robot.x = from_x + share * dx
+        robot.y = from_y + share * dy
+    if in_wall(world, robot.x, robot.y):
+        robot.x = from_x
+        robot.y = from_y

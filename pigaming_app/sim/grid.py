@@ -1,0 +1,61 @@
+"""The grid: which nodes, 50 px apart, are free for a robot's centre, and near which there is a wall at all.
+
+Each node counts the walls that keep a robot away (low six bits) and the walls that are near (the bits above). Where none
+is near, contact and bullets need not look at walls.
+"""
+
+from math import sqrt
+from typing import Any
+
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.world import CELL, COLUMNS, ROWS
+
+SPARE = 4.0  # px between a robot on a free node and the wall
+NEAR = 72.0  # whatever touches the wall now has its node this near: RADIUS + half a cell's diagonal
+BLOCKED = 63  # the bits that count walls in the way
+ONE_NEAR = 64  # a node of at least this has a wall near it
+
+
+@kernel
+def node_at(x: float, y: float) -> int:
+    """The node nearest to a point; a point outside the arena counts as on its rim."""
+    column, row = int(x / CELL + 0.5), int(y / CELL + 0.5)
+    if column < 0:
+        column = 0
+    elif column > COLUMNS - 1:
+        column = COLUMNS - 1
+    if row < 0:
+        row = 0
+    elif row > ROWS - 1:
+        row = ROWS - 1
+    return row * COLUMNS + column
+
+
+@kernel
+def wall_on_grid(world: Any, wall: Any, change: int) -> None:
+    """Enter a wall into the grid (change 1) or take it out (-1)."""
+    edge = NEAR + wall.half
+    for row in range(ROWS):
+        y = row * CELL
+        if (y < wall.ay - edge and y < wall.by - edge) or (y > wall.ay + edge and y > wall.by + edge):
+            continue
+        for column in range(COLUMNS):
+            dx, dy = off_wall(wall, column * CELL, y)
+            gap = sqrt(dx * dx + dy * dy) - wall.half
+            if gap < NEAR:
+                world.grid[row * COLUMNS + column] += ONE_NEAR * change
+                if gap < RADIUS + SPARE:
+                    world.grid[row * COLUMNS + column] += change
+
+
+@kernel
+def block_rim(world: Any) -> None:
+    """Nodes on the outer walls are never free."""
+    for column in range(COLUMNS):
+        world.grid[column] += 1
+        world.grid[(ROWS - 1) * COLUMNS + column] += 1
+    for row in range(1, ROWS - 1):
+        world.grid[row * COLUMNS] += 1
+        world.grid[row * COLUMNS + COLUMNS - 1] += 1

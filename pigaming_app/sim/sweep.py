@@ -1,0 +1,122 @@
+"""What a moving circle, or a line of sight, meets first.
+
+Everything is said as a fraction of the way, 0 at its start, 1 at its end; FAR means: nothing on the way. A circle that
+moves past an obstacle is a point that moves past the obstacle grown by the circle's radius.
+"""
+
+from math import sqrt
+from typing import Any
+
+from pigaming_app.sim.kernel import kernel
+
+FAR = 2.0
+
+
+@kernel
+def meets_disc(x: float, y: float, dx: float, dy: float, cx: float, cy: float, reach: float) -> float:
+    """When a point going from (x, y) by (dx, dy) comes within `reach` of (cx, cy); 0 if it starts there.
+
+    The smaller root of |p + t d - c|^2 = reach^2.
+    """
+    px, py = x - cx, y - cy
+    c = px * px + py * py - reach * reach
+    if c <= 0.0:
+        return 0.0
+    b = px * dx + py * dy
+    a = dx * dx + dy * dy
+    if b >= 0.0 or a == 0.0:
+        return FAR
+    inside = b * b - a * c
+    if inside < 0.0:
+        return FAR
+    t = (-b - sqrt(inside)) / a
+    return t if t <= 1.0 else FAR
+
+
+@kernel
+def meets_wall(x: float, y: float, dx: float, dy: float, wall: Any, radius: float) -> float:
+    """When a circle going from (x, y) by (dx, dy) touches a wall: two discs and the strip between them."""
+    reach = wall.half + radius
+    ex, ey = wall.bx - wall.ax, wall.by - wall.ay
+    length2 = ex * ex + ey * ey
+    px, py = x - wall.ax, y - wall.ay
+    if length2 == 0.0:
+        return meets_disc(x, y, dx, dy, wall.ax, wall.ay, reach)
+    length = sqrt(length2)
+    across = (ex * py - ey * px) / length  # signed distance from the wall's line
+    along = (ex * px + ey * py) / length2  # 0 at a, 1 at b
+    down = (ex * dy - ey * dx) / length
+    forth = (ex * dx + ey * dy) / length2
+    if -reach < across < reach and 0.0 <= along <= 1.0:
+        return 0.0
+    first = FAR
+    if down != 0.0:
+        t = ((reach if across > 0.0 else -reach) - across) / down
+        if 0.0 <= t <= 1.0 and 0.0 <= along + t * forth <= 1.0:
+            first = t
+    t = meets_disc(x, y, dx, dy, wall.ax, wall.ay, reach)
+    if t < first:
+        first = t
+    t = meets_disc(x, y, dx, dy, wall.bx, wall.by, reach)
+    if t < first:
+        first = t
+    return first
+
+
+@kernel
+def off_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
+    """The way (dx, dy) to a point from the nearest point of a wall's centre line."""
+    ex, ey = wall.bx - wall.ax, wall.by - wall.ay
+    px, py = x - wall.ax, y - wall.ay
+    length2 = ex * ex + ey * ey
+    t = 0.0
+    if length2 > 0.0:
+        t = (px * ex + py * ey) / length2
+        if t < 0.0:
+            t = 0.0
+        elif t > 1.0:
+            t = 1.0
+    return px - t * ex, py - t * ey
+
+
+@kernel
+def meets_bounds(x: float, y: float, dx: float, dy: float, width: float, height: float, radius: float) -> float:
+    """When a circle that starts inside the outer walls touches one of them."""
+    first = FAR
+    if dx > 0.0:
+        first = (width - radius - x) / dx
+    elif dx < 0.0:
+        first = (radius - x) / dx
+    t = FAR
+    if dy > 0.0:
+        t = (height - radius - y) / dy
+    elif dy < 0.0:
+        t = (radius - y) / dy
+    if t < first:
+        first = t
+    if first < 0.0:
+        return 0.0
+    return first if first <= 1.0 else FAR
+
+
+@kernel
+def clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: float) -> int:
+    """1 if a circle can go from one point to the other without touching an inner wall; radius 0: whether one sees
+    the other.
+
+    """
+    dx, dy = to_x - x, to_y - y
+    left, right = (x, to_x) if dx > 0.0 else (to_x, x)
+    top, bottom = (y, to_y) if dy > 0.0 else (to_y, y)
+    for i in range(world.wall_count):
+        wall = world.walls[i]
+        if (
+            wall.health
+            and left <= wall.right
+            and right >= wall.left
+            and top <= wall.bottom
+            and bottom >= wall.top
+            and meets_wall(x, y, dx, dy, wall, radius) <= 1.0
+        ):
+            return 0
+    return 1
