@@ -4,6 +4,7 @@ Nothing here runs in a steady frame: it makes the surfaces that a scene then onl
 """
 
 import math
+from itertools import pairwise
 from typing import Self
 
 import pygame
@@ -105,7 +106,7 @@ class Ink:
         """An outline in dashes, `on` px long and `off` px apart; corners included."""
         points = [*points, points[0]] if closed else points
         left, draw, run = on, True, [points[0]]
-        for a, b in zip(points, points[1:], strict=False):
+        for a, b in pairwise(points):
             d, done = math.dist(a, b), 0.0
             while done < d:
                 step = min(left, d - done)
