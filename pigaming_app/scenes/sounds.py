@@ -1,0 +1,119 @@
+"""What is heard. The sound device is opened by a thread, so that the first picture never waits for it.
+
+Without a device, or with a file missing, the arcade is silent there and never fails.
+"""
+
+import logging
+import time
+from pathlib import Path
+from threading import Thread
+
+import pygame
+
+FOLDER = Path(__file__).parents[2] / "assets" / "sounds"
+_VOICES = 24  # sounds at the same time; what comes on top is dropped
+_GAP = 0.05  # seconds in which the same sound starts only once: four players mash their buttons
+_log = logging.getLogger(__name__)
+
+
+class Sounds:
+    """The sounds and the music. Silent until `open` has found a device; `trouble` says why if it stays so."""
+
+    def __init__(self, folder: Path = FOLDER) -> None:
+        self.trouble = ""
+        self._folder = folder
+        self._sounds: dict[str, pygame.mixer.Sound] = {}
+        self._started: dict[str, float] = {}
+        self._music_on = False
+        self._music_playing = False
+        self._volumes = (6, 8)
+        self._ready = False
+        self._opener: Thread | None = None
+
+    def open(self) -> None:
+        """Begin to open the device and load the sounds, and return at once. More calls do nothing."""
+        if self._opener is None:
+            self._opener = Thread(target=self._open, name="sounds", daemon=True)
+            self._opener.start()
+
+    def wait(self) -> bool:
+        """Wait until the device is open or known to be missing; true if there will be sound."""
+        self.open()
+        if self._opener:
+            self._opener.join()
+        return self._ready
+
+    def close(self) -> None:
+        """Fall silent and give the device back."""
+        if self._opener:
+            self._opener.join()
+        self._ready, self._music_playing, self._sounds = False, False, {}
+        pygame.mixer.quit()
+
+    def play(self, name: str, player: int | None = None, pan: float = 0.0) -> None:
+        """Play a sound, in the pitch of a player (seat 0..3) if it has one, from the left (-1) to the right (1)."""
+        if not self._ready:
+            return
+        key = name if player is None or f"{name}{player + 1}" not in self._sounds else f"{name}{player + 1}"
+        sound, now = self._sounds.get(key), time.monotonic()
+        if sound is None or now - self._started.get(key, 0.0) < _GAP:
+            return
+        channel = pygame.mixer.find_channel()
+        if channel is None:
+            return
+        self._started[key] = now
+        channel.play(sound)
+        pan = max(-1.0, min(1.0, pan)) * 0.7  # nothing comes from one side alone: people sit beside each other
+        loud = _loudness(self._volumes[1])
+        channel.set_volume(loud * min(1.0, 1.0 - pan), loud * min(1.0, 1.0 + pan))
+
+    def music(self, on: bool) -> None:
+        """Let the music play from its beginning, or fade away."""
+        self._music_on = on
+        if self._ready:
+            self._follow_music()
+
+    def volume(self, music: int, sounds: int) -> None:
+        """How loud, 0 (off) to 10."""
+        self._volumes = (music, sounds)
+        if self._ready:
+            pygame.mixer.music.set_volume(_loudness(music))
+
+    def _open(self) -> None:
+        try:
+            pygame.mixer.init(44100, -16, 2, 512, allowedchanges=0)
+            pygame.mixer.set_num_channels(_VOICES)
+        except (pygame.error, NotImplementedError) as reason:
+            self.trouble = f"There is no sound: {reason}."
+            _log.info(self.trouble)
+            return
+        for path in sorted(self._folder.glob("*.ogg")):
+            if path.stem != "music":
+                self._load(path)
+        self._ready = True
+        self._follow_music()
+
+    def _load(self, path: Path) -> None:
+        try:
+            self._sounds[path.stem] = pygame.mixer.Sound(str(path))
+        except (pygame.error, OSError) as reason:
+            _log.warning("%s: %s", path, reason)
+
+    def _follow_music(self) -> None:
+        path = self._folder / "music.ogg"
+        try:
+            pygame.mixer.music.set_volume(_loudness(self._volumes[0]))
+            if self._music_on and not self._music_playing:
+                pygame.mixer.music.load(str(path))
+                pygame.mixer.music.play(-1, fade_ms=800)
+                self._music_playing = True
+            elif self._music_playing and not self._music_on:
+                pygame.mixer.music.fadeout(800)
+                self._music_playing = False
+        except (pygame.error, OSError) as reason:
+            _log.warning("%s: %s", path, reason)
+
+
+def _loudness(volume: int) -> float:
+    """Ears hear steps in decibels: volume 5 of 10 is a quarter of the amplitude."""
+    return (max(0, min(10, volume)) / 10.0) ** 2
