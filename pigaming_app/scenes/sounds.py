@@ -4,6 +4,8 @@ Without a device, or with a file missing, the arcade is silent there and never f
 """
 
 import logging
+import os
+import sys
 import time
 from pathlib import Path
 from threading import Thread
@@ -64,8 +66,7 @@ class Sounds:
         self._started[key] = now
         channel.play(sound)
         pan = max(-1.0, min(1.0, pan)) * 0.7  # nothing comes from one side alone: people sit beside each other
-        loud = _loudness(self._volumes[1])
-        channel.set_volume(loud * min(1.0, 1.0 - pan), loud * min(1.0, 1.0 + pan))
+        channel.set_volume(min(1.0, 1.0 - pan), min(1.0, 1.0 + pan))
 
     def music(self, on: bool) -> None:
         """Let the music play from its beginning, or fade away."""
@@ -77,10 +78,12 @@ class Sounds:
         """How loud, 0 (off) to 10."""
         self._volumes = (music, sounds)
         if self._ready:
-            pygame.mixer.music.set_volume(_loudness(music))
+            self._set_volumes()
 
     def _open(self) -> None:
         try:
+            if _no_card():
+                raise pygame.error("no sound device was found")
             pygame.mixer.init(44100, -16, 2, 512, allowedchanges=0)
             pygame.mixer.set_num_channels(_VOICES)
         except (pygame.error, NotImplementedError) as reason:
@@ -90,6 +93,7 @@ class Sounds:
         for path in sorted(self._folder.glob("*.ogg")):
             if path.stem != "music":
                 self._load(path)
+        self._set_volumes()
         self._ready = True
         self._follow_music()
 
@@ -99,10 +103,15 @@ class Sounds:
         except (pygame.error, OSError) as reason:
             _log.warning("%s: %s", path, reason)
 
+    def _set_volumes(self) -> None:
+        music, sounds = (_loudness(volume) for volume in self._volumes)
+        pygame.mixer.music.set_volume(music)
+        for sound in self._sounds.values():
+            sound.set_volume(sounds)
+
     def _follow_music(self) -> None:
         path = self._folder / "music.ogg"
         try:
-            pygame.mixer.music.set_volume(_loudness(self._volumes[0]))
             if self._music_on and not self._music_playing:
                 pygame.mixer.music.load(str(path))
                 pygame.mixer.music.play(-1, fade_ms=800)
@@ -112,6 +121,14 @@ class Sounds:
                 self._music_playing = False
         except (pygame.error, OSError) as reason:
             _log.warning("%s: %s", path, reason)
+
+
+def _no_card() -> bool:
+    """Whether a Linux system surely has no sound. Asking it would fill the terminal with complaints of its library."""
+    if not sys.platform.startswith("linux") or os.environ.keys() & {"SDL_AUDIODRIVER", "AUDIODEV", "PULSE_SERVER"}:
+        return False
+    servers = Path(os.environ.get("XDG_RUNTIME_DIR", f"/run/user/{os.getuid()}"))
+    return not any(place.exists() for place in (Path("/dev/snd"), servers / "pulse" / "native", servers / "pipewire-0"))
 
 
 def _loudness(volume: int) -> float:
