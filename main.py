@@ -1,0 +1,40 @@
+"""Double-click to play. On a fresh machine this makes the folder .venv, fetches what pyproject.toml lists, and starts.
+
+An old Python must be able to read this file, so that it can say what is needed; all else is in pigaming_app/start.py.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+NEEDS = (3, 11)
+
+
+def too_old(version: tuple[int, ...]) -> str | None:
+    """What to say to a Python of this version (major, minor), or None if it will do."""
+    if version >= NEEDS:
+        return None
+    return "PiGaming needs Python {}.{} or newer; this is {}.{}".format(*(NEEDS + version))
+
+
+def main() -> int:
+    """Start with the arguments of the command line; the exit code of the job, or 2 where it cannot start."""
+    refusal = too_old(tuple(sys.version_info[:2]))
+    if refusal:
+        print(refusal, file=sys.stderr)
+        return 2
+    folder = os.path.dirname(os.path.abspath(__file__))
+    if folder not in sys.path:
+        sys.path.insert(0, folder)
+    from pigaming_app.start import start
+
+    return start(sys.argv[1:])
+
+
+if __name__ == "__main__":
+    code = main()
+    opened_by_double_click = sys.platform == "win32" and len(sys.argv) == 1 and "PROMPT" not in os.environ
+    if code and opened_by_double_click and sys.stdin and sys.stdin.isatty():
+        input("Press Enter to close this window.")
+    sys.exit(code)
