@@ -97,11 +97,11 @@ def works(place: Path) -> bool:
     """Whether an environment is there with a Python that runs, is new enough and finds its pip."""
     if not python_of(place).exists():
         return False
-    look = "import os, sys, sysconfig as s; sys.exit(sys.version_info < (3, 11) or not os.path.isdir(s.get_path('purelib')))"
+    look = "import os, sys, sysconfig; print(sys.version_info >= (3, 11), os.path.isdir(sysconfig.get_path('purelib')))"
     python = [str(python_of(place)), "-I"]
-    if _run([*python, "-c", look])[0]:
+    if _run([*python, "-c", look]) != (0, "True True\n"):
         return False
-    return any(_run([*python, "-m", module, "--version"])[0] == 0 for module in ("pip", "ensurepip"))
+    return _run([*python, "-m", "pip", "--version"])[0] == 0 or _run([*python, "-m", "ensurepip"])[0] == 0
 
 
 def make(place: Path) -> None:

@@ -1,7 +1,7 @@
 """Which Python does the job, and handing it over. Standard library only, and fast: it runs before every start.
 
 Where this very Python has every package, it is used as it is. Else `.venv` beside main.py is, once it is ready: the
-file `.venv/ready` says what was installed whole, and on which Python. While that is missing or differs, install.py looks.
+file `.venv/ready` says what was installed whole, and on which Python. While that differs, install.py looks.
 """
 
 import os
