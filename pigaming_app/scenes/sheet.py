@@ -1,6 +1,7 @@
 """Ink is drawn large on black, shrunk (antialiasing), blurred and added to itself (glow).
 
-Nothing here runs in a steady frame: it makes the surfaces that a scene then only blits.
+Nothing here runs in a steady frame: it makes the surfaces that a scene then only blits. Only tiles that were drawn on
+are shrunk, and wide blurs are made on small copies: a whole page is lit in a twentieth of a second.
 """
 
 import math
@@ -16,7 +17,9 @@ ADD, MULT, PRE = pygame.BLEND_RGB_ADD, pygame.BLEND_RGB_MULT, pygame.BLEND_PREMU
 Halos = tuple[tuple[int, int, float], ...]
 # Glow: (shrink by, gaussian radius there, strength). NEAR for sprites (reaches 24 px), WIDE for pages.
 NEAR: Halos = ((2, 3, 0.60), (4, 3, 0.70))
-WIDE: Halos = ((2, 3, 0.55), (4, 4, 0.60), (8, 6, 0.55))
+WIDE: Halos = ((4, 1, 0.55), (8, 2, 0.60), (16, 3, 0.55))
+SOFT: Halos = ((4, 1, 0.60), (8, 2, 0.70))  # as NEAR, on pages
+TILE_W, TILE_H = 160, 120  # px
 
 
 class Ink:
@@ -25,8 +28,9 @@ class Ink:
     def __init__(self, w: int, h: int, ss: int = 2) -> None:
         self.w, self.h, self.ss = w, h, ss
         self.sheet = pygame.Surface((w * ss, h * ss))
-        self.mask: pygame.Surface | None = None
+        self.covers: list[list[tuple[float, float]]] = []
         self.knock: pygame.Surface | None = None
+        self.tiles: set[tuple[int, int]] = set()
         self.to(0, 0)
 
     def to(self, x: float, y: float, angle: float = 0.0, scale: float = 1.0) -> Self:
@@ -39,18 +43,25 @@ class Ink:
         x, y = p
         return self.x * self.ss + self.c * x - self.s * y, self.y * self.ss + self.s * x + self.c * y
 
+    def _mark(self, left: float, top: float, right: float, bottom: float) -> None:
+        """Note the tiles between corners on the large sheet: they have been drawn on."""
+        w, h = TILE_W * self.ss, TILE_H * self.ss
+        columns = range(max(0, int(left // w)), min((self.w - 1) // TILE_W, int(right // w)) + 1)
+        for row in range(max(0, int(top // h)), min((self.h - 1) // TILE_H, int(bottom // h)) + 1):
+            for column in columns:
+                self.tiles.add((column, row))
+
     def fill(self, points: Points, color: Color) -> Self:
         """A filled polygon."""
-        pygame.draw.polygon(self.sheet, color, [self._at(p) for p in points])
+        box = pygame.draw.polygon(self.sheet, color, [self._at(p) for p in points])
+        self._mark(box.left, box.top, box.right, box.bottom)
         return self
 
     def solid(self, points: Points) -> Self:
         """Black out what lies below: on the sheet, and, in a sprite, on whatever it is blitted over."""
         at = [self._at(p) for p in points]
         pygame.draw.polygon(self.sheet, BLACK, at)
-        if self.mask is None:
-            self.mask = pygame.Surface(self.sheet.get_size(), pygame.SRCALPHA)
-        pygame.draw.polygon(self.mask, (0, 0, 0, 255), at)
+        self.covers.append(at)
         return self
 
     def line(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
@@ -65,6 +76,8 @@ class Ink:
             pygame.draw.polygon(self.sheet, color, corners)
         for p in at:
             pygame.draw.circle(self.sheet, color, p, w / 2)
+        xs, ys, r = [p[0] for p in at], [p[1] for p in at], w / 2 + 1
+        self._mark(min(xs) - r, min(ys) - r, max(xs) + r, max(ys) + r)
         return self
 
     def void(self, points: Points, width: float, keep: float = 0.0) -> Self:
@@ -89,7 +102,8 @@ class Ink:
 
     def disc(self, x: float, y: float, r: float, color: Color) -> Self:
         """A filled circle."""
-        pygame.draw.circle(self.sheet, color, self._at((x, y)), r * self.k)
+        box = pygame.draw.circle(self.sheet, color, self._at((x, y)), r * self.k)
+        self._mark(box.left, box.top, box.right, box.bottom)
         return self
 
     def arc(self, x: float, y: float, r: float, start: float, end: float, color: Color, width: float = LINE) -> Self:
@@ -130,41 +144,83 @@ class Ink:
         px, py = self._at((x, y))
         px -= {"l": 0.0, "c": 0.5, "r": 1.0}[align] * image.get_width()
         at = round(px), round(py + CAPITALS * size * self.k / 2 - f.get_ascent())
-        self.sheet.blit(image, at)
+        box = self.sheet.blit(image, at)
+        self._mark(box.left, box.top, box.right, box.bottom)
         if color == BLACK:  # black lettering stays black under its neighbours' glow
             self._knock().blit(image, at)
         return self
 
+    def _shrunk(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> None:
+        """Blit a large sheet, shrunk, onto a surface of the real size: those runs of tiles that were drawn on."""
+        for row, first, count in runs(self.tiles):
+            box = pygame.Rect(first * TILE_W, row * TILE_H, count * TILE_W, TILE_H).clip((0, 0, self.w, self.h))
+            large = sheet.subsurface(box.x * self.ss, box.y * self.ss, box.w * self.ss, box.h * self.ss)
+            out.blit(pygame.transform.smoothscale(large, box.size), box, special_flags=flags)
+
+    def onto(self, out: pygame.Surface) -> None:
+        """Add the ink, without glow, to a surface of the sheet's real size."""
+        self._shrunk(self.sheet, out, ADD)
+
     def plain(self) -> pygame.Surface:
         """The sheet at its real size, without glow."""
-        return pygame.transform.smoothscale(self.sheet, (self.w, self.h))
+        out = pygame.Surface((self.w, self.h))
+        self._shrunk(self.sheet, out, 0)
+        return out
+
+    def knocked(self, out: pygame.Surface) -> None:
+        """Darken what must stay black: voids and black lettering."""
+        if self.knock:
+            self._shrunk(self.knock, out, MULT)
 
     def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
         """The sheet with its glow: blurs of it, added where the ink itself is dark, so that no hue ever clips."""
         out = self.plain()
-        soft = pygame.Surface((self.w, self.h))
-        for shrink, radius, k in halos:
-            blur = pygame.transform.smoothscale(out, (max(1, self.w // shrink), max(1, self.h // shrink)))
-            blur = pygame.transform.gaussian_blur(blur, radius)
-            blur.fill([min(255, round(255 * k * glow))] * 3, special_flags=MULT)
-            soft.blit(pygame.transform.smoothscale(blur, (self.w, self.h)), (0, 0), special_flags=ADD)
-        soft.fill((6, 6, 6), special_flags=pygame.BLEND_RGB_SUB)  # the tails: black stays black, sprites have no edge
-        dark = pygame.transform.grayscale(out)
-        dark.blit(dark.copy(), (0, 0), special_flags=ADD)
-        soft.blit(pygame.transform.invert(dark), (0, 0), special_flags=MULT)
-        out.blit(soft, (0, 0), special_flags=ADD)
-        if self.knock:
-            out.blit(pygame.transform.smoothscale(self.knock, (self.w, self.h)), (0, 0), special_flags=MULT)
+        add_glow(out, [(out, halos, glow)])
+        self.knocked(out)
         return out
 
     def sprite(self, glow: float = 1.0) -> pygame.Surface:
         """Premultiplied: black where `solid` hides the ground, light everywhere else. One blit occludes and glows."""
         light = self.lit(glow)
         out = pygame.Surface((self.w, self.h), pygame.SRCALPHA)
-        if self.mask:
-            out.blit(pygame.transform.smoothscale(self.mask, (self.w, self.h)), (0, 0))
+        if self.covers:
+            mask = pygame.Surface(self.sheet.get_size(), pygame.SRCALPHA)
+            for points in self.covers:
+                pygame.draw.polygon(mask, (0, 0, 0, 255), points)
+            out.blit(pygame.transform.smoothscale(mask, (self.w, self.h)), (0, 0))
         out.blit(light, (0, 0), special_flags=ADD)
         return out
+
+
+def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:
+    """Tiles (column, row) as runs (row, first column, how many)."""
+    found: list[tuple[int, int, int]] = []
+    for column, row in sorted(tiles, key=lambda tile: (tile[1], tile[0])):
+        if found and found[-1][0] == row and found[-1][1] + found[-1][2] == column:
+            found[-1] = row, found[-1][1], found[-1][2] + 1
+        else:
+            found.append((row, column, 1))
+    return found
+
+
+def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, float]]) -> None:
+    """Add the blurs of (light, halos, strength), all of the size of `out`, where `out` itself is dark."""
+    size = out.get_size()
+    least = min(shrink for _, halos, _ in sources for shrink, _, _ in halos)
+    soft = pygame.Surface((max(1, size[0] // least), max(1, size[1] // least)))
+    for light, halos, glow in sources:
+        small = light
+        for shrink, radius, k in halos:
+            small = pygame.transform.smoothscale(small, (max(1, size[0] // shrink), max(1, size[1] // shrink)))
+            blur = pygame.transform.gaussian_blur(small, radius)
+            blur.fill([min(255, round(255 * k * glow))] * 3, special_flags=MULT)
+            soft.blit(pygame.transform.smoothscale(blur, soft.get_size()), (0, 0), special_flags=ADD)
+    soft.fill((6, 6, 6), special_flags=pygame.BLEND_RGB_SUB)  # the tails: black stays black, sprites have no edge
+    soft = pygame.transform.smoothscale(soft, size)
+    dark = pygame.transform.grayscale(out)
+    dark.blit(dark, (0, 0), special_flags=ADD)
+    soft.blit(pygame.transform.invert(dark), (0, 0), special_flags=MULT)
+    out.blit(soft, (0, 0), special_flags=ADD)
 
 
 class Page:
@@ -185,7 +241,11 @@ class Page:
 
     def done(self) -> pygame.Surface:
         """The page, lit."""
-        out = self.hot.lit(1.0, WIDE)
-        out.blit(self.warm.lit(0.45), (0, 0), special_flags=ADD)
-        out.blit(self.cold.plain(), (0, 0), special_flags=ADD)
+        hot, warm = self.hot.plain(), self.warm.plain()
+        out = hot.copy()
+        out.blit(warm, (0, 0), special_flags=ADD)
+        add_glow(out, [(hot, WIDE, 1.0), (warm, SOFT, 0.45)])
+        self.hot.knocked(out)
+        self.warm.knocked(out)
+        self.cold.onto(out)
         return out
