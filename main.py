@@ -27,9 +27,11 @@ def main() -> int:
     folder = os.path.dirname(os.path.abspath(__file__))
     if folder not in sys.path:
         sys.path.insert(0, folder)
-    from pigaming_app.start import start
-
-    return start(sys.argv[1:])
+    if "pigaming" in sys._xoptions:  # start.py handed over to this Python, a moment ago
+        from pigaming_app.cli import main as job
+    else:
+        from pigaming_app.start import start as job
+    return job(sys.argv[1:])
 
 
 if __name__ == "__main__":

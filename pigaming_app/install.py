@@ -14,7 +14,18 @@ import time
 from pathlib import Path
 from typing import IO
 
-from pigaming_app.start import Trouble, lacks, packages, places, python_of, ready, say, site_packages, standing_on
+from pigaming_app.start import (
+    Trouble,
+    lacks,
+    packages,
+    places,
+    python_of,
+    ready,
+    requirements,
+    say,
+    site_packages,
+    standing_on,
+)
 
 PIP_OPTIONS = ("--only-binary=:all:", "--no-input", "--disable-pip-version-check", "--retries=2", "--progress-bar=off")
 NOT_ALLOWED = {errno.EACCES, errno.EPERM, errno.EROFS}
@@ -34,20 +45,21 @@ CAUSES = (  # the first of these words in what a tool said decides
 )
 
 
-def prepared(needed: list[str], wished: list[str]) -> Path:
-    """An environment made ready; another start that does the same is waited for. Raises Trouble."""
+def prepared(needed: set[str], wished: set[str]) -> Path:
+    """An environment with these groups; another start that makes one is waited for. Raises Trouble."""
     place, lock = _claimed()
     with lock:
         if not works(place):
             make(place)
-        if not set(needed) <= ready(place):
-            install(place, needed)
-        if not set(wished) <= ready(place):
+        if not needed <= ready(place):
+            install(place, needed | ready(place))
+        whole = ready(place)
+        if not wished <= whole:
             try:
-                install(place, needed + wished)
+                install(place, whole | wished)
             except Trouble as trouble:
-                say(f"{trouble} Going on without {_names(wished)}.")
-                install(place, needed)
+                say(f"{trouble} Going on without {_names(requirements(wished))}.")
+                install(place, whole)
     return place
 
 
@@ -117,18 +129,18 @@ def make(place: Path) -> None:
         raise Trouble(_cause(said, place, []))
 
 
-def install(place: Path, wanted: list[str]) -> None:
-    """Fetch packages and note that they are whole. Raises Trouble."""
-    stamp = place / "ready"
+def install(place: Path, groups: set[str]) -> None:
+    """Fetch what is missing of these groups, and note that they are whole. Raises Trouble."""
+    wanted = requirements(groups)
     try:
-        stamp.unlink(missing_ok=True)
+        (place / "ready").unlink(missing_ok=True)
         installed = packages([site_packages(place)])
         if fetched := [one for one in wanted if lacks(installed, one)]:
             say(f"fetching {_names(fetched)} (only once; it may take a minute).")
         code, said = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], tell=True)
         if code:
             raise Trouble(_cause(said, place, wanted))
-        stamp.write_text("\n".join([standing_on(place), *wanted, ""]), encoding="utf-8")
+        (place / "ready").write_text("\n".join([standing_on(place), *sorted(groups)]), encoding="utf-8")
     except OSError as error:
         raise Trouble(_cause(str(error), place, wanted)) from error
 

@@ -1,23 +1,23 @@
 """Which Python does the job, and handing it over. Standard library only, and fast: it runs before every start.
 
-Where this very Python has every package, it is used as it is. Else `.venv` beside main.py is, once it is ready: the
-file `.venv/ready` says what was installed whole, and on which Python. While that differs, install.py looks.
+`.venv` beside main.py is used once it is ready: the file `.venv/ready` says what was installed whole, and on which
+Python. Else this very Python is, if it has every package. Else install.py makes `.venv` ready.
 """
 
 import os
 import re
-import subprocess
 import sys
-import tomllib
 import zlib
 from collections.abc import Iterable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-EXTRAS = {"test": ("test", "train"), "bench": ("train",), "duel": ("train",), "train": ("train",)}  # of each job
-WISHED = ("train",)  # extras that a job can go on without
+PROJECT = ROOT / "pyproject.toml"
+ARCADE = "arcade"  # the group of packages that every job needs; the others are the extras of pyproject.toml
+NEEDED = {"test": {"test"}}
+WISHED = {"test": {"train"}, "bench": {"train"}, "duel": {"train"}, "train": {"train"}}  # the job goes on without
 WINDOWS = sys.platform == "win32"
-HANDED_OVER = "pigaming"  # python -X pigaming: all has been looked at
+HANDED_OVER = "pigaming"  # python -X pigaming: main.py need not ask again
 
 
 class Trouble(Exception):
@@ -26,10 +26,9 @@ class Trouble(Exception):
 
 def start(args: list[str]) -> int:
     """Do the job of these arguments; its exit code, 2 where it cannot start, 130 where the installing was stopped."""
-    if HANDED_OVER in sys._xoptions:
-        return arcade(args)
+    job = "" if not args or {"-h", "--help"} & set(args) else args[0]
     try:
-        place = environment(*requirements(args))
+        place = environment({ARCADE} | NEEDED.get(job, set()), WISHED.get(job, set()))
         return arcade(args) if place is None else hand_over(place, args)
     except Trouble as trouble:
         say(str(trouble))
@@ -59,6 +58,8 @@ def hand_over(place: Path, args: list[str]) -> int:
     try:
         if not WINDOWS:
             os.execv(command[0], command)
+        import subprocess
+
         process = subprocess.Popen(command)
     except OSError as error:
         raise Trouble(f"{command[0]} cannot be run ({error.strerror}).") from error
@@ -69,34 +70,34 @@ def hand_over(place: Path, args: list[str]) -> int:
             continue
 
 
-def requirements(args: list[str]) -> tuple[list[str], list[str]]:
-    """What the job cannot do without, and what it only wishes for, in the words of pyproject.toml."""
-    try:
-        project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-        needed, extras = list(project["dependencies"]), project["optional-dependencies"]
-    except (OSError, ValueError, KeyError) as error:
-        raise Trouble(f"{ROOT / 'pyproject.toml'} cannot be read ({error}): get the whole folder again.") from error
-    wished: list[str] = []
-    asks_how = "-h" in args or "--help" in args
-    for extra in () if asks_how else EXTRAS.get(args[0] if args else "", ()):
-        (wished if extra in WISHED else needed).extend(extras[extra])
-    return needed, wished
-
-
-def environment(needed: list[str], wished: list[str]) -> Path | None:
-    """The environment for the job, made ready if it is not; None: this very Python. Raises Trouble."""
-    everything = {*needed, *wished}
+def environment(needed: set[str], wished: set[str]) -> Path | None:
+    """The environment that has these groups, made ready if none has; None: this very Python. Raises Trouble."""
+    groups = needed | wished
+    place = next((place for place in places() if groups <= ready(place)), None)
+    if place and sys.prefix == sys.base_prefix:
+        return place
     own = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
-    if not both_pygames(own) and not any(lacks(own, one) for one in everything):
+    if not both_pygames(own) and not any(lacks(own, one) for one in requirements(groups)):
         return None
-    for place in places():
-        if everything <= ready(place):
-            return place
+    if place:
+        return place
     if both_pygames(own):
         say(f"{sys.prefix} holds both pygame and pygame-ce, which overwrite each other: it is not used.")
     from pigaming_app.install import prepared
 
     return prepared(needed, wished)
+
+
+def requirements(groups: Iterable[str]) -> list[str]:
+    """What the groups are made of, in the words of pyproject.toml. Raises Trouble."""
+    import tomllib
+
+    try:
+        project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
+        listed = {**project["optional-dependencies"], ARCADE: project["dependencies"]}
+        return [one for group in sorted(groups) for one in listed[group]]
+    except (OSError, ValueError, KeyError) as error:
+        raise Trouble(f"{PROJECT} cannot be read ({error}): get the whole folder again.") from error
 
 
 def packages(folders: Iterable[Path]) -> dict[str, str]:
@@ -158,19 +159,19 @@ def site_packages(place: Path) -> Path:
 
 
 def ready(place: Path) -> set[str]:
-    """The requirements that were installed whole, if the Python below them is still the same; else none."""
+    """The groups that were installed whole, if pyproject.toml and the Python below are still the same; else none."""
     try:
-        python, *installed = (place / "ready").read_text(encoding="utf-8").splitlines()
-        return set(installed) if python == standing_on(place) else set()
+        standing, *groups = (place / "ready").read_text(encoding="utf-8").splitlines()
+        return set(groups) if standing == standing_on(place) else set()
     except (OSError, ValueError):
         return set()
 
 
 def standing_on(place: Path) -> str:
-    """Which Python an environment stands on; another text once that is upgraded. Raises OSError if it is gone."""
+    """What an environment stands on: it changes with pyproject.toml and its Python. OSError if one of them is gone."""
     python = python_of(place).resolve()
     if WINDOWS:  # where that is only a launcher
         lines = (place / "pyvenv.cfg").read_text(encoding="utf-8").splitlines()
         python = Path(next(line.partition("=")[2].strip() for line in lines if line.startswith("home")), "python.exe")
     about = python.stat()
-    return f"{python} {about.st_size} {int(about.st_mtime)}"
+    return f"{zlib.crc32(PROJECT.read_bytes()):08x} {python} {about.st_size} {int(about.st_mtime)}"
