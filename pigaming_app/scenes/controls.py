@@ -93,6 +93,7 @@ class Controls:
         elif event.type == pygame.JOYDEVICEREMOVED:
             if self._pads.forget(event.instance_id):
                 self._held.drop(Device("pad", event.instance_id))
+                self._taps.pop(Device("pad", event.instance_id), None)
                 yield Press(Act.LOST, Device("pad", event.instance_id))
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._release_keys()
@@ -119,5 +120,6 @@ class Controls:
 
     def _release_keys(self) -> None:
         self._keyboard.release()
+        self._taps.clear()
         for number in range(len(keyboard.CLUSTERS)):
             self._held.drop(Device("keys", number))

@@ -10,6 +10,7 @@ DIRECTIONS = (Act.UP, Act.DOWN, Act.LEFT, Act.RIGHT)
 FIRST_REPEAT = 0.4  # seconds until a held direction presses again
 NEXT_REPEAT = 0.12  # seconds between the presses after that
 DEAD_ZONE = 0.25  # of the way of a stick: no thumb rests more exactly than that
+FULL = 0.95  # of the way, and more, is all the way: a worn stick reaches no further
 ON, OFF = 0.6, 0.4  # a stick or trigger counts as pressed beyond ON until it falls below OFF
 
 
@@ -91,5 +92,5 @@ def outside_dead_zone(x: float, y: float) -> tuple[float, float]:
     reach = hypot(x, y)
     if reach <= DEAD_ZONE:
         return (0.0, 0.0)
-    along = min(1.0, (reach - DEAD_ZONE) / (1.0 - DEAD_ZONE)) / max(abs(x), abs(y))
+    along = min(1.0, (reach - DEAD_ZONE) / (FULL - DEAD_ZONE)) / max(abs(x), abs(y))
     return (x * along, y * along)

@@ -133,7 +133,7 @@ class PlainPad:
         )
 
     def _held(self, button: int) -> bool:
-        return button < self._pad.get_numbuttons() and self._pad.get_button(button)
+        return button < self._pad.get_numbuttons() and bool(self._pad.get_button(button))
 
     def _hat_moved(self, right: int, up: int) -> Iterator[Change]:
         now = {Act.UP: up > 0, Act.DOWN: up < 0, Act.LEFT: right < 0, Act.RIGHT: right > 0}

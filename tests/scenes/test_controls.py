@@ -1,0 +1,336 @@
+"""Pads, keys and mouse, told with virtual pads: real events of the real library."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+from math import sqrt
+
+import pygame
+import pytest
+
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.held import FIRST_REPEAT, NEXT_REPEAT, outside_dead_zone
+from pigaming_app.scenes.press import Act, Device, Drive, Press
+from tests.scenes.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
+
+WASD, ARROWS, IJKL, KEYPAD = (Device("keys", number) for number in range(4))
+MOUSE = Device("mouse")
+STILL = Drive()
+
+
+@pytest.fixture
+def controls() -> Iterator[Controls]:
+    pygame.display.init()
+    pygame.display.set_mode((1920, 1080))
+    pygame.event.clear()
+    yield Controls()
+    pygame.event.clear()
+
+
+@pytest.fixture
+def pads() -> Iterator[ExitStack]:
+    with ExitStack() as stack:
+        yield stack
+
+
+def heard(controls: Controls) -> list[tuple[Act, Device]]:
+    """What the controls make of everything that SDL has to say now."""
+    return [(press.act, press.device) for press in controls.presses(pygame.event.get())]
+
+
+def plug(controls: Controls, pads: ExitStack, *, plain: bool = False) -> tuple[VirtualPad, Device]:
+    pad = pads.enter_context(VirtualPad(plain=plain))
+    device = Device("pad", pad.number)
+    assert heard(controls) == [(Act.FOUND, device)]
+    return pad, device
+
+
+def key(code: int, down: bool = True, mod: int = 0) -> pygame.Event:
+    """A key, with a keycode that no layout has: only its place counts."""
+    return pygame.Event(pygame.KEYDOWN if down else pygame.KEYUP, key=0, scancode=code, mod=mod, unicode="")
+
+
+def test_four_pads_of_one_make_are_four_devices(controls: Controls, pads: ExitStack) -> None:
+    four = [plug(controls, pads) for _ in range(4)]
+    assert controls.pads() == [device for _, device in four]
+    for pad, device in four:
+        pad.press("a")
+        assert heard(controls) == [(Act.FIRE, device)]
+        assert [controls.drive(other).fire for _, other in four] == [other == device for _, other in four]
+        pad.release("a")
+        assert heard(controls) == []
+
+
+def test_a_fifth_pad_is_just_another_device(controls: Controls, pads: ExitStack) -> None:
+    devices = [plug(controls, pads)[1] for _ in range(5)]
+    assert len(set(devices)) == 5
+    assert controls.pads() == devices
+
+
+def test_a_pad_that_was_there_at_the_start_is_known_and_not_found_again(pads: ExitStack) -> None:
+    pygame.display.init()
+    pad = pads.enter_context(VirtualPad())
+    controls = Controls()
+    assert controls.pads() == [Device("pad", pad.number)]
+    assert controls.last == Device("pad", pad.number)
+    assert heard(controls) == []
+
+
+@pytest.mark.parametrize(
+    ("button", "act"),
+    [("a", Act.FIRE), ("b", Act.BACK), ("x", Act.EXTRA), ("y", Act.ALT), ("start", Act.START), ("up", Act.UP)],
+)
+def test_every_press_is_heard_once(controls: Controls, pads: ExitStack, button: str, act: Act) -> None:
+    pad, device = plug(controls, pads)
+    pad.press(button)
+    assert heard(controls) == [(act, device)]
+    pad.release(button)
+    assert heard(controls) == []
+
+
+def test_the_stick_drives_ahead_and_clockwise(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.stick(0.0, -1.0)
+    heard(controls)
+    assert controls.drive(device) == Drive(linear=1.0)
+    pad.stick(1.0, 0.0)
+    heard(controls)
+    assert controls.drive(device) == Drive(angular=1.0)
+    pad.stick(0.0, 1.0)
+    heard(controls)
+    assert controls.drive(device) == Drive(linear=-1.0)
+
+
+def test_a_thumb_that_rests_on_the_stick_drives_nowhere(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.stick(0.17, -0.17)  # 0.24 from the middle
+    assert heard(controls) == []
+    assert controls.drive(device) == STILL
+
+
+def test_beyond_the_dead_zone_a_stick_starts_at_zero() -> None:
+    assert outside_dead_zone(0.25, 0.0) == (0.0, 0.0)
+    assert outside_dead_zone(0.26, 0.0)[0] == pytest.approx(0.01 / 0.7)
+    assert outside_dead_zone(0.0, -0.6) == pytest.approx((0.0, -0.5))
+    assert outside_dead_zone(sqrt(0.5), sqrt(0.5)) == pytest.approx((1.0, 1.0))
+    assert outside_dead_zone(-1.0, 1.0) == pytest.approx((-1.0, 1.0))
+    assert outside_dead_zone(0.95, 0.0) == (1.0, 0.0)
+    assert max(outside_dead_zone(0.18, 0.18)) < 0.01  # a circle, not a square
+
+
+def test_the_d_pad_drives_too(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.press("up", "left")
+    heard(controls)
+    assert controls.drive(device) == Drive(linear=1.0, angular=-1.0)
+
+
+def test_triggers_and_shoulder_fire_and_boost(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.triggers(left=0.0, right=1.0)
+    assert heard(controls) == [(Act.FIRE, device)]
+    assert controls.drive(device) == Drive(fire=True)
+    pad.triggers(left=1.0, right=0.5)  # a trembling finger, still down
+    assert heard(controls) == []
+    pad.triggers(left=1.0, right=0.0)
+    assert heard(controls) == []
+    assert controls.drive(device) == Drive(turbo=True)
+    pad.triggers(left=0.0, right=0.0)
+    pad.press("rightshoulder")
+    heard(controls)
+    assert controls.drive(device) == Drive(turbo=True)
+
+
+def test_a_tap_between_two_ticks_still_fires_once(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.tap("a")
+    assert heard(controls) == [(Act.FIRE, device)]
+    assert controls.drive(device) == Drive(fire=True)
+    assert controls.drive(device) == STILL
+
+
+def test_a_cable_pulled_at_full_speed_stops_the_robot(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.stick(0.0, -1.0)
+    pad.press("a")
+    heard(controls)
+    assert controls.drive(device) == Drive(linear=1.0, fire=True)
+    pad.unplug()
+    assert controls.drive(device) == STILL  # before the event was read
+    assert heard(controls) == [(Act.LOST, device)]
+    assert controls.drive(device) == STILL
+    assert not controls.connected(device)
+    assert controls.repeats(10.0) == []
+    assert controls.pads() == []
+
+
+def test_a_pad_that_comes_back_is_a_new_device(controls: Controls, pads: ExitStack) -> None:
+    pad, before = plug(controls, pads)
+    pad.unplug()
+    assert heard(controls) == [(Act.LOST, before)]
+    again, after = plug(controls, pads)
+    assert after != before
+    again.press("a")
+    assert heard(controls) == [(Act.FIRE, after)]
+
+
+def test_a_pad_pulled_and_plugged_within_one_frame(controls: Controls, pads: ExitStack) -> None:
+    pad, before = plug(controls, pads)
+    pad.unplug()
+    again = pads.enter_context(VirtualPad())
+    assert set(heard(controls)) == {(Act.LOST, before), (Act.FOUND, Device("pad", again.number))}
+    assert controls.pads() == [Device("pad", again.number)]
+
+
+def test_duplicate_and_stale_device_events_change_nothing(controls: Controls, pads: ExitStack) -> None:
+    _, device = plug(controls, pads)
+    for event in (pygame.JOYDEVICEADDED, pygame.CONTROLLERDEVICEADDED):
+        for index in (0, 7):
+            pygame.event.post(pygame.Event(event, device_index=index, guid="0"))
+    for event in (pygame.JOYDEVICEREMOVED, pygame.CONTROLLERDEVICEREMOVED):
+        pygame.event.post(pygame.Event(event, instance_id=999))
+    pygame.event.post(pygame.Event(pygame.CONTROLLERBUTTONDOWN, instance_id=999, button=0))
+    assert heard(controls) == []
+    assert controls.pads() == [device]
+
+
+def test_a_held_direction_presses_again_until_it_is_let_go(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.stick(0.0, 1.0)
+    assert heard(controls) == [(Act.DOWN, device)]
+    again = [Press(Act.DOWN, device, repeat=True)]
+    assert controls.repeats(FIRST_REPEAT - 0.01) == []
+    assert controls.repeats(0.02) == again
+    assert controls.repeats(NEXT_REPEAT - 0.01) == []
+    assert controls.repeats(0.02) == again
+    assert controls.repeats(5.0) == again  # one at most, however long a frame took
+    pad.stick(0.0, 0.0)
+    assert heard(controls) == []
+    assert controls.repeats(5.0) == []
+
+
+def test_a_trembling_stick_presses_once(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    made = []
+    for reach in (0.59, 0.61, 0.5, 0.61, 0.41, 0.7):
+        pad.stick(reach, 0.0)
+        made += heard(controls)
+    assert made == [(Act.RIGHT, device)]
+    pad.stick(0.39, 0.0)
+    heard(controls)
+    pad.stick(-1.0, 0.0)
+    assert heard(controls) == [(Act.LEFT, device)]
+
+
+def test_a_pad_without_a_mapping_plays_as_a_plain_joystick(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads, plain=True)
+    assert controls.name(device) == "Joystick"
+    pad.press(0)
+    assert heard(controls) == [(Act.FIRE, device)]
+    pad.stick(0.0, -1.0)
+    assert heard(controls) == [(Act.UP, device)]
+    assert controls.drive(device) == Drive(linear=1.0, fire=True)
+    pad.release(0)
+    pad.stick(0.0, 0.0)
+    pad.hat(1, 0)
+    pad.press(9, 5)
+    assert sorted(act.name for act, _ in heard(controls)) == ["RIGHT", "START"]
+    assert controls.drive(device) == Drive(angular=1.0, turbo=True)
+    pad.hat(0, 0)
+    heard(controls)
+    assert controls.repeats(1.0) == []
+    pad.unplug()
+    assert heard(controls) == [(Act.LOST, device)]
+    assert controls.drive(device) == STILL
+
+
+def test_four_drive_on_one_keyboard_at_once(controls: Controls) -> None:
+    pressed = (
+        pygame.KSCAN_W, pygame.KSCAN_D, pygame.KSCAN_SPACE,
+        pygame.KSCAN_DOWN, pygame.KSCAN_RCTRL,
+        pygame.KSCAN_J, pygame.KSCAN_O,
+        pygame.KSCAN_KP8, pygame.KSCAN_KP4, pygame.KSCAN_KP0, pygame.KSCAN_KP_PLUS,
+    )  # fmt: skip
+    made = controls.presses(key(code) for code in pressed)
+    assert [(press.act, press.device) for press in made] == [
+        (Act.UP, WASD), (Act.RIGHT, WASD), (Act.FIRE, WASD),
+        (Act.DOWN, ARROWS), (Act.FIRE, ARROWS),
+        (Act.LEFT, IJKL), (Act.LEAVE, IJKL),
+        (Act.UP, KEYPAD), (Act.LEFT, KEYPAD), (Act.FIRE, KEYPAD), (Act.LEAVE, KEYPAD),
+    ]  # fmt: skip
+    assert controls.drive(WASD) == Drive(1.0, 1.0, fire=True)
+    assert controls.drive(ARROWS) == Drive(-1.0, 0.0, fire=True)
+    assert controls.drive(IJKL) == Drive(0.0, -1.0, turbo=True)
+    assert controls.drive(KEYPAD) == Drive(1.0, -1.0, fire=True, turbo=True)
+    controls.presses(key(code, down=False) for code in pressed)
+    assert all(controls.drive(device) == STILL for device in (WASD, ARROWS, IJKL, KEYPAD))
+
+
+def test_both_ways_at_once_is_no_way(controls: Controls) -> None:
+    controls.presses([key(pygame.KSCAN_A), key(pygame.KSCAN_D), key(pygame.KSCAN_W)])
+    assert controls.drive(WASD) == Drive(linear=1.0)
+
+
+def test_no_key_sticks_when_the_window_loses_the_focus(controls: Controls) -> None:
+    controls.presses([key(pygame.KSCAN_W), key(pygame.KSCAN_SPACE), key(pygame.KSCAN_UP)])
+    controls.presses([pygame.Event(pygame.WINDOWFOCUSLOST)])
+    assert controls.drive(WASD) == controls.drive(ARROWS) == STILL
+    assert controls.repeats(5.0) == []
+    assert [press.act for press in controls.presses([key(pygame.KSCAN_W)])] == [Act.UP]
+
+
+def test_keys_for_the_window_manager_press_nothing(controls: Controls) -> None:
+    assert controls.presses([key(pygame.KSCAN_TAB, mod=pygame.KMOD_LALT)]) == []
+    assert controls.presses([key(pygame.KSCAN_RETURN, mod=pygame.KMOD_LGUI)]) == []
+
+
+def test_the_keys_of_all_count_for_the_cluster_used_last(controls: Controls) -> None:
+    made = controls.presses([key(pygame.KSCAN_RETURN), key(pygame.KSCAN_UP), key(pygame.KSCAN_ESCAPE)])
+    assert [(press.act, press.device) for press in made] == [
+        (Act.START, WASD),
+        (Act.UP, ARROWS),
+        (Act.BACK, ARROWS),
+    ]
+
+
+def test_the_mouse_points_and_clicks_on_the_canvas() -> None:
+    pygame.display.init()
+    controls = Controls(at=lambda mouse: (mouse[0] * 2.0, mouse[1] * 2.0))
+    motion = pygame.Event(pygame.MOUSEMOTION, pos=(10, 20), rel=(1, 1), buttons=(0, 0, 0))
+    buttons = [pygame.Event(pygame.MOUSEBUTTONDOWN, pos=(30, 40), button=button) for button in (1, 2, 4)]
+    assert controls.presses([motion, *buttons]) == [
+        Press(Act.POINT, MOUSE, at=(20.0, 40.0)),
+        Press(Act.CLICK, MOUSE, at=(60.0, 80.0)),
+    ]
+    assert controls.last == WASD
+    assert controls.drive(MOUSE) == STILL
+
+
+@pytest.mark.parametrize(
+    ("name", "usb", "kind", "fire"),
+    [
+        ("PS4 Controller", PLAYSTATION, "PlayStation", "Cross"),
+        ("Nintendo Switch Pro Controller", NINTENDO, "Nintendo", "A"),
+        ("Nobody's Gamepad", (0x1234, 0x5678), "Xbox", "A"),
+    ],
+)
+def test_hints_name_the_button_as_it_is_printed(
+    controls: Controls, pads: ExitStack, name: str, usb: tuple[int, int], kind: str, fire: str
+) -> None:
+    pads.enter_context(VirtualPad(name, usb))
+    [(_, device)] = heard(controls)
+    assert controls.name(device) == kind
+    assert controls.label(device, Act.FIRE) == fire
+    assert controls.label(None, Act.FIRE) == "SPACE"  # nobody has pressed anything on the pad yet
+
+
+def test_hints_follow_the_device_used_last(controls: Controls, pads: ExitStack) -> None:
+    pad, device = plug(controls, pads)
+    pad.press("b")
+    heard(controls)
+    assert controls.last == device
+    assert controls.label(None, Act.BACK) == "B"
+    controls.presses([key(pygame.KSCAN_KP5)])
+    assert controls.label(None, Act.BACK) == "ESC"
+    assert controls.label(None, Act.FIRE) == "0"
+    assert controls.moves(controls.last) == "8456"
+    assert controls.label(MOUSE, Act.FIRE) == ""
