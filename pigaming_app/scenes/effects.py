@@ -1,4 +1,4 @@
-"""Light that lives for a moment: shots, flashes, flames, sparks, shards and shocks. All of it is added to the picture."""
+"""Light that lives for a moment: shots, flashes, flames, sparks, shards, shocks. All of it is added to the picture."""
 
 import math
 import random
@@ -103,10 +103,10 @@ def sparks(color: Color, size: int, turn: int) -> tuple[Sprite, ...]:
 
 
 def _spark(color: Color, size: int) -> pygame.Surface:
-    ink = master(36)
+    ink = master(44)
     for k in (1.0, 0.6, 0.3):
-        shade = dim(mix(color, WHITE, 0.5 - 0.5 * k), 1.2 - k * 0.6)
-        ink.line([(-size * 6 * k * 0.6, 0), (size, 0)], shade, size * (1.1 - 0.5 * k))
+        shade = dim(mix(color, WHITE, 0.5 - 0.5 * k), 1.2 - k)
+        ink.line([(-size * 6 * k, 0), (size, 0)], shade, size * (1.1 - 0.5 * k))
     return ink.lit(1.2)
 
 

@@ -1,0 +1,128 @@
+"""The busiest second of a match, made up: every number moves. For measuring frames and for looking at them.
+
+Four robots, thirty bullets, two hundred particles, powers, pick-ups, mines, walls that break, and a HUD that changes.
+"""
+
+import math
+import random
+from dataclasses import dataclass
+from time import perf_counter
+
+import pygame
+
+from pigaming_app.games.pitanks.state import OWN_BULLETS, PICKUPS, PiTanks
+from pigaming_app.scenes.views.pitanks import PiTanksView
+from pigaming_app.sim.arena import Arena, build, load
+from pigaming_app.sim.world import DT, HZ
+
+BULLETS = 30
+PARTICLES = 200
+
+
+@dataclass
+class Full:
+    """A taste that wants everything."""
+
+    flashes: str = "full"
+    shake: bool = True
+
+
+class Busy:
+    """A match without an engine. `teams`: the team of each seat, -1 where nobody sits."""
+
+    def __init__(self, teams: tuple[int, ...] = (0, 1, 2, 3), arena: Arena | None = None) -> None:
+        self.arena = arena or load("pitanks", "classic")
+        self.random = random.Random(4)
+        self.state = state = PiTanks()
+        build(state, self.arena)
+        rules = state.rules
+        rules.ticks, rules.turbo, rules.pickups = 120 * HZ, 1, 1
+        rules.power_life, rules.pickup_life, rules.mine_arming = 8 * HZ, 12 * HZ, HZ
+        for seat, robot in enumerate(state.robots):
+            robot.present, robot.team = int(teams[seat] >= 0), teams[seat]
+            robot.x, robot.y = 400 + 800 * (seat % 2), 250 + 400 * (seat // 2)
+            robot.turbo = 0.3 + 0.2 * seat
+        self.seats = [i for i in range(4) if teams[i] >= 0]
+
+    def tick(self) -> None:
+        """Everything moves by 1/50 s."""
+        state, t = self.state, self.state.tick * DT
+        state.tick += 1
+        for seat in self.seats:
+            robot, tank = state.robots[seat], state.tanks[seat]
+            robot.heading = (1.3 * seat + (0.9, -0.7, 1.4, -1.1)[seat] * t) % math.tau
+            robot.linear = (-1) ** (state.tick // 150) * 240.0
+            robot.x = min(1550.0, max(50.0, robot.x + robot.linear * DT * math.cos(robot.heading)))
+            robot.y = min(850.0, max(50.0, robot.y + robot.linear * DT * math.sin(robot.heading)))
+            robot.turbo, robot.boosting = 0.5 + 0.5 * math.sin(t + seat), int(math.sin(t + seat) > 0.3)
+            tank.protected = max(0, tank.protected - 1)
+            tank.powers = [max(0, left - 1) for left in tank.powers]
+        self._shoot()
+        if state.tick % 15 == 0:
+            self._hit()
+        self._lie_about()
+
+    def _shoot(self) -> None:
+        state = self.state
+        alive = 0
+        for i, bullet in enumerate(state.bullets):
+            seat = i // OWN_BULLETS
+            robot = state.robots[seat]
+            if bullet.alive:
+                bullet.x, bullet.y = bullet.x + bullet.vx * DT, bullet.y + bullet.vy * DT
+                bullet.alive = int(6 < bullet.x < 1594 and 6 < bullet.y < 894)
+                alive += bullet.alive
+            elif robot.present and alive < BULLETS and self.random.random() < 0.2:
+                a = self.random.uniform(0, math.tau)
+                bullet.alive, bullet.x, bullet.y = 1, robot.x, robot.y
+                bullet.vx, bullet.vy = 560 * math.cos(a), 560 * math.sin(a)
+                state.tanks[seat].shots += 1
+
+    def _hit(self) -> None:
+        state = self.state
+        maker, victim = self.random.sample(self.seats, 2)
+        state.tanks[maker].hits += 1
+        state.robots[maker].score += 1
+        state.tanks[victim].taken += 1
+        state.robots[victim].score -= 1
+        state.tanks[victim].protected = 38
+        state.tanks[maker].powers[self.random.randrange(6)] = 8 * HZ
+        standing = [wall for wall in state.walls[: state.wall_count] if wall.health]
+        if standing:
+            self.random.choice(standing).health -= 1
+
+    def _lie_about(self) -> None:
+        state = self.state
+        for i in range(PICKUPS):
+            pickup = state.pickups[i]
+            pickup.alive -= 1
+            if pickup.alive <= 0:
+                pickup.alive, pickup.kind = 12 * HZ - 150 * i, self.random.randrange(6)
+                pickup.x, pickup.y = self.random.uniform(100, 1500), self.random.uniform(100, 800)
+        for i in range(0, len(state.mines), 3):
+            mine = state.mines[i]
+            mine.alive, mine.age = 30 * HZ, state.tick
+            mine.x, mine.y = 200.0 + 160 * i, 820.0 - 90 * i
+
+
+def busy_frames(screen: pygame.Surface, frames: int) -> list[float]:
+    """Times of so many frames of a busy match at 60 a second, warm, in milliseconds."""
+    scene = Busy()
+    view = PiTanksView(scene.arena, scene.state, ["human", "human", "easy", "hard"], Full())
+    while not view.warm(1000.0):
+        pass
+    times, owed = [], 0.0
+    for frame in range(frames + 60):
+        owed += 1 / 60
+        while owed >= DT:
+            scene.tick()
+            view.watch(scene.state)
+            owed -= DT
+        missing = PARTICLES - len(view.moments.particles)
+        if missing > 0:
+            view.moments.burst(960, 540, (60, 160, 255), missing, 300)
+        began = perf_counter()
+        view.draw(screen, scene.state, owed / DT, 1 / 60)
+        if frame >= 60:
+            times.append(1000.0 * (perf_counter() - began))
+    return times

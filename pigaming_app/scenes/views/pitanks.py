@@ -1,0 +1,178 @@
+"""A match of PiTanks on the screen, between any two of its ticks: one opaque ground, then four batches of sprites.
+
+It looks at the match and never touches it; what happened it finds by comparing, and it has its own random generator.
+"""
+
+import math
+from collections.abc import Callable
+from time import perf_counter
+from typing import Protocol
+
+import pygame
+
+from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
+from pigaming_app.scenes import effects, tank, things
+from pigaming_app.scenes.ink import ADD, FOCUS, PLAYERS, PRE, THIN
+from pigaming_app.scenes.sprites import HEADINGS, Batch, put, step
+from pigaming_app.scenes.views.ground import LEFT, TOP, Ground
+from pigaming_app.scenes.views.happenings import Watcher
+from pigaming_app.scenes.views.hud import Hud
+from pigaming_app.scenes.views.moments import Moments
+from pigaming_app.scenes.views.reactions import Heard, react
+from pigaming_app.scenes.views.treads import Treads
+from pigaming_app.scenes.views.warming import jobs
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import DT, HZ
+
+JUMP = 100.0  # px in a tick: a robot that was placed, not driven
+FLASH = 0.06  # seconds
+ENDING = 2 * HZ  # ticks before its end at which a shield begins to blink
+MUZZLE = 70.0  # px from a robot to the middle of its muzzle flash
+Pose = tuple[float, float, float]
+
+
+class Taste(Protocol):
+    """What of the settings a view wants to know."""
+
+    flashes: str  # off, soft (no shake, no light on the ground), full
+    shake: bool
+
+
+class PiTanksView:
+    """The view of one match. `players`: for each seat "human" or the name of the AI that drives; may be changed."""
+
+    def __init__(
+        self, arena: Arena, state: PiTanks, players: list[str], taste: Taste, words: Callable[..., str] | None = None
+    ) -> None:
+        self.players, self.taste = players, taste
+        self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        starts = tuple((i, arena.starts[i].x, arena.starts[i].y) for i in self.seats)
+        self.ground = Ground(state, starts)
+        self.hud = Hud(self.ground, state, players)
+        self.watcher = Watcher(state)
+        self.moments = Moments()
+        self.treads = [Treads(i) for i in range(len(state.robots))]
+        self.flashed = [-1.0] * len(state.robots)
+        self.before = self.now = _poses(state)
+        self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
+        self.flying = [0] * len(state.bullets)
+        self.jobs = jobs(state, self.seats)
+        self.marked = [slot.seat for one in self.hud.sums for slot in one.mates]
+        self.first_team = self.hud.sums[0].team if self.hud.sums else 0
+
+    def watch(self, state: PiTanks) -> list[Heard]:
+        """See what the last tick did; answers what is to be heard: (sound, player or None, x in arena px)."""
+        self.before, self.now = self.now, _poses(state)
+        for i, (new, old) in enumerate(zip(self.now, self.before, strict=True)):
+            if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
+                self.before = [*self.before[:i], new, *self.before[i + 1 :]]
+        for i, bullet in enumerate(state.bullets):
+            was = self.watcher.shots[i]
+            fresh = not was.alive
+            self.shots[i] = (bullet.x - bullet.vx * DT, bullet.y - bullet.vy * DT) if fresh else (was.x, was.y)
+            self.flying[i] = bullet.alive
+        happenings = self.watcher.look(state)
+        for one in happenings:
+            if one.kind == "fire" and one.player is not None:
+                self.flashed[one.player] = self.moments.clock
+        return react(happenings, state, self.moments, self.taste)
+
+    def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
+        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
+        self.moments.advance(seconds)
+        self.ground.show_walls(state)
+        self.hud.show(state)
+        poses = [_between(old, new, blend) for old, new in zip(self.before, self.now, strict=True)]
+        under: Batch = []
+        over: Batch = []
+        light: Batch = []
+        top: Batch = []
+        self._things(over, light, state)
+        for seat in self.seats:
+            self._robot(under, over, light, state, seat, poses[seat])
+        self._bullets(light, state, blend)
+        self.moments.draw_light(light)
+        self.moments.draw_scores(top)
+        self._paint(screen, under, over, light, top)
+
+    def warm(self, milliseconds: float) -> bool:
+        """Make sprites ahead for so long; true when all are there."""
+        end = perf_counter() + milliseconds / 1000.0
+        for job in self.jobs:
+            job()
+            if perf_counter() >= end:
+                return False
+        return True
+
+    def _paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
+        shaken = self.moments.offset
+        if shaken == (0, 0):
+            screen.blit(self.ground.surface, (0, 0))
+        else:
+            screen.fill((0, 0, 0))
+            screen.blit(self.ground.surface, shaken)
+        screen.fblits(under, ADD)
+        screen.fblits(over, PRE)
+        screen.fblits(light, ADD)
+        screen.fblits(top, PRE)
+
+    def _things(self, over: Batch, light: Batch, state: PiTanks) -> None:
+        rules = state.rules
+        for pickup in state.pickups:
+            if pickup.alive:
+                x, y = LEFT + pickup.x, TOP + pickup.y
+                put(over, things.pickup(POWERS[pickup.kind]), x, y)
+                put(light, effects.timer_ring(FOCUS, -(-48 * pickup.alive // max(1, rules.pickup_life)), 56), x, y)
+        for i, mine in enumerate(state.mines):
+            if mine.alive:
+                armed = mine.age >= rules.mine_arming and mine.age // 12 % 2 == 0
+                put(over, things.mine(i // OWN_MINES, armed), LEFT + mine.x, TOP + mine.y)
+
+    def _robot(self, under: Batch, over: Batch, light: Batch, state: PiTanks, seat: int, pose: Pose) -> None:
+        x, y, heading = pose
+        now, driven, held = self.moments.clock, state.robots[seat], state.tanks[seat]
+        coarse, fine = step(heading, effects.TURNS), step(heading, HEADINGS)
+        marks = self.treads[seat]
+        marks.roll(x, y, heading, now)
+        marks.draw(under, now)
+        put(under, effects.beam(seat, fine), x, y)
+        if driven.boosting or (held.powers[SPEED] and abs(driven.linear) > 40.0):
+            put(under, effects.flame(seat, coarse, int(now * 30) % 2), x, y)
+        if seat in self.marked:
+            put(under, tank.team_mark(int(driven.team != self.first_team), coarse), x, y)
+        here = not held.protected or held.protected // 4 % 2 == 0 or self.taste.flashes == "off"
+        put(over, tank.tank(seat, fine) if here else tank.ghost(seat), x, y)
+        self._powers(light, state, seat, x, y)
+        if now - self.flashed[seat] < FLASH and self.taste.flashes != "off":
+            flash = effects.flash(seat, coarse)
+            put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))
+
+    def _powers(self, light: Batch, state: PiTanks, seat: int, x: float, y: float) -> None:
+        """A ring for what ends first; the HUD says what it is. A shield is seen, and blinks before it ends."""
+        powers = state.tanks[seat].powers
+        ends = min((left for left in powers if left), default=0)
+        if ends:
+            put(light, effects.timer_ring(FOCUS, -(-48 * ends // max(1, state.rules.power_life)), 52, THIN), x, y)
+        left = powers[SHIELD]
+        if left > ENDING or left // 6 % 2:
+            put(light, effects.shield(seat, int(self.moments.clock * 24) % 24), x, y)
+        if powers[MINE]:
+            put(light, things.small_icon("mine", PLAYERS[seat], 12, 3), x, y + 62)
+
+    def _bullets(self, light: Batch, state: PiTanks, blend: float) -> None:
+        for i, flying in enumerate(self.flying):
+            if flying:
+                bullet, (x, y) = state.bullets[i], self.shots[i]
+                sprite = effects.bullet(i // OWN_BULLETS, step(math.atan2(bullet.vy, bullet.vx), HEADINGS))
+                put(light, sprite, LEFT + x + (bullet.x - x) * blend, TOP + y + (bullet.y - y) * blend)
+
+
+def _poses(state: PiTanks) -> list[Pose]:
+    """Where robots are on the canvas."""
+    return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]
+
+
+def _between(old: Pose, new: Pose, blend: float) -> Pose:
+    """A pose on the way; the heading takes the short way round."""
+    turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
+    return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
