@@ -12,7 +12,7 @@ from pigaming_app.scenes.sprites import HEADINGS, Sprite, faded, master, painted
 TURNS = 48  # headings of what may be turned coarsely
 SPARK_TURNS = 24
 SPARK_LEVELS = 6
-SPARK_SIZES = (3, 4, 6)  # px
+SPARK_SIZES = (2, 3, 5)  # px
 SHARDS = 4  # shapes of debris
 TREAD_LEVELS = 6
 WAVE_STEPS = 16

@@ -120,7 +120,7 @@ def busy_frames(screen: pygame.Surface, frames: int) -> list[float]:
             owed -= DT
         missing = PARTICLES - len(view.moments.particles)
         if missing > 0:
-            view.moments.burst(960, 540, (60, 160, 255), missing, 300)
+            view.moments.burst(960, 540, (60, 160, 255), missing, 40, 300)
         began = perf_counter()
         view.draw(screen, scene.state, owed / DT, 1 / 60)
         if frame >= 60:

@@ -4,8 +4,9 @@ Free-for-all: a panel for each seat, two left and two right of the clock. Two te
 the clock and linked to their panels.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import pygame
@@ -111,6 +112,18 @@ class Hud:
             x = 960 - number_width(text, TITLE) / 2
             self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 84, color))
 
+    def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
+        """The pieces of the panels, each made by one small job."""
+        turbo = bool(state.rules.turbo)
+        for slot in self.slots:
+            for leads in {False, not self.sums}:
+                yield partial(frame, slot.seat, slot.w, leads, self._ai(slot.seat), turbo)
+            if turbo:
+                yield partial(turbo_bar, slot.seat, slot.w, True)
+                yield partial(turbo_bar, slot.seat, slot.w, False)
+        if self.sums:
+            yield partial(sum_frame, True)
+
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]
 
@@ -165,7 +178,7 @@ def panel_bits(
         at, below = (x + 16 - EDGE, Y + 72 - EDGE), 10 + 2 * EDGE
         bits.append((turbo_bar(slot.seat, slot.w, True), at, (0, 0, full, below)))
         bits.append((turbo_bar(slot.seat, slot.w, False), (at[0] + full, at[1]), (full, 0, slot.w, below)))
-    room = int((slot.w - 12 - 88 - number_width(text, size)) // 58)
+    room = int((slot.w - 116 - number_width(text, size)) // 58)
     for i, (left, power) in enumerate(powers[: max(0, room)]):
         cx = x + slot.w - 42 - 58 * i
         for image, dx, dy in (small_icon(POWERS[power], FOCUS, 15), timer_ring(FOCUS, left, 26, THIN)):

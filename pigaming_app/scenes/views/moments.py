@@ -21,10 +21,14 @@ from pigaming_app.scenes.effects import (
 from pigaming_app.scenes.ink import Color
 from pigaming_app.scenes.sprites import Batch, Sprite, put, step
 from pigaming_app.scenes.things import POPUP_LEVELS, popup
+from pigaming_app.scenes.views.ground import LEFT, TOP
+from pigaming_app.sim.world import WIDTH
 
 MOST = 320  # particles alive
 SHAKE = 0.28  # seconds
 RISE, RISING = 60.0, 0.8  # px, seconds
+Cone = tuple[float, float]  # middle and half width, rad
+ALL: Cone = (0.0, math.pi)
 
 
 class Particle(NamedTuple):
@@ -70,16 +74,15 @@ class Moments:
         self.scores: list[Score] = []
         self.shaken = -1.0
 
-    def burst(
-        self, x: float, y: float, color: Color, count: int, reach: float, angle: float = 0.0, spread: float = math.pi
-    ) -> None:
-        """Sparks from (x, y), up to `reach` px far, within `spread` rad of `angle`."""
+    def burst(self, x: float, y: float, color: Color, count: int, start: float, reach: float, cone: Cone = ALL) -> None:
+        """Sparks that fly from `start` px round (x, y) up to `reach` px further, within a cone."""
         for _ in range(min(count, MOST - len(self.particles))):
-            a = angle + self.random.uniform(-spread, spread)
-            far = reach * self.random.random() ** 0.6
+            a = cone[0] + self.random.uniform(-cone[1], cone[1])
+            c, s, far = math.cos(a), math.sin(a), reach * self.random.random() ** 0.6
+            near = start * self.random.uniform(1.0, 1.3)
             frames = sparks(color, self.random.choice(SPARK_SIZES), step(a, SPARK_TURNS))
             life = self.random.uniform(0.3, 0.75)
-            self.particles.append(Particle(self.clock, life, x, y, far * math.cos(a), far * math.sin(a), frames))
+            self.particles.append(Particle(self.clock, life, x + near * c, y + near * s, far * c, far * s, frames))
 
     def debris(self, ax: float, ay: float, bx: float, by: float, count: int) -> None:
         """Splinters from all along a line."""
@@ -99,7 +102,9 @@ class Moments:
         self.blooms.append(Bloom(self.clock, seconds, x, y, frames))
 
     def score(self, x: float, y: float, text: str, player: int) -> None:
-        """A number over a robot."""
+        """A number over a robot, inside the arena; it takes the place of one like it."""
+        x, y = min(max(x, LEFT + 60), LEFT + WIDTH - 60), max(y, TOP + 48 + RISE)
+        self.scores = [one for one in self.scores if (one.player, one.text[0]) != (player, text[0])]
         self.scores.append(Score(self.clock, x, y, text, player))
 
     def shake(self) -> None:

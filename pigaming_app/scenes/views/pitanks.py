@@ -5,6 +5,7 @@ It looks at the match and never touches it; what happened it finds by comparing,
 
 import math
 from collections.abc import Callable
+from itertools import chain
 from time import perf_counter
 from typing import Protocol
 
@@ -22,7 +23,7 @@ from pigaming_app.scenes.views.reactions import Heard, react
 from pigaming_app.scenes.views.treads import Treads
 from pigaming_app.scenes.views.warming import jobs
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 
 JUMP = 100.0  # px in a tick: a robot that was placed, not driven
 FLASH = 0.06  # seconds
@@ -56,7 +57,7 @@ class PiTanksView:
         self.before = self.now = _poses(state)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
-        self.jobs = jobs(state, self.seats)
+        self.jobs = chain(self.hud.jobs(state), jobs(state, self.seats))
         self.marked = [slot.seat for one in self.hud.sums for slot in one.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 
@@ -111,7 +112,9 @@ class PiTanksView:
         else:
             screen.fill((0, 0, 0))
             screen.blit(self.ground.surface, shaken)
+        screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
         screen.fblits(under, ADD)
+        screen.set_clip(None)
         screen.fblits(over, PRE)
         screen.fblits(light, ADD)
         screen.fblits(top, PRE)

@@ -1,6 +1,5 @@
 """What a happening of PiTanks looks and sounds like."""
 
-import math
 from collections.abc import Iterable
 from typing import Protocol
 
@@ -11,7 +10,7 @@ from pigaming_app.scenes.views.happenings import Happening
 from pigaming_app.scenes.views.moments import Moments
 
 Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
-BESIDE = 38.0  # px from a robot to where its scores rise
+BESIDE = 46.0  # px from a robot to where its scores rise
 
 
 class Flashes(Protocol):
@@ -50,24 +49,24 @@ def _show(one: Happening, state: PiTanks, moments: Moments, taste: Flashes) -> N
     color = ICE if player is None else PLAYERS[player]
     match one.kind:
         case "hit":
-            moments.burst(x, y, color, 34, 130)
+            moments.burst(x, y, color, 30, 46, 120)
             _blast(x, y, color, moments, taste)
-            moments.score(x + BESIDE, y - 40, f"−{one.number}", player or 0)
+            moments.score(x + BESIDE, y - 66, f"−{one.number}", player or 0)
         case "scored":
-            moments.score(x, y - 72, f"+{one.number}", player or 0)
+            moments.score(x - BESIDE, y - 66, f"+{one.number}", player or 0)
         case "shielded":
-            moments.burst(x, y, color, 26, 110)
-            moments.burst(x, y, FOCUS, 10, 90)
+            moments.burst(x, y, color, 26, 66, 90)
+            moments.burst(x, y, FOCUS, 10, 66, 70)
             if taste.flashes != "off":
                 moments.shock(x, y, color)
         case "stopped" | "bounced":
-            moments.burst(x, y, color, 7 if one.kind == "stopped" else 4, 64, one.angle, 1.0)
+            moments.burst(x, y, color, 7 if one.kind == "stopped" else 4, 8, 60, (one.angle, 1.1))
         case "cracked" | "crumbled":
             _break(one, state, moments)
         case "pickup":
-            moments.burst(x, y, FOCUS, 16, 90)
+            moments.burst(x, y, FOCUS, 16, 46, 60)
         case "mine_blown":
-            moments.burst(x, y, ALARM, 20, 120)
+            moments.burst(x, y, ALARM, 24, 16, 130)
             _blast(x, y, color, moments, taste)
 
 
@@ -89,4 +88,4 @@ def _break(one: Happening, state: PiTanks, moments: Moments) -> None:
         for i in range(5):
             t = (i + 0.5) / 5
             x, y = ends[0] + (ends[2] - ends[0]) * t, ends[1] + (ends[3] - ends[1]) * t
-            moments.burst(x, y, WALL, 5, 70, one.angle + math.pi / 2)
+            moments.burst(x, y, WALL, 5, 10, 70)

@@ -7,6 +7,7 @@ from pigaming_app.scenes.effects import TREAD_LEVELS, TURNS, tread
 from pigaming_app.scenes.sprites import Batch, put, step
 
 APART = 13.0  # px between two marks
+OVER = 10.0  # px within which no second mark is stamped: to and fro would draw crosses
 LASTS = 3.0  # seconds
 MOST = 30  # marks of each robot
 
@@ -26,9 +27,10 @@ class Treads:
             return
         dx, dy = x - self.last[0], y - self.last[1]
         if dx * dx + dy * dy >= APART * APART:
-            ahead = dx * math.cos(heading) + dy * math.sin(heading) >= 0.0
-            self.marks.append((now, x, y, step(heading if ahead else heading + math.pi, TURNS)))
             self.last = x, y
+            if not any(abs(x - mx) + abs(y - my) < OVER for _, mx, my, _ in self.marks):
+                ahead = dx * math.cos(heading) + dy * math.sin(heading) >= 0.0
+                self.marks.append((now, x, y, step(heading if ahead else heading + math.pi, TURNS)))
 
     def draw(self, batch: Batch, now: float) -> None:
         """Add the marks that have not faded."""
