@@ -1,4 +1,4 @@
-"""What the title is drawn of: the name in tubes of light, four robots that draw its underline, a picture of each game."""
+"""What the title is drawn of: the name in tubes of light, four robots that draw its underline, a picture of a game."""
 
 import math
 from functools import lru_cache
@@ -76,7 +76,7 @@ def _trail(ink: Ink, player: int, points: list[Point]) -> None:
 
 
 def vignette(game: str, ink: Ink, x: float, y: float) -> Ink:
-    """A picture of "pitanks", "factory" or "race" in the upper 284 px of a tile of 560 x 416 px with its corner at (x, y)."""
+    """A picture of "pitanks", "factory" or "race" in the upper 284 px of a tile of 560 x 416 px at (x, y)."""
     {"pitanks": _tanks, "factory": _factory, "race": _race}[game](ink, x, y + 4)
     return ink
 

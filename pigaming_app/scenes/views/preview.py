@@ -1,7 +1,6 @@
 """A small picture of an arena: its walls, and the shapes of the players where they begin."""
 
 import math
-from functools import lru_cache
 
 import pygame
 
@@ -12,15 +11,14 @@ from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 MARGIN = 8  # px round the frame, for its glow
 
 
-@lru_cache(maxsize=32)
 def preview(arena: Arena, w: int, h: int) -> pygame.Surface:
-    """The arena as light, as large as fits into w x h px and centred there; add it to the picture."""
+    """The arena as light, as large as fits into w x h px and centred there; add it to a picture."""
     k = min((w - 2 * MARGIN) / WIDTH, (h - 2 * MARGIN) / HEIGHT)
     left, top = (w - k * WIDTH) / 2, (h - k * HEIGHT) / 2
     ink = Ink(w, h, 3)
-    for x in range(200, int(WIDTH), 200):
-        for y in range(150, int(HEIGHT), 200):
-            ink.disc(left + k * x, top + k * y, 1.5, dim(STEEL, 0.6))
+    for column in range(200, int(WIDTH), 200):
+        for row in range(150, int(HEIGHT), 200):
+            ink.disc(left + k * column, top + k * row, 1.5, dim(STEEL, 0.6))
     ink.line(cut(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), MIST, THIN, True)
     for wall in arena.walls:
         ends = [(left + k * wall.ax, top + k * wall.ay), (left + k * wall.bx, top + k * wall.by)]
