@@ -186,7 +186,7 @@ def _window_size(desktop: tuple[int, int]) -> tuple[int, int]:
 def _fitted(room: tuple[int, int]) -> pygame.Rect:
     """The largest area of the canvas's shape in the middle of a room."""
     factor = min(room[0] / SIZE[0], room[1] / SIZE[1])
-    w, h = int(SIZE[0] * factor), int(SIZE[1] * factor)
+    w, h = round(SIZE[0] * factor), round(SIZE[1] * factor)
     return pygame.Rect((room[0] - w) // 2, (room[1] - h) // 2, w, h)
 
 

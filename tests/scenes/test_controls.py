@@ -113,7 +113,7 @@ def test_beyond_the_dead_zone_a_stick_starts_at_zero() -> None:
     assert outside_dead_zone(0.0, -0.6) == pytest.approx((0.0, -0.5))
     assert outside_dead_zone(sqrt(0.5), sqrt(0.5)) == pytest.approx((1.0, 1.0))
     assert outside_dead_zone(-1.0, 1.0) == pytest.approx((-1.0, 1.0))
-    assert outside_dead_zone(0.95, 0.0) == (1.0, 0.0)
+    assert outside_dead_zone(0.95, 0.0) == pytest.approx((1.0, 0.0))
     assert max(outside_dead_zone(0.18, 0.18)) < 0.01  # a circle, not a square
 
 
