@@ -43,9 +43,17 @@ def dim(color: Color, k: float) -> Color:
     return mix(BLACK, color, k)
 
 
-@cache
 def font(face: str, size: int) -> pygame.font.Font:
     """One of the faces "head", "hero" (Oxanium) and "body" (Lexend) at a size in px."""
+    if not pygame.font.get_init():
+        _loaded.cache_clear()
+        pygame.font.init()
+    return _loaded(face, size)
+
+
+@cache
+def _loaded(face: str, size: int) -> pygame.font.Font:
+    pygame.register_quit(_loaded.cache_clear)  # a font does not outlive pygame.quit
     return pygame.font.Font(ASSETS / "fonts" / _FACES[face], size)
 
 

@@ -83,7 +83,7 @@ def bare(starts: Starts) -> pygame.Surface:
         cold.line(pad, dim(PLAYERS[seat], 0.20), 3, True)
     hot.neon(cut(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
     cold.line(cut(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
-    return page.done().convert()
+    return page.done()
 
 
 def _grid(page: Page) -> None:

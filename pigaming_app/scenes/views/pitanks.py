@@ -83,18 +83,23 @@ class PiTanksView:
         self.moments.advance(seconds)
         self.ground.show_walls(state)
         self.hud.show(state)
-        poses = [_between(old, new, blend) for old, new in zip(self.before, self.now, strict=True)]
         under: Batch = []
         over: Batch = []
         light: Batch = []
         top: Batch = []
         self._things(over, light, state)
         for seat in self.seats:
-            self._robot(under, over, light, state, seat, poses[seat])
+            self._robot(under, over, light, state, seat, self.pose(seat, blend))
         self._bullets(light, state, blend)
         self.moments.draw_light(light)
         self.moments.draw_scores(top)
         self._paint(screen, under, over, light, top)
+
+    def pose(self, seat: int, blend: float) -> Pose:
+        """Where a robot is on the canvas, px, px, rad, `blend` of the way between two ticks; it turns the short way."""
+        old, new = self.before[seat], self.now[seat]
+        turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
+        return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
 
     def warm(self, milliseconds: float) -> bool:
         """Make sprites ahead for so long; true when all are there."""
@@ -173,9 +178,3 @@ class PiTanksView:
 def _poses(state: PiTanks) -> list[Pose]:
     """Where robots are on the canvas."""
     return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]
-
-
-def _between(old: Pose, new: Pose, blend: float) -> Pose:
-    """A pose on the way; the heading takes the short way round."""
-    turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
-    return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
