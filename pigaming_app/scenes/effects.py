@@ -17,14 +17,15 @@ SHARDS = 4  # shapes of debris
 TREAD_LEVELS = 6
 WAVE_STEPS = 16
 LIGHT_LEVELS = 8
+BEAM_TURNS = 64
 BEAM_ARM = 114  # px from a robot to the middle of its headlight
 FLAME_ARM = -66
 
 
 @cache
 def beam(player: int, turn: int) -> Sprite:
-    """A robot's headlight at heading `turn` of HEADINGS."""
-    return turned(painted(_beam, (player,)), turn, HEADINGS, BEAM_ARM, 2.0)
+    """A robot's headlight at heading `turn` of BEAM_TURNS."""
+    return turned(painted(_beam, (player,)), turn, BEAM_TURNS, BEAM_ARM, 2.0)
 
 
 def _beam(player: int) -> pygame.Surface:

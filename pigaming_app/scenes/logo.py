@@ -86,7 +86,7 @@ def seat_robot(player: int, angle: float, scale: float = 2.1) -> Sprite:
     return _seat_robot(player, step(angle, HEADINGS), scale)
 
 
-@lru_cache(maxsize=96)
+@lru_cache(maxsize=24)
 def _seat_robot(player: int, turn: int, scale: float) -> Sprite:
     half = round(84 * scale)
     ink = Ink(2 * half, 2 * half)

@@ -16,6 +16,7 @@ from pigaming_app.scenes.ink import (
     WHITE,
     Color,
     Ink,
+    dim,
     font,
     icon,
     mix,
@@ -38,11 +39,12 @@ def pickup(name: str) -> Sprite:
 
 @cache
 def mine(player: int, bright: bool) -> Sprite:
-    """A mine in its owner's colour; the eye of an armed one is `bright` every other moment."""
+    """A mine in its owner's colour and with its number; an armed one is `bright` every other moment."""
     ink = Ink(120, 120, 3).to(60, 60)
     ink.solid(regular(24, 25))
-    icon(ink, "mine", 0, 0, 26, PLAYERS[player], 4)
-    ink.disc(0, 0, 8, ALARM if bright else (96, 24, 24))
+    icon(ink, "mine", 0, 0, 27, PLAYERS[player], 4)
+    ink.disc(0, 0, 12, ALARM if bright else dim(ALARM, 0.45))
+    ink.text(str(player + 1), 20, 0, 0, BLACK, "hero", "c")
     return trim(ink.sprite(1.0 if bright else 0.7), 60, 60)
 
 

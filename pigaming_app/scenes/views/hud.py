@@ -35,6 +35,7 @@ from pigaming_app.scenes.ink import (
     icon,
     mix,
 )
+from pigaming_app.scenes.sprites import Sprite, faded
 from pigaming_app.scenes.things import glyph, number_width, small_icon
 from pigaming_app.scenes.views.ground import HUD_HEIGHT, Bit, Ground
 from pigaming_app.sim.world import HZ
@@ -91,12 +92,15 @@ class Hud:
         self.ground, self.players = ground, players
         self.slots, self.sums = layout(state.robots)
         self.said: dict[object, object] = {}
+        self.points: dict[int, int] = {}
 
-    def show(self, state: Any) -> None:
-        """Bake what has changed."""
+    def show(self, state: Any) -> list[Slot]:
+        """Bake what has changed; answers the panels whose points have."""
         points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
         totals = {one.team: sum(points[slot.seat] for slot in one.mates) for one in self.sums}
         ahead = _ahead(totals or points)
+        changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
+        self.points = points
         for slot in self.slots:
             leads = slot.seat == ahead and not self.sums
             says = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
@@ -111,6 +115,7 @@ class Hud:
             text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
             x = 960 - number_width(text, TITLE) / 2
             self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 84, color))
+        return changed
 
     def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
         """The pieces of the panels, each made by one small job."""
@@ -118,6 +123,7 @@ class Hud:
         for slot in self.slots:
             for leads in {False, not self.sums}:
                 yield partial(frame, slot.seat, slot.w, leads, self._ai(slot.seat), turbo)
+            yield partial(pulse, slot.seat, slot.w)
             if turbo:
                 yield partial(turbo_bar, slot.seat, slot.w, True)
                 yield partial(turbo_bar, slot.seat, slot.w, False)
@@ -206,12 +212,21 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
     ink.line(outline, color, LINE if leads else THIN, True)
     badge(ink, player, 44, 38 if turbo else H / 2, 24)
     if leads:
-        ink.solid(cut(136 - 20, -22, 44, 36, 4))
-        icon(ink, "crown", 138, -4, 16, color, THIN)
+        ink.solid(cut(22, -22, 44, 32, 4))
+        icon(ink, "crown", 44, -6, 16, color, THIN)
     if ai:
-        ink.solid(cut(w - 70, -22, 48, 36, 4))
-        icon(ink, "ai", w - 46, -3, 18, mix(color, WHITE, 0.5), 3)
+        ink.solid(cut(100, -22, 48, 34, 4))
+        icon(ink, "ai", 124, -4, 18, mix(color, WHITE, 0.5), 3)
     return ink.lit(0.7)
+
+
+@cache
+def pulse(player: int, w: int) -> tuple[Sprite, ...]:
+    """A panel that lights up when its points change, and how that fades; from its upper left corner."""
+    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    ink.fill(cut(0, 0, w, H), dim(color, 0.35)).line(cut(0, 0, w, H), color, LINE, True)
+    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
+    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
 
 @cache

@@ -94,11 +94,14 @@ class Moments:
 
     def shock(self, x: float, y: float, color: Color) -> None:
         """A wave that runs out over the ground."""
-        self.blooms.append(Bloom(self.clock, 0.45, x, y, tuple(wave(color, i) for i in range(WAVE_STEPS))))
+        self.bloom(x, y, 0.45, tuple(wave(color, i) for i in range(WAVE_STEPS)))
 
     def glow(self, x: float, y: float, color: Color, seconds: float = 0.35) -> None:
         """Light on the ground that goes out."""
-        frames = tuple(light(color, i) for i in range(LIGHT_LEVELS, 0, -1))
+        self.bloom(x, y, seconds, tuple(light(color, i) for i in range(LIGHT_LEVELS, 0, -1)))
+
+    def bloom(self, x: float, y: float, seconds: float, frames: tuple[Sprite, ...]) -> None:
+        """Any light that runs through its frames once."""
         self.blooms.append(Bloom(self.clock, seconds, x, y, frames))
 
     def score(self, x: float, y: float, text: str, player: int) -> None:

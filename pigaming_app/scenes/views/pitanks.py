@@ -11,13 +11,14 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
+from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
 from pigaming_app.scenes import effects, tank, things
-from pigaming_app.scenes.ink import ADD, FOCUS, PLAYERS, PRE, THIN
+from pigaming_app.scenes.ink import ADD, FOCUS, PRE, THIN
 from pigaming_app.scenes.sprites import HEADINGS, Batch, put, step
 from pigaming_app.scenes.views.ground import LEFT, TOP, Ground
 from pigaming_app.scenes.views.happenings import Watcher
-from pigaming_app.scenes.views.hud import Hud
+from pigaming_app.scenes.views.hud import Hud, pulse
+from pigaming_app.scenes.views.hud import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.moments import Moments
 from pigaming_app.scenes.views.reactions import Heard, react
 from pigaming_app.scenes.views.treads import Treads
@@ -82,7 +83,9 @@ class PiTanksView:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.moments.advance(seconds)
         self.ground.show_walls(state)
-        self.hud.show(state)
+        for slot in self.hud.show(state):
+            if self.taste.flashes != "off":
+                self.moments.bloom(slot.x, TOP_OF_PANELS, 0.4, pulse(slot.seat, slot.w))
         under: Batch = []
         over: Batch = []
         light: Batch = []
@@ -143,7 +146,7 @@ class PiTanksView:
         marks = self.treads[seat]
         marks.roll(x, y, heading, now)
         marks.draw(under, now)
-        put(under, effects.beam(seat, fine), x, y)
+        put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
         if driven.boosting or (held.powers[SPEED] and abs(driven.linear) > 40.0):
             put(under, effects.flame(seat, coarse, int(now * 30) % 2), x, y)
         if seat in self.marked:
@@ -164,8 +167,6 @@ class PiTanksView:
         left = powers[SHIELD]
         if left > ENDING or left // 6 % 2:
             put(light, effects.shield(seat, int(self.moments.clock * 24) % 24), x, y)
-        if powers[MINE]:
-            put(light, things.small_icon("mine", PLAYERS[seat], 12, 3), x, y + 62)
 
     def _bullets(self, light: Batch, state: PiTanks, blend: float) -> None:
         for i, flying in enumerate(self.flying):

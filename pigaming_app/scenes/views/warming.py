@@ -31,8 +31,9 @@ def _driving(seats: Sequence[int]) -> Iterator[Job]:
     for turn in range(HEADINGS):
         for seat in seats:
             yield partial(tank.tank, seat, turn)
-            yield partial(effects.beam, seat, turn)
     for seat in seats:
+        for turn in range(effects.BEAM_TURNS):
+            yield partial(effects.beam, seat, turn)
         yield partial(tank.ghost, seat)
         for turn in range(effects.TURNS):
             for level in range(effects.TREAD_LEVELS, 0, -1):
