@@ -128,7 +128,7 @@ class Hud:
                 yield partial(turbo_bar, slot.seat, slot.w, True)
                 yield partial(turbo_bar, slot.seat, slot.w, False)
         if self.sums:
-            yield partial(sum_frame, True)
+            yield from (partial(sum_frame, leads, second) for leads in (True, False) for second in (True, False))
 
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]
@@ -142,8 +142,8 @@ class Hud:
     def _bake_sum(self, one: Sum, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")
         size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
-        bits: list[Bit] = [(sum_frame(leads), (one.x - EDGE, Y - EDGE), None)]
-        bits += number_bits(text, size, one.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2, ICE)
+        bits: list[Bit] = [(sum_frame(leads, one is self.sums[1]), (one.x - EDGE, Y - EDGE), None)]
+        bits += number_bits(text, size, one.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
         self.ground.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
         inner = one.x - 12 if one.x < 960 else one.x + SUM_W
         gaps = [inner, *(slot.x + slot.w for slot in one.mates[:-1])]
@@ -224,7 +224,7 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
 def pulse(player: int, w: int) -> tuple[Sprite, ...]:
     """A panel that lights up when its points change, and how that fades; from its upper left corner."""
     ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
-    ink.fill(cut(0, 0, w, H), dim(color, 0.35)).line(cut(0, 0, w, H), color, LINE, True)
+    ink.fill(cut(0, 0, w, H), dim(color, 0.24))
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
@@ -241,12 +241,14 @@ def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
 
 
 @cache
-def sum_frame(leads: bool) -> pygame.Surface:
-    """The box of a team's sum."""
+def sum_frame(leads: bool, second: bool) -> pygame.Surface:
+    """The box of a team's sum, with the bars that its robots wear: one, or two for the second team."""
     ink = Ink(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     if leads:
         ink.fill(cut(0, 0, SUM_W, H), dim(ICE, 0.10))
     ink.line(cut(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
+    for a, b in ((-24, -5), (5, 24)) if second else ((-18, 18),):
+        ink.line([(SUM_W / 2 + a, H - 13), (SUM_W / 2 + b, H - 13)], ICE, THIN)
     if leads:
         ink.solid(cut(SUM_W / 2 - 22, -22, 44, 36, 4))
         icon(ink, "crown", SUM_W / 2, -4, 16, ICE, THIN)

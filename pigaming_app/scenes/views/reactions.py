@@ -8,6 +8,7 @@ from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, PLAYERS, WALL
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.scenes.views.happenings import Happening
 from pigaming_app.scenes.views.moments import Moments
+from pigaming_app.sim.world import WIDTH
 
 Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
 BESIDE = 46.0  # px from a robot to where its scores rise
@@ -51,9 +52,9 @@ def _show(one: Happening, state: PiTanks, moments: Moments, taste: Flashes) -> N
         case "hit":
             moments.burst(x, y, color, 30, 46, 120)
             _blast(x, y, color, moments, taste)
-            moments.score(x + BESIDE, y - 66, f"−{one.number}", player or 0)
+            moments.score(_inside(x) + BESIDE, y - 66, f"−{one.number}", player or 0)
         case "scored":
-            moments.score(x - BESIDE, y - 66, f"+{one.number}", player or 0)
+            moments.score(_inside(x) - BESIDE, y - 66, f"+{one.number}", player or 0)
         case "shielded":
             moments.burst(x, y, color, 26, 66, 90)
             moments.burst(x, y, FOCUS, 10, 66, 70)
@@ -89,3 +90,8 @@ def _break(one: Happening, state: PiTanks, moments: Moments) -> None:
             t = (i + 0.5) / 5
             x, y = ends[0] + (ends[2] - ends[0]) * t, ends[1] + (ends[3] - ends[1]) * t
             moments.burst(x, y, WALL, 5, 10, 70)
+
+
+def _inside(x: float) -> float:
+    """Where two scores have room beside each other."""
+    return min(max(x, LEFT + 60 + BESIDE), LEFT + WIDTH - 60 - BESIDE)
