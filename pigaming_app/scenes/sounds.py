@@ -56,7 +56,8 @@ class Sounds:
         """Play a sound, in the pitch of a player (seat 0..3) if it has one, from the left (-1) to the right (1)."""
         if not self._ready:
             return
-        key = name if player is None or f"{name}{player + 1}" not in self._sounds else f"{name}{player + 1}"
+        own = f"{name}{(player or 0) + 1}"  # what has a pitch for each player has nothing else
+        key = own if own in self._sounds else name
         sound, now = self._sounds.get(key), time.monotonic()
         if sound is None or now - self._started.get(key, 0.0) < _GAP:
             return
@@ -65,8 +66,7 @@ class Sounds:
             return
         self._started[key] = now
         channel.play(sound)
-        pan = max(-1.0, min(1.0, pan)) * 0.7  # nothing comes from one side alone: people sit beside each other
-        channel.set_volume(min(1.0, 1.0 - pan), min(1.0, 1.0 + pan))
+        channel.set_volume(*stereo(pan))
 
     def music(self, on: bool) -> None:
         """Let the music play from its beginning, or fade away."""
@@ -121,6 +121,12 @@ class Sounds:
                 self._music_playing = False
         except (pygame.error, OSError) as reason:
             _log.warning("%s: %s", path, reason)
+
+
+def stereo(pan: float) -> tuple[float, float]:
+    """How loud the left and the right side are; nothing comes from one alone, as people sit beside each other."""
+    side = max(-1.0, min(1.0, pan)) * 0.7
+    return (min(1.0, 1.0 - side), min(1.0, 1.0 + side))
 
 
 def _no_card() -> bool:
