@@ -102,20 +102,24 @@ def test_a_display_that_is_gone_gives_the_first_and_a_notice(canvas: Canvas) -> 
     assert len(canvas.displays()) == pygame.display.get_num_displays()
 
 
-def test_a_window_that_cannot_be_made_leaves_the_one_there_is(canvas: Canvas, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("refusals", [1, 2, 99])
+def test_a_window_that_cannot_be_made_never_ends_the_arcade(
+    canvas: Canvas, monkeypatch: pytest.MonkeyPatch, refusals: int
+) -> None:
     real = pygame.display.set_mode
     refused: list[object] = []
 
-    def refuse_once(*args: object, **options: object) -> object:
-        if not refused:
+    def refuse(*args: object, **options: object) -> object:
+        if len(refused) < refusals:
             refused.append(args)
             raise pygame.error("the cable came loose")
         return real(*args, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(pygame.display, "set_mode", refuse_once)
+    monkeypatch.setattr(pygame.display, "set_mode", refuse)
     canvas.show(display=0, fullscreen=True)
-    assert canvas.notices == ["The picture stays where it was: the cable came loose."]
+    assert canvas.notices == ["The picture could not be moved: the cable came loose."] * min(3, refusals)
     assert canvas.screen.get_size() == SIZE
+    canvas.flip()
 
 
 def test_without_a_window_flipping_and_pointing_still_do_not_fail(canvas: Canvas) -> None:
