@@ -136,7 +136,8 @@ class Canvas:
     def _show(self) -> None:
         sizes = pygame.display.get_desktop_sizes()
         if not 0 <= self.display < len(sizes):
-            self.notices.append(f"Display {self.display + 1} is not there, so the picture is on display 1.")
+            notice = f"Display {self.display + 1} is not there, so the picture is on display 1."
+            self.notices += [notice] if notice not in self.notices else []
             self.display = 0
         pygame.display.set_caption("PiGaming")
         with warnings.catch_warnings():

@@ -1,8 +1,12 @@
 """Pads, keys and mouse, told with virtual pads: real events of the real library."""
 
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import ExitStack
 from math import sqrt
+from pathlib import Path
 
 import pygame
 import pytest
@@ -15,6 +19,7 @@ from tests.scenes.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 WASD, ARROWS, IJKL, KEYPAD = (Device("keys", number) for number in range(4))
 MOUSE = Device("mouse")
 STILL = Drive()
+PLATFORM = {"linux": "Linux", "darwin": "Mac OS X"}.get(sys.platform, "Windows")
 
 
 @pytest.fixture
@@ -241,6 +246,31 @@ def test_a_pad_without_a_mapping_plays_as_a_plain_joystick(controls: Controls, p
     pad.unplug()
     assert heard(controls) == [(Act.LOST, device)]
     assert controls.drive(device) == STILL
+
+
+def test_a_mapping_file_of_the_community_makes_a_plain_pad_a_known_one(
+    controls: Controls, pads: ExitStack, tmp_path: Path
+) -> None:
+    plug(controls, pads, plain=True)
+    guid = pygame.joystick.Joystick(0).get_guid()
+    file = tmp_path / "gamecontrollerdb.txt"
+    file.write_text(f"{guid},Odd Pad,a:b3,b:b0,start:b11,leftx:a2,lefty:a3,platform:{PLATFORM},\n")
+    story = """
+import pygame
+from pigaming_app.scenes.controls import Controls
+from tests.scenes.virtual_pad import VirtualPad
+pygame.display.init()
+with VirtualPad(plain=True) as pad:
+    controls = Controls()
+    pad.press(3, 11)
+    print(*sorted(press.act.name for press in controls.presses(pygame.event.get())), controls.name(controls.last))
+"""
+    there = {**os.environ, "SDL_GAMECONTROLLERCONFIG_FILE": str(file)}  # SDL reads it once, so ask a fresh process
+    root = Path(__file__).parents[2]
+    said = subprocess.run(
+        [sys.executable, "-c", story], env=there, cwd=root, capture_output=True, text=True, check=True
+    )
+    assert said.stdout.split() == ["FIRE", "START", "Xbox"]
 
 
 def test_four_drive_on_one_keyboard_at_once(controls: Controls) -> None:
