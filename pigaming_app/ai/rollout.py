@@ -11,11 +11,11 @@ from typing import Any
 from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.simple import IDLE
 from pigaming_app.games import GAMES
+from pigaming_app.games.batch import started
 from pigaming_app.games.game import Setup
-from pigaming_app.sim.arena import Arena, load
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
-from pigaming_app.sim.record import dtype, pack
+from pigaming_app.sim.record import packed
 from pigaming_app.sim.world import ROBOTS
 
 Loop = Callable[[Any, Any, Any, Any, Any, int], None]
@@ -57,22 +57,17 @@ def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loo
 class Batch:
     """Many matches of one game, all with the same kinds of brains, in either body."""
 
-    def __init__(self, setups: Sequence[Setup], kinds: Sequence[Kind | None], fast: bool, arena: Arena | None = None):
+    def __init__(self, setups: Sequence[Setup], kinds: Sequence[Kind | None], fast: bool) -> None:
         """One match for each setup; kinds of the four seats, None for an empty one; `fast`: compiled."""
         self.fast = fast
-        self.game = GAMES[setups[0].game]
         self.kinds = tuple(kind or IDLE for kind in kinds)
-        states, minds = [], []
-        for setup in setups:
-            state = self.game.state()
-            self.game.start(state, arena or load(setup.game, setup.arena), setup)
-            states.append(state)
-            minds.append([awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)])
+        minds = [[awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
         columns = [list(column) for column in zip(*minds, strict=True)]
         think = tuple(kind.think for kind in self.kinds)
+        states = started(setups)
         self.matches: Any = packed(states) if fast else states
         self.minds = [packed(column) for column in columns] if fast else columns
-        self.loop = (compiled_rollout if fast else plain_rollout)(self.game.name, think)
+        self.loop = (compiled_rollout if fast else plain_rollout)(setups[0].game, think)
 
     def play(self, ticks: int) -> None:
         """Play every match on."""
@@ -90,15 +85,3 @@ def awake(kind: Kind, seed: int, seat: int) -> Any:
     mind = kind.mind()
     kind.wake(mind, seed * ROBOTS + seat)
     return mind
-
-
-def packed(records: Sequence[Any]) -> Any:
-    """Plain records of one type as a NumPy array."""
-    import numpy as np
-
-    rows = np.zeros(len(records), dtype(type(records[0])))
-    for i, record in enumerate(records):
-        pack(record, rows, i)
-    return rows
-
-

@@ -4,7 +4,7 @@
 function becomes callable from compiled code, and the outer loop is compiled and kept on disk.
 
 numba's cache does not see an edit in a function that the outer loop calls, so the folder of the cache carries the hash
-of the engine's sources. Replays and trained weights carry the same hash.
+of all these sources. Replays and trained weights carry the hash of the engine's.
 """
 
 import hashlib
@@ -23,7 +23,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 _noted: list[Callable[..., Any]] = []
 
 PACKAGE = Path(__file__).resolve().parent.parent
-ENGINE = ("sim", "games", "ai")
+ENGINE = ("sim", "games")  # what decides how a match plays out, given what the seats do
 
 
 def kernel(function: F) -> F:
@@ -59,14 +59,19 @@ def _numba() -> Any:
 def _cache_folder() -> Path:
     home = os.environ.get("PIGAMING_HOME")
     root = Path(home) / "cache" if home else Path(platformdirs.user_cache_dir("pigaming"))
-    return root / f"compiled-{sys.version_info[0]}.{sys.version_info[1]}-{engine_hash()[:16]}"
+    sources = _hash((*ENGINE, "ai"))[:16]
+    return root / f"compiled-{sys.version_info[0]}.{sys.version_info[1]}-{sources}"
+
+
+def engine_hash() -> str:
+    """SHA-256 over the sources that decide how a match plays out, the same on every system."""
+    return _hash(ENGINE)
 
 
 @cache
-def engine_hash() -> str:
-    """SHA-256 over the sources that decide how a match plays out, the same on every system."""
+def _hash(folders: tuple[str, ...]) -> str:
     sha = hashlib.sha256()
-    for folder in ENGINE:
+    for folder in folders:
         for path in sorted((PACKAGE / folder).rglob("*.py")):
             sha.update(path.relative_to(PACKAGE).as_posix().encode())
             sha.update(path.read_bytes().replace(b"\r\n", b"\n"))

@@ -8,13 +8,13 @@ A record is a class of annotated fields: `float`, `int`, another record, or a li
         x: float
         y: float
 
-`Robot()` is a plain object with every number zero. `dtype(Robot)` is the same layout as a NumPy record; `pack` and
-`unpack` copy between the two, and `digest` gives the same hash for both.
+`Robot()` is a plain object with every number zero. `dtype(Robot)` is the same layout as a NumPy record; `packed`
+and `unpack` copy between the two, and `digest` gives the same hash for both.
 """
 
 import hashlib
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_hints
 
@@ -124,11 +124,12 @@ def to_bytes(state: Any) -> bytes:
     return _layout(type(state)).pack(*numbers(state))
 
 
-def pack(state: Any, rows: Any, index: int) -> None:
-    """Copy a plain record into one element of a NumPy array of `dtype(type(state))`."""
+def packed(states: Sequence[Any]) -> Any:
+    """Plain records of one type as a NumPy array (n,)."""
     import numpy as np
 
-    rows[index] = np.frombuffer(to_bytes(state), dtype(type(state)))[0]
+    kind = dtype(type(states[0]))
+    return np.frombuffer(bytearray(b"".join(to_bytes(state) for state in states)), kind)
 
 
 def unpack(kind: type[T], row: Any) -> T:

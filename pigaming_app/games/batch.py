@@ -1,0 +1,72 @@
+"""Many matches at once for policies from outside: give every match its actions, step all by one tick, compiled.
+
+    rows = matches([setup_1, setup_2, ...])
+    while not rows["over"].all():
+        step_all(rows, policy(rows))
+"""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Setup
+from pigaming_app.sim.action import press
+from pigaming_app.sim.arena import load
+from pigaming_app.sim.contact import drive
+from pigaming_app.sim.kernel import compiled
+from pigaming_app.sim.record import dtype, packed
+from pigaming_app.sim.world import ROBOTS
+
+
+def started(setups: Sequence[Setup]) -> list[Any]:
+    """A plain record for each setup, ready for its first tick. Raises ArenaError."""
+    arenas = {(setup.game, setup.arena): load(setup.game, setup.arena) for setup in setups}
+    states = []
+    for setup in setups:
+        state = GAMES[setup.game].state()
+        GAMES[setup.game].start(state, arenas[setup.game, setup.arena], setup)
+        states.append(state)
+    return states
+
+
+def matches(setups: Sequence[Setup]) -> Any:
+    """One match for each setup, all of one game, as a NumPy array (n,) of the game's record. Raises ArenaError."""
+    return packed(started(setups))
+
+
+def step_all(matches: Any, actions: Any) -> None:
+    """One tick of every match: `matches` as `matches()` gives them, `actions` a float array (n, 4, 4).
+
+    The four numbers of a seat are linear and angular in [-1, 1], fire and turbo as 0 or 1. Lists of plain records and
+    of numbers of the same shape do too, uncompiled. Raises ImportError without numba, TypeError for foreign records.
+    """
+    if not len(matches):
+        return
+    for name, game in GAMES.items():
+        if isinstance(matches, list):
+            if isinstance(matches[0], game.state):
+                return make_step_all(game.judge)(matches, actions)
+        elif matches.dtype is dtype(game.state) or matches.dtype == dtype(game.state):
+            return _compiled_step(name)(matches, actions)
+    raise TypeError("these are not matches of any game")
+
+
+def make_step_all(judge: Callable[[Any], None]) -> Callable[[Any, Any], None]:
+    """The loop over matches, for either body."""
+
+    def step(matches: Any, actions: Any) -> None:
+        for i in range(len(matches)):
+            match = matches[i]
+            for seat in range(ROBOTS):
+                wish = actions[i][seat]
+                press(match.actions[seat], wish[0], wish[1], int(wish[2] > 0.5), int(wish[3] > 0.5))
+            judge(match)
+            drive(match)
+
+    return step
+
+
+@cache
+def _compiled_step(game: str) -> Callable[[Any, Any], None]:
+    return compiled(make_step_all(GAMES[game].judge))

@@ -1,0 +1,149 @@
+"""Replays: setup, arena, engine hash, what every seat did on every tick, and the digest of the last state.
+
+The file is one line of JSON (the head) and the ticks, column by column and compressed. A column is one byte of one seat:
+it changes seldom, so a two-minute match takes a few kilobytes. Everything is checked at the door: a file that is
+truncated, edited or foreign is refused in one line.
+"""
+
+import hashlib
+import json
+import zlib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.action import STEPS, press
+from pigaming_app.sim.arena import ArenaError, parse
+from pigaming_app.sim.kernel import engine_hash
+from pigaming_app.sim.record import digest
+from pigaming_app.sim.world import HZ, ROBOTS
+
+MAGIC = "pigaming-replay-1"
+BYTES = 3 * ROBOTS  # a tick
+MOST_TICKS = 60 * 60 * HZ
+MOST_HEAD = 100_000
+
+
+class ReplayError(ValueError):
+    """A file that is not a replay of this engine, in one line."""
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A checked replay."""
+
+    setup: Setup
+    source: str  # the text of the arena's file
+    ticks: bytes  # BYTES for each tick
+    digest: str  # of the state after the last tick
+
+
+def save(match: Match, path: Path) -> None:
+    """Write the replay of a match as far as it has been played. Raises OSError."""
+    ticks = bytes(match.log.ticks)
+    columns = b"".join(ticks[i::BYTES] for i in range(BYTES))
+    packed = zlib.compress(columns, 9)
+    head: dict[str, Any] = {
+        "format": MAGIC,
+        "engine": engine_hash(),
+        "setup": asdict(match.setup),
+        "arena": match.arena.source,
+        "ticks": len(ticks) // BYTES,
+        "digest": digest(match.state),
+    }
+    head["check"] = _check(head, packed)
+    path.write_bytes(json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed)
+
+
+def load(path: Path) -> Replay:
+    """Read and check a replay. Raises ReplayError."""
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise ReplayError(f"{path.name}: cannot be read ({error.strerror})") from None
+    try:
+        return _read(raw)
+    except ReplayError as error:
+        raise ReplayError(f"{path.name}: {error}") from None
+
+
+def play(replay: Replay) -> Match:
+    """The match that a replay holds, before its first tick; its seats do what the file says."""
+    match = Match(replay.setup, arena=parse(replay.source, replay.setup.arena))
+    for seat in range(ROBOTS):
+        match.sit(seat, Player(replay.ticks))
+    return match
+
+
+def verify(replay: Replay) -> bool:
+    """Whether the match plays out as the file says, to the last bit."""
+    match = play(replay)
+    for _ in range(len(replay.ticks) // BYTES):
+        match.tick()
+    return digest(match.state) == replay.digest
+
+
+class Player:
+    """A brain that does what a replay says; when that ends, nothing."""
+
+    def __init__(self, ticks: bytes) -> None:
+        self.ticks = ticks
+
+    def think(self, state: Any, seat: int) -> None:
+        """Set the seat's action for this tick."""
+        at = state.tick * BYTES + 3 * seat
+        linear, angular, buttons = self.ticks[at : at + 3] or (int(STEPS), int(STEPS), 0)
+        press(state.actions[seat], linear / STEPS - 1.0, angular / STEPS - 1.0, buttons & 1, buttons & 2)
+
+
+def _check(head: Mapping[str, Any], packed: bytes) -> str:
+    """A hash over all of the file but itself: it tells an edited file, not a forger."""
+    rest = {key: value for key, value in head.items() if key != "check"}
+    return hashlib.sha256(json.dumps(rest, sort_keys=True).encode() + packed).hexdigest()
+
+
+def _read(raw: bytes) -> Replay:
+    line, newline, packed = raw.partition(b"\n")
+    try:
+        head = json.loads(line) if newline and len(line) < MOST_HEAD else None
+    except ValueError:
+        head = None
+    if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
+        raise ReplayError("not a PiGaming replay")
+    if head["format"] != MAGIC:
+        raise ReplayError(f"a replay of another format ({str(head['format'])[:40]}); this engine reads {MAGIC}")
+    if head.get("check") != _check(head, packed):
+        raise ReplayError("damaged: it has been cut short or edited")
+    if head.get("engine") != engine_hash():
+        raise ReplayError("recorded with another version of the engine, so it would play out differently")
+    try:
+        setup = _setup(head["setup"])
+        count, source, last = int(head["ticks"]), str(head["arena"]), str(head["digest"])
+        parse(source, setup.arena)
+        if not 0 <= count <= MOST_TICKS:
+            raise ValueError("ticks")
+        columns = zlib.decompressobj().decompress(packed, BYTES * MOST_TICKS)
+    except (KeyError, TypeError, ValueError, ArenaError, zlib.error) as error:
+        raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {error})") from None
+    if len(columns) != count * BYTES:
+        raise ReplayError("not a replay that makes sense (the number of ticks)")
+    ticks = bytearray(len(columns))
+    for i in range(BYTES):
+        ticks[i::BYTES] = columns[i * count : (i + 1) * count]
+    return Replay(setup, source, bytes(ticks), last)
+
+
+def _setup(table: Mapping[str, Any]) -> Setup:
+    """Raises KeyError, TypeError or ValueError for what no match can be made of."""
+    seats = [Seat(str(seat["brain"]), int(seat["team"])) for seat in table["seats"]]
+    if len(seats) != ROBOTS:
+        raise ValueError("seats")
+    one, two, three, four = seats
+    game, minutes, variant = str(table["game"]), float(table["minutes"]), str(table["variant"])
+    if variant not in GAMES[game].variants or not 0 < minutes <= 60:
+        raise ValueError("setup")
+    return Setup(game, str(table["arena"]), (one, two, three, four), minutes, int(table["seed"]), variant)

@@ -1,0 +1,196 @@
+"""A match: three, two, one, go; people and AIs drive; time is up; the results.
+
+Only here devices meet seats. A seat whose device is gone asks for it, and when nobody comes an AI drives on until
+somebody presses FIRE for it.
+"""
+
+import secrets
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pygame
+
+from pigaming_app.ai.brain import Hands, make
+from pigaming_app.games.game import Setup
+from pigaming_app.games.match import Match
+from pigaming_app.scenes.countdown import CENTRE, Countdown, popped
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import ALARM, PLAYERS
+from pigaming_app.scenes.pause import Pause
+from pigaming_app.scenes.plate import Plate, plate
+from pigaming_app.scenes.press import Act, Device, Drive, Press
+from pigaming_app.scenes.reconnect import Reconnect, StillThere
+from pigaming_app.scenes.results import Results
+from pigaming_app.scenes.stack import Push, Scene, Swap, Turn
+from pigaming_app.scenes.stage import Stage
+
+LEAD = 0.8  # seconds in which one looks round before the countdown
+RESUME = 0.5  # seconds for each number after an interruption
+FREEZE = 1.5  # seconds between the last tick and the results
+STILL = 60.0  # seconds without a hand on anything
+NOTICE = 3.0  # seconds for which a line over the match stays
+STAND_IN = "normal"  # the brain that drives on for somebody
+
+
+class MatchScene:
+    """One match, from its countdown to its results. `devices`: who drives each seat; None: an AI, or nobody yet."""
+
+    def __init__(self, house: House, setup: Setup, devices: Sequence[Device | None] = (), speed: float = 1.0) -> None:
+        self.house, self.setup, self.speed = house, setup, speed
+        self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
+        self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
+        self.match = Match(setup)
+        self.stage = Stage(house, self.match, [f"{i + 1}" for i in range(len(setup.seats))])
+        self.count = Countdown(lead=LEAD)
+        self.begun = self.warm = self.stopped = self.repeated = False
+        self.idle = self.frozen = self.noticed = 0.0
+        self.notice: Plate | None = None
+        self.results: Results | None = None
+        for seat in self.humans:
+            self._sit(seat, self.devices[seat])
+
+    # ---- what happens to it
+
+    def entered(self) -> None:
+        """Begin, or go on after an interruption."""
+        self.house.sounds.music(True)
+        if self.begun and not self.match.over:
+            self.count = Countdown(RESUME) if not self.count.locked else Countdown()
+        self.begun = True
+        self.idle = 0.0
+
+    def on(self, press: Press) -> Turn:
+        """START or Escape pauses; FIRE on a free device takes back a seat that an AI holds for somebody."""
+        self.idle = 0.0
+        if self.match.over:
+            return None
+        if press.act is Act.START or (press.act is Act.BACK and press.device.kind == "keys"):
+            return Push(Pause(self, press.device))
+        if press.act is Act.FIRE and self.stood_in and self.free(press.device):
+            self.hand(self.stood_in[0], press.device)
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the match run on."""
+        self.noticed -= seconds
+        if self.repeated:
+            return Swap(again(self.house, self.setup, self.devices))
+        if self.match.over or self.stopped:
+            return self._end(seconds)
+        if lost := self.lost:
+            return Push(Reconnect(self, lost[0]))
+        self.warm = self.warm or self.stage.warm(14.0 if self.count.locked else 2.0)
+        if self.count.shown and (sound := self.count.update(seconds)):
+            self.house.sounds.play(sound)
+        if self.count.locked:
+            self.stage.wait(seconds)
+            return None
+        self.idle += seconds
+        self.stage.advance(seconds, self.speed)
+        if self.humans and self.idle > STILL:
+            return Push(StillThere(self))
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The arena, and over it what has to be said."""
+        self.stage.draw(screen)
+        words = self.house.words
+        if self.match.over and not self.stopped:
+            pop = min(4, int(self.frozen / 0.04))
+            popped(words("match.time"), ALARM, pop).draw(screen, *CENTRE)
+        elif self.count.shown:
+            if self.count.locked:
+                self._captions(screen)
+            self.count.draw(screen, words("match.go"))
+        if self.notice and self.noticed > 0.0:
+            self.notice.draw(screen, 960, 206)
+
+    # ---- what the pages above it may do
+
+    @property
+    def lost(self) -> list[int]:
+        """Seats whose device is gone and for whom nobody drives."""
+        gone = [(i, device) for i, device in enumerate(self.devices) if device]
+        return [i for i, device in gone if not self.house.controls.connected(device)]
+
+    @property
+    def stood_in(self) -> list[int]:
+        """Seats of people for whom an AI drives."""
+        return [i for i in self.humans if self.devices[i] is None]
+
+    def free(self, device: Device) -> bool:
+        """Nobody drives with this device."""
+        return device.kind != "mouse" and device not in self.devices
+
+    def hand(self, seat: int, device: Device | None) -> None:
+        """Give a seat to a device, or to an AI that drives until somebody comes."""
+        self._sit(seat, device)
+        words = self.house.words
+        name = self.house.controls.name(device) if device else words("match.ai_drives")
+        sign = ("pad" if device.kind == "pad" else "keys") if device else "ai"
+        self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
+        self.house.sounds.play("join", seat)
+
+    def picture(self) -> pygame.Surface:
+        """The match as it lies behind a page."""
+        return self.stage.picture()
+
+    def stop(self) -> None:
+        """End the match now; the results are what they are."""
+        self.stopped = True
+
+    def restart(self) -> None:
+        """Begin anew, with another seed."""
+        self.repeated = True
+
+    # ---- inside
+
+    def _sit(self, seat: int, device: Device | None) -> None:
+        self.devices[seat] = device
+        brain = Hands(lambda: self._held(device)) if device else make(STAND_IN, new_seed())
+        self.match.sit(seat, brain)
+
+    def _held(self, device: Device) -> Drive:
+        """How a device is held on the tick that acts on it."""
+        drive = self.house.controls.drive(device)
+        if drive.fire or drive.turbo or drive.linear or drive.angular:
+            self.idle = 0.0
+        return drive
+
+    def _end(self, seconds: float) -> Turn:
+        """The last picture stands while the results are made."""
+        if self.results is None:
+            finished = self.match.over and not self.stopped
+            self.results = Results(self.house, self.match.outcome(), self.setup, self.devices, again, finished)
+            if finished:
+                self.house.sounds.play("go")
+        ready = self.results.warm(12.0)
+        self.frozen += seconds
+        self.stage.wait(seconds)
+        if ready and (self.stopped or self.frozen >= FREEZE):
+            return Swap(self.results)
+        return None
+
+    def _captions(self, screen: pygame.Surface) -> None:
+        """Who drives what, beside each robot, until it goes."""
+        for seat, robot in enumerate(self.match.state.robots):
+            if robot.present:
+                device = self.devices[seat]
+                if device:
+                    name, sign = self.house.controls.name(device), "pad" if device.kind == "pad" else "keys"
+                else:
+                    name, sign = self.house.words("match.ai"), "ai"
+                sheet = plate(name, PLAYERS[seat], sign=sign)
+                x = min(max(160 + robot.x, 184 + sheet.width / 2), 1736 - sheet.width / 2)
+                y = 140 + robot.y + (104 if robot.y < 450 else -104)
+                sheet.draw(screen, x, y)
+
+
+def again(house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+    """The same match with other luck."""
+    return MatchScene(house, replace(setup, seed=new_seed()), devices)
+
+
+def new_seed() -> int:
+    """A seed that nobody can foresee."""
+    return secrets.randbelow(2**31 - 1) + 1

@@ -1,0 +1,65 @@
+"""The row at the foot of a page: which button does what, as it is printed on the device used last; the mouse clicks on it."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+
+import pygame
+
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import BODY, MIST, button, button_width, text_width
+from pigaming_app.scenes.pane import Lit, Pane
+from pigaming_app.scenes.press import Act, Press
+
+ROOM = 1760  # px for the whole row
+GAPS = (56, 44, 32, 24)
+HIGH = 34  # px from the middle of the row to the edge of what can be clicked
+
+
+class Prompts:
+    """A row of (act, key of its text), centred on the line y px of the canvas, not wider than `room` px."""
+
+    def __init__(self, house: House, items: Sequence[tuple[Act, str]], y: int = 980, room: int = ROOM) -> None:
+        self.house, self.items, self.y, self.room = house, tuple(items), y, room
+
+    @property
+    def said(self) -> tuple[tuple[str, str], ...]:
+        """The labels and texts of the moment; an act without a button is left out."""
+        found = [(self.house.controls.label(None, act), self.house.words(key)) for act, key in self.items]
+        return tuple((label, text) for label, text in found if label)
+
+    def meant(self, press: Press) -> Press:
+        """A click on one of the hints as the press that it stands for; any other press as it is."""
+        if press.act is not Act.CLICK or press.at is None or abs(press.at[1] - self.y) > HIGH:
+            return press
+        acts = [act for act, _ in self.items if self.house.controls.label(None, act)]
+        for act, (left, right) in zip(acts, places(self.said, self.room), strict=True):
+            if left <= press.at[0] <= right:
+                return replace(press, act=act)
+        return press
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Add the row to the screen."""
+        row(self.said, self.y, self.room).draw(screen)
+
+
+def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
+    """The left and right end of each hint, px."""
+    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in said]
+    fitting = [gap for gap in GAPS if sum(widths) + gap * (len(widths) - 1) <= room]
+    gap = fitting[0] if fitting else GAPS[-1]
+    x, out = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
+    for width in widths:
+        out.append((x, x + width))
+        x += width + gap
+    return out
+
+
+@cache
+def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> Lit:
+    """The whole row, lit."""
+    ends = places(said, room)
+    pane = Pane(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
+    for (label, text), (left, _) in zip(said, ends, strict=True):
+        pane.page.body(text, left + button(pane.page, left, y, label) + 18, y, MIST)
+    return pane.done()

@@ -1,0 +1,248 @@
+"""The page of results as pieces of light: title, rows, plot. Each is made once; they come in one after the other."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from time import perf_counter
+
+import pygame
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.scenes.finale import Finale
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import (
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    SUB,
+    THIN,
+    TITLE,
+    WHITE,
+    Color,
+    Ink,
+    badge,
+    icon,
+    mix,
+    panel,
+    text_width,
+)
+from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
+from pigaming_app.scenes.plot import Curve, Plot, dot, team_curve
+from pigaming_app.sim.arena import load
+
+TOP, ROW, PITCH = 280, 120, 136
+COLUMNS = (372, 510, 672, 820)  # right edges: score, and what the game counts
+FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
+
+
+@dataclass(frozen=True)
+class Part:
+    """A piece of the page and when it comes: it is wiped in from the left within `takes` seconds."""
+
+    lit: Lit
+    begins: float
+    takes: float = WIPE
+
+
+class ResultsPage:
+    """Everything of the results but the votes."""
+
+    def __init__(self, house: House, outcome: Outcome, setup: Setup, finished: bool) -> None:
+        self.house, self.outcome, self.setup, self.finished = house, outcome, setup, finished
+        self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
+        self.by_team = len(self.teams) < len(outcome.rows)
+        self.winners = outcome.winners if finished else ()
+        self.title_at = FIRST + APART * len(self.teams) + 0.15
+        self.ready_at = self.title_at + 0.4
+        self.parts: list[Part] = []
+        self.plot: Plot
+        self.finale: Finale | None = None
+        self._making = self._make()
+
+    def warm(self, milliseconds: float) -> bool:
+        """Make pieces for so long; true when all are there."""
+        end = perf_counter() + milliseconds / 1000
+        while perf_counter() < end:
+            if next(self._making, None) is None:
+                return True
+        return False
+
+    def sounds(self, humans: Sequence[int]) -> list[tuple[float, str, int | None]]:
+        """What is heard while the page comes: (seconds, name, player)."""
+        rows = [(FIRST + APART * i, "move", team[0].seat) for i, team in enumerate(reversed(self.teams))]
+        if not self.finished:
+            return [*rows]
+        cheer = "tie" if not self.winners else "win" if not humans or set(self.winners) & set(humans) else "lose"
+        return [*rows, (self.title_at, cheer, self.winners[0] if self.winners else None)]
+
+    def update(self, seconds: float, age: float) -> None:
+        """Let the celebration go on."""
+        if self.finale and age >= self.title_at:
+            self.finale.update(seconds)
+
+    def draw(self, screen: pygame.Surface, age: float) -> None:
+        """Paint the page `age` seconds after it was opened."""
+        self.warm(2000.0)
+        screen.blit(backdrop(), (0, 0))
+        for part in self.parts:
+            share = (age - part.begins) / part.takes
+            if share > 0.0:
+                part.lit.draw(screen, share=1 - (1 - min(1.0, share)) ** 2)
+        drawn = (age - FIRST) / (self.ready_at - FIRST)
+        if 0.0 < drawn < 1.0:
+            for at, color in self.plot.heads(drawn):
+                dot(screen, at, color)
+            self.lines.draw(screen, share=self._plot_share(drawn))
+        elif drawn >= 1.0:
+            self.lines.draw(screen)
+            self.ends.draw(screen)
+        if age >= self.title_at:
+            self.colored.draw(screen, share=self._line_share(age))
+            if self.finale:
+                self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
+                self.finale.draw(screen)
+
+    # ---- the pieces
+
+    def _make(self) -> Iterator[bool]:
+        """Make one piece at a time."""
+        self.colored = line(self._color(), RIGHT - LEFT)
+        self.parts.append(Part(line(STEEL, RIGHT - LEFT, THIN), 0.0))
+        yield True
+        self.parts.append(Part(self._title(), self.title_at))
+        yield True
+        self.parts.append(Part(self._where(), 0.1))
+        yield True
+        self.parts.append(Part(self._columns(), 0.1))
+        yield True
+        y = TOP
+        for i, team in enumerate(self.teams):
+            begins = FIRST + APART * (len(self.teams) - 1 - i)
+            self.parts.append(Part(self._team(team, y), begins))
+            y += PITCH * len(team)
+            yield True
+        x, w = span(6, 6)
+        self.plot = Plot(x, TOP, w, 528, self._curves(), self.outcome.seconds)
+        self.parts.append(Part(self.plot.grid(), 0.1))
+        yield True
+        self.lines = self.plot.lines()
+        yield True
+        self.ends = self.plot.ends()
+        yield True
+
+    def _color(self) -> Color:
+        return PLAYERS[self.winners[0]] if self.winners else ICE
+
+    def _title(self) -> Lit:
+        """Who won, in the winner's colour, and its crown."""
+        words = self.house.words
+        pane = Pane(LEFT, 54, RIGHT - LEFT, 116)
+        x = LEFT
+        for seat in self.winners:
+            badge(pane.hot, seat, x + 52, 110, 50)
+            x += 118
+        x += 14 if self.winners else 0
+        numbers = [str(seat + 1) for seat in sorted(self.winners)]
+        if not self.finished:
+            text = words("results.ended")
+        elif not numbers:
+            text = words("results.tie")
+        elif len(numbers) == 1:
+            text = words("results.wins", player=numbers[0])
+        else:
+            text = words("results.win", players=", ".join(numbers[:-1]), last=numbers[-1])
+        size = fitted(text, TITLE, 1210 - x)
+        pane.page.text(text, size, x, 112, self._color())
+        if self.winners:
+            at = x + text_width(text, size) + 70
+            ink = Ink(160, 140).to(80, 70)
+            icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
+            self.crown = Lit(ink.lit(), (round(at) - 80, 108 - 70))
+            self.finale = Finale(self.winners[0], at, 108, self.house.settings.flashes != "off")
+        return pane.done()
+
+    def _where(self) -> Lit:
+        """Game, time, arena."""
+        words, setup = self.house.words, self.setup
+        pane = Pane(1300, 60, RIGHT - 1300, 100)
+        minutes = words("results.minutes", minutes=f"{setup.minutes:g}")
+        title = load(setup.game, setup.arena).title
+        where = title.get(words.language, setup.arena)
+        pane.page.body(f"{words('results.' + setup.game)}  ·  {minutes}", RIGHT, 86, MIST, "r")
+        pane.page.body(where, RIGHT, 138, MIST, "r", fitted(where, 40, 500, "body"))
+        return pane.done()
+
+    def _columns(self) -> Lit:
+        """What the numbers are."""
+        words = self.house.words
+        x, w = span(0, 6)
+        plot_x, _ = span(6, 6)
+        pane = Pane(x, 206, 2 * w, 60)
+        names = ["results.score", *(f"results.{column}" for column in GAMES[self.setup.game].columns)]
+        for name, right in zip(names, COLUMNS, strict=False):
+            pane.page.body(words(name), x + right, 236, MIST, "r")
+        if self.by_team:
+            pane.page.body(words("results.team"), x + 24, 236, MIST)
+        pane.page.body(words("results.over_time"), plot_x, 236, MIST)
+        return pane.done()
+
+    def _team(self, rows: Sequence[Row], y: int) -> Lit:
+        """A panel with the rows of one robot, or of all robots of a team."""
+        x, w = span(0, 6)
+        h = PITCH * len(rows) - (PITCH - ROW)
+        wins = rows[0].seat in self.winners
+        pane = Pane(x, y, w, h)
+        panel(pane.hot, x, y, w, h, PLAYERS[rows[0].seat] if wins else STEEL, LINE if wins else THIN)
+        number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
+        color = ICE if wins else MIST
+        pane.page.text(number, fitted(number, SUB, 96), x + 62, y + h / 2, color, "head", "c")
+        for i, row in enumerate(rows):
+            self._row(pane, row, x, y + ROW / 2 + PITCH * i, color)
+        return pane.done()
+
+    def _row(self, pane: Pane, row: Row, x: int, y: float, color: Color) -> None:
+        """One robot: badge, score, what the game counts."""
+        badge(pane.hot, row.seat, x + 164, y, 38)
+        brain = self.setup.seats[row.seat].brain
+        if brain != "human":
+            icon(pane.hot, "ai", x + 232, y, 19, MIST, 3)
+        score = signed(row.score)
+        size = fitted(score, SUB, 110 if brain != "human" else 150, "hero")
+        pane.page.text(score, size, x + COLUMNS[0], y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
+        for name, right in zip(GAMES[self.setup.game].columns, COLUMNS[1:], strict=False):
+            value = row.facts[name]
+            text = f"{round(100 * value)}%" if name == "aim" else signed(round(value))
+            pane.page.cold.text(text, LABEL, x + right, y, color, "head", "r")
+
+    def _curves(self) -> list[Curve]:
+        series = self.outcome.series
+        if not self.by_team:
+            return sorted((Curve((row.seat,), tuple(series[row.seat])) for row in self.outcome.rows), key=lambda c: c.players)
+        seats = [[row.seat for row in team] for team in self.teams]
+        return [team_curve(team, [series[seat] for seat in team]) for team in seats]
+
+    def _plot_share(self, drawn: float) -> float:
+        """How much of the curves' picture lies left of the moment that is drawn."""
+        x, _ = self.plot.to(drawn * self.plot.seconds, 0)
+        return (x - self.lines.at[0]) / self.lines.image.get_width()
+
+    def _line_share(self, age: float) -> float:
+        reach = self.finale.reach if self.finale else 218 * min(1.0, (age - self.title_at) / 0.3)
+        return (reach + LEFT - self.colored.at[0]) / self.colored.image.get_width()
+
+
+def line(color: Color, length: float, width: int = LINE) -> Lit:
+    """The line under a title."""
+    pane = Pane(LEFT, 170, length, 12)
+    pane.hot.line([(LEFT, 176), (LEFT + length, 176)], color, width)
+    return pane.done()
+
+
+def signed(number: int) -> str:
+    """A number with a proper minus sign."""
+    return str(number).replace("-", "−")

@@ -1,0 +1,66 @@
+"""A running match on the screen: real time goes in, ticks, pictures and sounds come out.
+
+What a match, a demonstration and a replay have in common; who drives and what may be pressed is up to the scene.
+"""
+
+import pygame
+
+from pigaming_app.games.match import Match
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.pace import Pace
+from pigaming_app.scenes.views import VIEWS
+from pigaming_app.sim.world import WIDTH
+
+BEHIND = 72  # of 255: how bright a match is behind a page
+LAST = 10  # seconds before the end in which each second is heard
+
+
+class Stage:
+    """A match and its view. `loud`: its sounds are heard."""
+
+    def __init__(self, house: House, match: Match, players: list[str], loud: bool = True) -> None:
+        self.house, self.match, self.loud = house, match, loud
+        kind = VIEWS[match.setup.game]
+        self.view = kind(match.arena, match.state, players, house.settings, house.words)
+        self.pace = Pace()
+        self.unseen = 0.0  # seconds of real time since the last picture
+        self.second = LAST + 1
+
+    def warm(self, milliseconds: float) -> bool:
+        """Build sprites for so long; true when all are there."""
+        return bool(self.view.warm(milliseconds))
+
+    def advance(self, seconds: float, speed: float = 1.0) -> None:
+        """Let the match run on for `seconds` of real time."""
+        self.unseen += seconds
+        for _ in range(self.pace.due(seconds, speed)):
+            if self.match.over:
+                break
+            self.match.tick()
+            for name, player, x in self.view.watch(self.match.state):
+                if self.loud:
+                    self.house.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
+        self._count_down()
+
+    def wait(self, seconds: float) -> None:
+        """Let real time pass in which the match stands still; its sparks and lights move on."""
+        self.unseen += seconds
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the match, between its last two ticks."""
+        blend = 1.0 if self.match.over else self.pace.blend
+        self.view.draw(screen, self.match.state, blend, self.unseen)
+        self.unseen = 0.0
+
+    def picture(self) -> pygame.Surface:
+        """The match as it stands, as dark as it lies behind a page."""
+        canvas = pygame.Surface((1920, 1080))
+        self.draw(canvas)
+        canvas.fill((BEHIND, BEHIND, BEHIND), special_flags=pygame.BLEND_RGB_MULT)
+        return canvas
+
+    def _count_down(self) -> None:
+        second = int(self.match.seconds_left) + 1
+        if second < self.second and second <= LAST and not self.match.over and self.loud:
+            self.house.sounds.play("tick")
+        self.second = second
