@@ -263,15 +263,15 @@ def dodge(view: Any, action: Any) -> None:
     """Drive out of a bullet's path if that is possible in time: across it, to the nearer side."""
     if view.threat > 0.7:
         return
-    across = turn_to(view.threat_bearing + 0.5 * pi)  # the bullet comes from threat_bearing; its right hand is across - pi
+    across = turn_to(
+        view.threat_bearing + 0.5 * pi
+    )  # the bullet comes from threat_bearing; its right hand is across - pi
     ahead = 1.0 if abs(across) < 0.5 * pi else -1.0
     lean = abs(abs(across) - 0.5 * pi)  # pi/2: the robot stands across the path; 0: along it
     if lean < 0.5:
         return
     side = 1.0 if view.threat_side >= 0.0 else -1.0
     action.linear = -side * ahead
-
-
 
 
 def wake(delay: float, spread: float, patience: float) -> Any:

@@ -1,8 +1,8 @@
 """Many matches at once for policies from outside: give every match its actions, step all by one tick, compiled.
 
-    rows = matches([setup_1, setup_2, ...])
-    while not rows["over"].all():
-        step_all(rows, policy(rows))
+rows = matches([setup_1, setup_2, ...])
+while not rows["over"].all():
+    step_all(rows, policy(rows))
 """
 
 from collections.abc import Callable, Sequence

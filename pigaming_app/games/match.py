@@ -83,7 +83,9 @@ class Match:
         best = max(totals.values())
         leaders = [team for team in teams if totals[team] == best]
         winners = tuple(i for i in seats if state.robots[i].team == leaders[0]) if len(leaders) == 1 else ()
-        order = sorted(seats, key=lambda i: (-totals[state.robots[i].team], state.robots[i].team, -state.robots[i].score))
+        order = sorted(
+            seats, key=lambda i: (-totals[state.robots[i].team], state.robots[i].team, -state.robots[i].score)
+        )
         scores = [totals[state.robots[i].team] for i in order]
         rows = tuple(
             Row(i, state.robots[i].team, 1 + scores.index(score), state.robots[i].score, self.game.facts(state, i))
@@ -108,5 +110,3 @@ class Log:
                     action.fire + 2 * action.turbo,
                 )
             )
-
-

@@ -18,7 +18,9 @@ PATIENCE = 10.0  # seconds from the first vote until it begins without the other
 class Ballot:
     """The votes of the humans among `seats`; `devices` (of all four seats) may change hands here."""
 
-    def __init__(self, house: House, seats: Sequence[int], humans: Sequence[int], devices: Sequence[Device | None]) -> None:
+    def __init__(
+        self, house: House, seats: Sequence[int], humans: Sequence[int], devices: Sequence[Device | None]
+    ) -> None:
         self.house, self.seats, self.humans = house, list(seats), list(humans)
         self.devices = list(devices)
         self.votes: set[int] = set()

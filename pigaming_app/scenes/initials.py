@@ -176,7 +176,9 @@ class Initials:
         size = fitted(text, TITLE, RIGHT - LEFT - 330)
         pane.page.text(text, size, LEFT + 132, 112, PLAYERS[seat])
         pane.page.text(str(self.claim.score), TITLE, RIGHT, 112, ICE, "hero", "r")
-        pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], PLAYERS[seat], LINE)
+        pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line(
+            [(LEFT, 176), (LEFT + 218, 176)], PLAYERS[seat], LINE
+        )
         pane.page.text(words("results.three"), LABEL, 960, 256, ICE, "head", "c")
         return pane.done()
 

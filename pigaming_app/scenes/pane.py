@@ -82,7 +82,6 @@ def lines_of(text: str, size: int, width: float, face: str = "body") -> list[str
     return lines
 
 
-
 def span(first: int, columns: int) -> tuple[int, int]:
     """x and width of some of the twelve columns of the page, from column `first` (0..11) on; px."""
     return LEFT + first * 146, columns * 146 - 24

@@ -222,7 +222,9 @@ class ResultsPage:
     def _curves(self) -> list[Curve]:
         series = self.outcome.series
         if not self.by_team:
-            return sorted((Curve((row.seat,), tuple(series[row.seat])) for row in self.outcome.rows), key=lambda c: c.players)
+            return sorted(
+                (Curve((row.seat,), tuple(series[row.seat])) for row in self.outcome.rows), key=lambda c: c.players
+            )
         seats = [[row.seat for row in team] for team in self.teams]
         return [team_curve(team, [series[seat] for seat in team]) for team in seats]
 

@@ -1,19 +1,19 @@
 """Arenas: TOML files under assets/arenas/GAME/, checked at the door.
 
-    [title]
-    en = "Courtyard"
-    pt = "Pátio"
+[title]
+en = "Courtyard"
+pt = "Pátio"
 
-    [[start]]                # four of them, in the order of the players
-    at = [110, 110]          # px, x right, y down, in an arena of 1600 x 900
-    heading = 45             # degrees, 0 to the right, clockwise
+[[start]]                # four of them, in the order of the players
+at = [110, 110]          # px, x right, y down, in an arena of 1600 x 900
+heading = 45             # degrees, 0 to the right, clockwise
 
-    [[wall]]
-    from = [300, 200]
-    to = [300, 420]
-    thick = 30               # px
-    health = 5               # bullets it takes; left out: 5
-    solid = true             # instead of health: it takes any number
+[[wall]]
+from = [300, 200]
+to = [300, 420]
+thick = 30               # px
+health = 5               # bullets it takes; left out: 5
+solid = true             # instead of health: it takes any number
 """
 
 import tomllib

@@ -83,7 +83,7 @@ def fields_of(kind: type) -> tuple[Field, ...]:
 
 
 @cache
-def dtype(kind: type) -> "np.dtype[Any]":
+def dtype(kind: Any) -> "np.dtype[Any]":
     """The NumPy record type of a record: packed, little-endian, every number on its natural boundary."""
     import numpy as np
 
@@ -108,8 +108,8 @@ def numbers(state: Any) -> Iterator[float]:
 
 
 @cache
-def _layout(kind: type) -> struct.Struct:
-    def codes(kind: type) -> str:
+def _layout(kind: Any) -> struct.Struct:
+    def codes(kind: Any) -> str:
         parts = []
         for field in fields_of(kind):
             one = field.code or codes(field.kind)
@@ -167,5 +167,3 @@ def digest(state: Any) -> str:
     """SHA-256 over every bit of a plain record or of one element of a NumPy array: equal states, equal digests."""
     raw = to_bytes(state) if hasattr(state, "_fields") else state.tobytes()
     return hashlib.sha256(raw).hexdigest()
-
-

@@ -358,5 +358,3 @@ def lonely(match: Any, x: float, y: float) -> int:
         if pickup.alive and dx * dx + dy * dy < 300.0 * 300.0:
             return 0
     return 1
-
-

@@ -1,0 +1,204 @@
+"""The command line: one job a subcommand. What is wrong is said in one line on standard error; the exit code is then 2."""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, NoReturn
+
+JOBS = "play, replay, duel, bench, doctor, test"
+
+
+class Wrong(Exception):
+    """Something asked for that cannot be done: one line, exit code 2."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that says one line, and no usage text, when it does not understand."""
+
+    def error(self, message: str) -> NoReturn:
+        """Say what was wrong and leave."""
+        raise Wrong(message)
+
+
+def main(argv: Sequence[str]) -> int:
+    """Do what the arguments say; the exit code."""
+    from pigaming_app.games.choices import ChoiceError
+    from pigaming_app.games.replay import ReplayError
+    from pigaming_app.sim.arena import ArenaError
+
+    try:
+        if argv and argv[0] == "test":
+            from pigaming_app.checks import run as check
+
+            return check(argv[1:])
+        arguments = parser().parse_args(argv)
+        return int(JOB[arguments.job or "arcade"](arguments))
+    except (Wrong, ChoiceError, ArenaError, ReplayError) as wrong:
+        print(f"PiGaming: {wrong}", file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        return 1
+    except KeyboardInterrupt:
+        return 130
+
+
+def parser() -> argparse.ArgumentParser:
+    """Everything that can be asked for."""
+    whole = Parser(
+        prog="main.py", description="PiGaming: a robot arcade. Without arguments: play.", epilog=f"Jobs: {JOBS}"
+    )
+    whole.add_argument("--kiosk", action="store_true", help="nobody can leave the arcade")
+    whole.add_argument("--display", type=number, help="which display, from 1 on")
+    whole.add_argument("--frames", type=number, help=argparse.SUPPRESS)
+    jobs = whole.add_subparsers(dest="job", metavar="JOB", parser_class=Parser)
+    _play_options(jobs.add_parser("play", help="a match at once"))
+    replay = jobs.add_parser("replay", help="watch a recorded match, or prove that it plays out the same")
+    replay.add_argument("file", type=Path)
+    replay.add_argument("--verify", action="store_true", help="exit 1 where it plays out differently")
+    duel = jobs.add_parser("duel", help="many matches of two brains")
+    duel.add_argument("game")
+    duel.add_argument("left")
+    duel.add_argument("right")
+    duel.add_argument("--matches", type=number, default=100)
+    duel.add_argument("--seed", type=int, default=1)
+    duel.add_argument("--minutes", type=float)
+    duel.add_argument("--arena", default="classic")
+    duel.add_argument("--variant")
+    duel.add_argument("--json", action="store_true")
+    bench = jobs.add_parser("bench", help="how fast it all is here")
+    bench.add_argument("game", nargs="?", default="pitanks")
+    bench.add_argument("--json", action="store_true")
+    doctor = jobs.add_parser("doctor", help="what is there, what is missing, what to do")
+    doctor.add_argument("--json", action="store_true")
+    jobs.add_parser("test", help="lint, types, tests; further arguments go to pytest")
+    return whole
+
+
+def _play_options(play: argparse.ArgumentParser) -> None:
+    play.add_argument("--game", default="pitanks")
+    play.add_argument("--seats", default="human,fsm,off,off", help="who sits where: human, off, or an AI")
+    play.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; left out: everybody for themselves")
+    play.add_argument("--arena", default="classic", help="a name, or the path of a .toml file")
+    play.add_argument("--minutes", type=float)
+    play.add_argument("--variant")
+    play.add_argument("--seed", type=int, default=1)
+    play.add_argument("--headless", action="store_true", help="no window, no sound")
+    play.add_argument("--speed", default="1", help="how many times as fast, or max")
+    play.add_argument("--record", type=Path, help="write a replay")
+    play.add_argument("--screenshot", type=Path, help="save a picture (PNG)")
+    play.add_argument("--at", type=float, default=5.0, help="after so many seconds of the match")
+    play.add_argument("--kiosk", action="store_true")
+    play.add_argument("--display", type=number)
+    play.add_argument("--json", action="store_true", help="print the result as one JSON object")
+
+
+def number(text: str) -> int:
+    """A whole number from 1 on."""
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text} is less than 1")
+    return value
+
+
+def arcade(arguments: argparse.Namespace) -> int:
+    """The arcade itself."""
+    from pigaming_app.scenes.app import Options
+
+    return _open(Options(kiosk=arguments.kiosk, display=_display(arguments), frames=arguments.frames))
+
+
+def play(arguments: argparse.Namespace) -> int:
+    """A match at once, on the screen or without one."""
+    from pigaming_app import playing
+
+    return playing.play(arguments, _open, Wrong)
+
+
+def replay(arguments: argparse.Namespace) -> int:
+    """Watch a replay, or prove it."""
+    from pigaming_app.games import replay as replays
+
+    found = replays.load(arguments.file)
+    if arguments.verify:
+        same = replays.verify(found)
+        print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
+        return 0 if same else 1
+    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.replay import ReplayScene
+
+    return _open(Options(first=lambda house: ReplayScene(house, found), alone=True))
+
+
+def duel(arguments: argparse.Namespace) -> int:
+    """Many matches of two brains."""
+    from pigaming_app.ai import BRAINS, league
+    from pigaming_app.games import GAMES
+    from pigaming_app.games.choices import one_of
+
+    one_of("game", arguments.game, list(GAMES))
+    for brain in (arguments.left, arguments.right):
+        one_of("brain", brain, list(BRAINS[arguments.game]))
+    result = league.duel(
+        arguments.game,
+        arguments.left,
+        arguments.right,
+        arguments.matches,
+        arguments.seed,
+        arguments.minutes,
+        arguments.arena,
+        arguments.variant,
+    )
+    if arguments.json:
+        print(json.dumps(asdict(result)))
+        return 0
+    low, high = result.wilson95
+    print(f"{'':10}{'wins':>7}{'ties':>7}{'losses':>7}{'mean score':>12}")
+    print(f"{result.left:10}{result.wins:7}{result.ties:7}{result.losses:7}{result.mean_score_left:12.2f}")
+    print(f"{result.right:10}{result.losses:7}{result.ties:7}{result.wins:7}{result.mean_score_right:12.2f}")
+    print(f"{result.left} wins {100 * result.wins / result.matches:.1f} % of {result.matches} matches", end=" ")
+    print(f"(Wilson 95 %: {100 * low:.1f} to {100 * high:.1f} %), {result.ticks_per_second:,.0f} ticks/s")
+    return 0
+
+
+def bench(arguments: argparse.Namespace) -> int:
+    """How fast it all is here."""
+    from pigaming_app import bench as benches
+    from pigaming_app.games import GAMES
+    from pigaming_app.games.choices import one_of
+
+    one_of("game", arguments.game, list(GAMES))
+    figures = benches.measure(arguments.game)
+    if arguments.json:
+        print(json.dumps(figures))
+    else:
+        for key, value in figures.items():
+            print(f"{key:28} {value if not isinstance(value, float) else f'{value:,.3f}'}")
+    return 0
+
+
+def doctor(arguments: argparse.Namespace) -> int:
+    """What is there and what is missing."""
+    from pigaming_app.doctor import run
+
+    return run(arguments.json)
+
+
+def _display(arguments: argparse.Namespace) -> int | None:
+    return None if arguments.display is None else arguments.display - 1
+
+
+def _open(options: Any) -> int:
+    """Run the arcade; without a display, say so."""
+    from pigaming_app.scenes.app import run
+    from pigaming_app.scenes.canvas import NoDisplay
+
+    try:
+        return run(options)
+    except NoDisplay as missing:
+        raise Wrong(str(missing)) from None
+
+
+JOB = {"arcade": arcade, "play": play, "replay": replay, "duel": duel, "bench": bench, "doctor": doctor}

@@ -1,0 +1,151 @@
+"""The job `play`: one match, with or without a screen, at any speed, recorded if wished."""
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter, sleep
+from typing import Any
+
+from pigaming_app.ai import BRAINS, make
+from pigaming_app.games.choices import choose
+from pigaming_app.games.game import Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.replay import save
+from pigaming_app.sim.world import DT, ROBOTS
+
+FASTEST = 64.0  # times real time that a window shows
+
+
+def play(arguments: argparse.Namespace, show: Callable[[Any], int], wrong: type[Exception]) -> int:
+    """Play what the command line asked for; `show` opens the arcade, `wrong` is raised for a bad value."""
+    teams = None
+    if arguments.teams is not None:
+        try:
+            teams = [int(team) for team in arguments.teams.split(",")]
+        except ValueError:
+            raise wrong(f"--teams: {arguments.teams!r}; numbers such as 0,0,1,1 are needed") from None
+    seats = [seat.strip() for seat in arguments.seats.split(",")]
+    names = list(BRAINS.get(arguments.game, {}))
+    setup = choose(
+        arguments.game, seats, arguments.arena, arguments.minutes, arguments.seed, arguments.variant, teams, names
+    )
+    speed = _speed(arguments.speed, wrong)
+    for path in (arguments.record, arguments.screenshot):
+        if path is not None and not path.absolute().parent.is_dir():
+            raise wrong(f"{path}: there is no such folder")
+    if arguments.headless:
+        return _headless(arguments, setup, speed, wrong)
+    return _on_screen(arguments, setup, min(speed, FASTEST), show)
+
+
+def _speed(text: str, wrong: type[Exception]) -> float:
+    """How many times real time; infinity for "max"."""
+    try:
+        speed = float("inf") if text == "max" else float(text)
+    except ValueError:
+        speed = 0.0
+    if not speed > 0.0:
+        raise wrong(f"--speed: {text!r}; a number above 0, or max, is needed")
+    return speed
+
+
+def seated(setup: Setup) -> Match:
+    """A match with an AI on every seat that names one; people's seats stand still."""
+    match = Match(setup)
+    for i, seat in enumerate(setup.seats):
+        if seat.brain in BRAINS[setup.game]:
+            match.sit(i, make(setup.game, seat.brain, setup.seed * ROBOTS + i))
+    return match
+
+
+def _headless(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type[Exception]) -> int:
+    match = seated(setup)
+    if any(seat.brain == "human" for seat in setup.seats):
+        print("PiGaming: nobody can steer without a window; the human seat stands still", file=sys.stderr)
+    began = perf_counter()
+    shot_at = round(arguments.at / DT) if arguments.screenshot else -1
+    while not match.over:
+        match.tick()
+        if match.state.tick == shot_at:
+            _picture(match, arguments.screenshot, wrong)
+            shot_at = -1
+        ahead = match.seconds / speed - (perf_counter() - began)
+        if ahead > 0.0:
+            sleep(ahead)
+    if shot_at >= 0:
+        _picture(match, arguments.screenshot, wrong)
+    _record(match, arguments.record, wrong)
+    _tell(match, arguments.json, perf_counter() - began)
+    return 0
+
+
+def _on_screen(arguments: argparse.Namespace, setup: Setup, speed: float, show: Callable[[Any], int]) -> int:
+    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.house import House
+    from pigaming_app.scenes.match import MatchScene
+    from pigaming_app.scenes.press import Device
+
+    made: list[MatchScene] = []
+
+    def scene(house: House) -> MatchScene:
+        """People take the pads that are there, then the key clusters."""
+        free = [*house.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
+        people = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
+        devices = {seat: device for seat, device in zip(people, free, strict=False)}
+        made.append(MatchScene(house, setup, [devices.get(i) for i in range(ROBOTS)], speed))
+        return made[0]
+
+    code = show(
+        Options(
+            first=scene,
+            kiosk=arguments.kiosk,
+            display=None if arguments.display is None else arguments.display - 1,
+            shot=arguments.screenshot,
+            shot_at=arguments.at,
+        )
+    )
+    if made and arguments.record:
+        _record(made[0].match, arguments.record, OSError)
+    return code
+
+
+def _picture(match: Match, path: Path, wrong: type[Exception]) -> None:
+    """The match as it stands, drawn without a window."""
+    os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
+    from pigaming_app.scenes.still import picture
+
+    try:
+        picture(match, path)
+    except OSError as trouble:
+        raise wrong(f"{path}: the picture cannot be saved ({trouble})") from None
+
+
+def _record(match: Match, path: Path | None, wrong: type[Exception]) -> None:
+    if path is None:
+        return
+    try:
+        save(match, path)
+    except OSError as trouble:
+        raise wrong(f"{path}: the replay cannot be saved ({trouble.strerror})") from None
+
+
+def _tell(match: Match, as_json: bool, seconds: float) -> None:
+    """The table of results."""
+    outcome = match.outcome()
+    if as_json:
+        rows = [
+            {"seat": row.seat + 1, "place": row.place, "team": row.team, "score": row.score, **row.facts}
+            for row in outcome.rows
+        ]
+        told = {"game": match.setup.game, "arena": match.setup.arena, "winners": [seat + 1 for seat in outcome.winners]}
+        print(json.dumps({**told, "rows": rows, "match_seconds": outcome.seconds, "seconds": seconds}))
+        return
+    for row in outcome.rows:
+        brain = match.setup.seats[row.seat].brain
+        facts = "  ".join(
+            f"{name} {value:.0%}" if name == "aim" else f"{name} {value:g}" for name, value in row.facts.items()
+        )
+        print(f"{row.place}.  P{row.seat + 1} {brain:8} {row.score:+4d}   {facts}")

@@ -1,0 +1,180 @@
+"""What the pages are built of: small pieces of light, each made once for each thing that it can show, then only added.
+
+Every function here and in the pages that makes light is a pure function of what it shows, and keeps what it made.
+Pieces lie round (0, 0) and are drawn where they are needed.
+"""
+
+import math
+from functools import cache, lru_cache
+
+import pygame
+
+from pigaming_app.scenes.focus import Box
+from pigaming_app.scenes.ink import (
+    BODY,
+    BOLD,
+    FOCUS,
+    ICE,
+    LINE,
+    MIST,
+    STEEL,
+    THIN,
+    TITLE,
+    Color,
+    Ink,
+    Page,
+    button,
+    button_width,
+    cut,
+    dim,
+    icon,
+    text_width,
+)
+from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, fitted
+from pigaming_app.scenes.sprites import Sprite
+
+LEVELS = 8  # brightnesses kept of what pulses
+ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # labels that are drawn: no font of ours has them
+REACH = 60  # px that a corner of the focus covers
+
+
+def pulse(seconds: float, low: int = 4) -> int:
+    """The level, `low` to LEVELS, of what calls for a press, once a second."""
+    return round(low + (LEVELS - low) * (0.5 + 0.5 * math.cos(math.tau * seconds)))
+
+
+def dimmed(lit: Lit, share: float) -> Lit:
+    """A piece of light at `share` of its brightness, 0..1."""
+    image = lit.image.copy()
+    image.fill([round(255 * share)] * 3, special_flags=pygame.BLEND_RGB_MULT)
+    return Lit(image, lit.at)
+
+
+@lru_cache(maxsize=16)
+def heading(title: str, right: str = "", color: Color = ICE) -> Lit:
+    """The head of a page, with a line below it and a fact at its right end."""
+    pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
+    size = fitted(title, TITLE, 1000)
+    pane.page.text(title, size, LEFT, 112, color)
+    if right:
+        room = RIGHT - LEFT - 60 - text_width(title, size)
+        pane.page.body(right, RIGHT, 112, MIST, "r", fitted(right, BODY, room, "body"))
+    pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
+    return pane.done()
+
+
+@lru_cache(maxsize=256)
+def text(
+    said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
+) -> Lit:
+    """One line, its capitals round the line y = 0; larger ones shimmer. It shrinks where it would be wider than `room`."""
+    size = fitted(said, size, room, face)
+    w = text_width(said, size, face)
+    left = -w * {"l": 0.0, "c": 0.5, "r": 1.0}[align]
+    pane = Pane(left, -size, w, 2 * size)
+    sheet = pane.page.cold if face == "body" else pane.page.warm
+    sheet.text(said, size, left, 0, color, face)
+    return pane.done()
+
+
+@lru_cache(maxsize=64)
+def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> Lit:
+    """An icon round (0, 0), `r` px to each side."""
+    if level < LEVELS:
+        return dimmed(sign(name, r, color, w), level / LEVELS)
+    pane = Pane(-r, -r, 2 * r, 2 * r)
+    icon(pane.hot, name, 0, 0, r, color, w)
+    return pane.done()
+
+
+def key_width(label: str) -> float:
+    """Width of a button with a label, px."""
+    return 60 if label in ARROWS else button_width(label)
+
+
+def key(page: Page, x: float, y: float, label: str, color: Color = ICE) -> float:
+    """A button as it is printed on the device, x its left edge; arrows are drawn. Answers its width."""
+    if label not in ARROWS:
+        return button(page, x, y, label, color)
+    page.hot.line(cut(x, y - 28, 60, 56, 10), color, THIN, True)
+    icon(page.cold, ARROWS[label], x + 30, y, 16, color, 5)
+    return 60
+
+
+@lru_cache(maxsize=16)
+def calling(said: str, label: str, size: int, level: int = LEVELS) -> Lit:
+    """A yellow line that asks for a press; {button} in it is the button. Round (0, 0)."""
+    if level < LEVELS:
+        return dimmed(calling(said, label, size), level / LEVELS)
+    before, hole, after = said.partition("{button}")
+    wide = key_width(label) + 36 if hole else 0
+    size = fitted(before.strip() + after.strip(), size, 1500 - wide)
+    ends = [text_width(part.strip(), size) for part in (before, after)]
+    x = -(sum(ends) + wide) / 2
+    pane = Pane(x, -size, -2 * x, 2 * size)
+    pane.page.text(before.strip(), size, x, 0, FOCUS)
+    if hole:
+        key(pane.page, x + ends[0] + 18, 0, label, FOCUS)
+    pane.page.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
+    return pane.done()
+
+
+def calling_width(said: str, label: str, size: int) -> float:
+    """Width of such a line, px."""
+    return calling(said, label, size).image.get_width() - 96
+
+
+def chip_width(said: str) -> int:
+    """Width of a chip, px."""
+    return round(text_width(said, BODY)) + 48
+
+
+@lru_cache(maxsize=128)
+def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
+    """A box with a word, its upper left at (0, 0). `state`: off, on (lit), focus (lit and in focus) or ready (calls)."""
+    edge = {"off": STEEL, "on": ICE, "focus": FOCUS, "ready": FOCUS}[state]
+    pane = Pane(0, 0, w, high)
+    pane.hot.line(cut(0, 0, w, high, 12), edge, THIN, True)
+    color = {"off": MIST, "ready": FOCUS}.get(state, ICE)
+    pane.page.cold.text(said, fitted(said, BODY, w - 24), w / 2, high / 2, color, "head", "c")
+    return pane.done()
+
+
+@cache
+def corner(across: int, down: int, arm: int, c: int, width: int, color: Color) -> Lit:
+    """One of the four corners of the focus; `across` and `down` are 1 or -1: where the box lies from it."""
+    ink = Ink(2 * REACH + 40, 2 * REACH + 40).to(REACH + 20, REACH + 20)
+    points = [(0, down * (c + arm)), (0, down * c), (across * c, 0), (across * (c + arm), 0)]
+    return Lit(ink.neon(points, color, width).lit(1.0), (-REACH - 20, -REACH - 20))
+
+
+def focused(screen: pygame.Surface, box: Box, seconds: float, small: bool = False, color: Color = FOCUS) -> None:
+    """Paint the four corners that mean focus round a box; they breathe once a second."""
+    arm, c, width = (12, 12, LINE) if small else (38, 20, BOLD)
+    out = 2.0 + 2.0 * math.sin(math.tau * seconds)
+    x, y, w, h = box[0] - out, box[1] - out, box[2] + 2 * out, box[3] + 2 * out
+    for across, down, px, py in ((1, 1, x, y), (-1, 1, x + w, y), (-1, -1, x + w, y + h), (1, -1, x, y + h)):
+        corner(across, down, arm, c, width, color).draw(screen, round(px), round(py))
+
+
+def blacked(screen: pygame.Surface, *boxes: Box) -> pygame.Surface:
+    """Hide the dots of the floor inside boxes of the house shape."""
+    for x, y, w, h in boxes:
+        pygame.draw.polygon(screen, (0, 0, 0), cut(x, y, w, h, 20))
+    return screen
+
+
+def glow_bar(screen: pygame.Surface, box: Box, color: Color = FOCUS) -> None:
+    """A breath of colour inside a row in focus."""
+    screen.fill(dim(color, 0.09), (round(box[0]), round(box[1]), round(box[2]), round(box[3])), pygame.BLEND_RGB_ADD)
+
+
+def stamp(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
+    """Blit a premultiplied sprite where it belongs."""
+    screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=pygame.BLEND_PREMULTIPLIED)
+
+
+def switched(before: float, wanted: bool, seconds: float, duration: float) -> float:
+    """A share, 0..1, on its way to 1 (wanted) or 0."""
+    step = seconds / duration
+    return min(1.0, before + step) if wanted else max(0.0, before - step)
