@@ -169,7 +169,7 @@ def _recover(app: App) -> None:
     from pigaming_app.scenes.title import Title
 
     app.stack = Stack(Title(app.house))
-    app.notices.append(app.house.words("app.trouble"))
+    app.notices.append(app.house.words("app.error"))
 
 
 def _function_key(app: App, key: int) -> None:
@@ -182,10 +182,10 @@ def _function_key(app: App, key: int) -> None:
         name = f"pigaming-{datetime.now():%Y%m%d-%H%M%S}.png"
         try:
             house.canvas.screenshot(folders().data / "pictures" / name)
-            app.notices.append(house.words("app.shot") + f": {name}")
+            app.notices.append(house.words("app.picture") + f": {name}")
         except OSError as trouble:
             log.warning("%s", trouble)
-            app.notices.append(house.words("app.no_shot"))
+            app.notices.append(house.words("app.unsaved"))
 
 
 def _operator(app: App, presses: list[Press]) -> None:

@@ -91,7 +91,7 @@ class Title:
         assert self.page is not None
         screen.blit(self.page, (0, 0))
         beat = round(4 + 4 * (0.5 + 0.5 * math.cos(self.age * math.tau)))
-        line = self.house.words("title.press")
+        line = self.house.words("title.press", button=self.house.controls.label(None, Act.FIRE))
         word(line, SUB, FOCUS, "head", 0.45, level=beat).draw(screen, 960, 900)
         w = text_width(line, SUB) / 2
         for side in (-1, 1):
@@ -126,7 +126,7 @@ class Title:
         return None
 
     def _switch(self) -> None:
-        self.house.words.switch(self.house.words.other())
+        self.house.words.switch(self.house.words.other)
         self.house.settings.language = self.house.words.language
         self.house.sounds.play("accept")
         self._make()
@@ -151,8 +151,8 @@ class Title:
         panel(ink, x, TILE_Y, w, TILE_H, STEEL)
         vignette(game, ink, x, TILE_Y + 4)
         ink.line([(x + 24, TILE_Y + 284), (x + w - 24, TILE_Y + 284)], STEEL, 2)
-        page.text(words(f"{game}.name"), LABEL, x + 32, TILE_Y + 326, ICE if there else MIST)
-        page.body(words(f"{game}.line") if there else words("title.soon"), x + 32, TILE_Y + 380, MIST)
+        page.text(words(f"games.{game}"), LABEL, x + 32, TILE_Y + 326, ICE if there else MIST)
+        page.body(words(f"games.{game}_line") if there else words("title.soon"), x + 32, TILE_Y + 380, MIST)
         return Spot(game, pygame.Rect(x, TILE_Y, w, TILE_H))
 
     def _row(self, page: Page) -> list[Spot]:

@@ -1,4 +1,8 @@
-"""The words on the screens, in English and European Portuguese: assets/text/LANGUAGE.toml."""
+"""Everything the arcade says, in English and in Portuguese: assets/text/en.toml and pt.toml, with the same keys in both.
+
+    words = Words("pt")
+    words("lobby.seat", player=2)      "Jogador 2"
+"""
 
 import tomllib
 from typing import Any
@@ -9,26 +13,39 @@ LANGUAGES = ("en", "pt")
 
 
 class Words:
-    """`words("lobby.ready", player=2)` is a text in the language of the moment."""
+    """The texts of one language at a time; `language` is one of LANGUAGES."""
 
     def __init__(self, language: str) -> None:
         self.language = language
-        self.texts = texts(language)
+        self._texts = texts(language)
 
     def __call__(self, key: str, **values: object) -> str:
-        """The text of a key, with its {names} filled in. Raises KeyError for a key that is not there."""
-        return self.texts[key].format(**values) if values else self.texts[key]
+        """The text of a key, `table.name`, with values put in. Raises KeyError where there is no such text."""
+        return self._texts[key].format(**values)
 
     def switch(self, language: str) -> None:
         """Speak another language from now on."""
-        self.language, self.texts = language, texts(language)
+        self.language = language
+        self._texts = texts(language)
 
+    @property
     def other(self) -> str:
-        """The language that is not spoken now."""
+        """The language that is not spoken."""
         return LANGUAGES[1 - LANGUAGES.index(self.language)]
+
+    def printed(self, label: str) -> str:
+        """What the button labelled `label` is called here: the space bar has a name of its own."""
+        return self._texts.get(f"keys.{label}", label)
 
 
 def texts(language: str) -> dict[str, str]:
-    """All texts of a language by `table.key`."""
-    tables: dict[str, dict[str, Any]] = tomllib.loads((ASSETS / "text" / f"{language}.toml").read_text("utf-8"))
-    return {f"{table}.{key}": str(text) for table, entries in tables.items() for key, text in entries.items()}
+    """Every text of a language by its key. Raises OSError or ValueError for a file that is missing or broken."""
+    file = ASSETS / "text" / f"{language}.toml"
+    return dict(_flat(tomllib.loads(file.read_text(encoding="utf-8")), ""))
+
+
+def _flat(table: dict[str, Any], path: str) -> list[tuple[str, str]]:
+    found = []
+    for name, value in table.items():
+        found += _flat(value, f"{path}{name}.") if isinstance(value, dict) else [(path + name, str(value))]
+    return found
