@@ -25,8 +25,8 @@ ENGAGE = 420.0  # px at which an attacker no longer closes in
 CROWD = 230.0  # px at which it backs off
 ARRIVED = 26.0  # px from the goal that count as there
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
-HELD_UP_TICKS = 40
-FREEING = 25  # ticks of backing out
+HELD_UP_TICKS = 30
+FREEING = 20  # ticks of backing out, one way or the other
 NEW_AIM = 25  # ticks after which the error of the aim is drawn anew
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
@@ -47,6 +47,7 @@ class FsmMind:
     unseen: int  # ticks since an opponent was last in sight
     seen: int  # ticks for which one has been in sight
     target: int  # which of the others; -1: none
+    on_target: int  # ticks for which the gun has pointed at the target
     bias: float  # rad, the present error of the aim
     bias_left: int
     anchor_x: float  # where it was when it last got anywhere
@@ -133,9 +134,13 @@ def attack(view: Any, mind: Any, action: Any) -> int:
 
 @kernel
 def break_free(view: Any, mind: Any, action: Any) -> int:
-    """Back out the way it came, with a turn, until it has got somewhere or tried for long enough."""
+    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
     press(action, mind.escape, mind.escape_turn, 0, 0)
     if mind.since < FREEING:
+        return BREAK_FREE
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
         return BREAK_FREE
     mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
     return DEFEND if view.lead >= 0 else ATTACK
@@ -186,14 +191,17 @@ def err(mind: Any) -> None:
 def feel_held_up(view: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
     dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if mind.state == BREAK_FREE:
+        return
     if dx * dx + dy * dy > HELD_UP * HELD_UP or action.linear == 0.0:
         mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
         return
     mind.held_up += PERIOD
-    if mind.held_up > HELD_UP_TICKS and mind.state != BREAK_FREE:
+    if mind.held_up > HELD_UP_TICKS:
         mind.state, mind.since = BREAK_FREE, 0
-        mind.escape = -1.0 if action.linear > 0.0 else 1.0
-        mind.escape_turn = 1.2 * chance(mind) - 0.6
+        back = -1.0 if action.linear > 0.0 else 1.0
+        mind.escape = back if chance(mind) < 0.75 else -back  # the way back may be blocked too
+        mind.escape_turn = 2.0 * chance(mind) - 1.0
 
 
 @kernel
@@ -244,8 +252,14 @@ def snap_shot(view: Any, mind: Any) -> int:
         return 1
     if not mind.seen or mind.seen * DT < mind.eyes.delay or not view.loaded or other.protected > 20:
         return 0
-    width = RADIUS / (other.distance + 1.0)
-    return 1 if abs(other.aim + mind.bias) < 0.7 * width + 0.02 else 0
+    if abs(other.aim + mind.bias) > 0.7 * RADIUS / (other.distance + 1.0) + 0.02:
+        mind.on_target = 0
+        return 0
+    mind.on_target += PERIOD
+    if mind.on_target * DT < mind.eyes.delay:  # the finger is as late as the eyes
+        return 0
+    mind.on_target = 0
+    return 1
 
 
 @kernel
@@ -284,7 +298,7 @@ def wake(delay: float, spread: float, patience: float) -> Any:
     return fill
 
 
-EASY = Kind("easy", FsmMind, think, wake(delay=0.45, spread=0.16, patience=6.0))
-NORMAL = Kind("normal", FsmMind, think, wake(delay=0.25, spread=0.07, patience=4.0))
-HARD = Kind("hard", FsmMind, think, wake(delay=0.12, spread=0.02, patience=2.5))
-FSM = Kind("fsm", FsmMind, think, wake(delay=0.25, spread=0.07, patience=4.0))
+EASY = Kind("easy", FsmMind, think, wake(delay=0.5, spread=0.15, patience=6.0))
+NORMAL = Kind("normal", FsmMind, think, wake(delay=0.36, spread=0.10, patience=4.0))
+HARD = Kind("hard", FsmMind, think, wake(delay=0.24, spread=0.06, patience=2.5))
+FSM = Kind("fsm", FsmMind, think, wake(delay=0.36, spread=0.10, patience=4.0))
