@@ -121,7 +121,7 @@ def test_a_packed_record_is_its_own_and_writable():
 
 
 def test_what_is_no_number_is_refused():
-    with pytest.raises(TypeError, match="name: .* is not float, int or a record"):
+    with pytest.raises(TypeError, match=r"name: .* is not float, int or a record"):
 
         @record
         class Named:

@@ -1,0 +1,186 @@
+"""Robots at walls and at each other: they slide, they stop, they are pushed, they are never inside anything."""
+
+from math import atan2, cos, hypot, pi, radians, sin
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from pigaming_app.sim.chance import chance, seeded
+from pigaming_app.sim.contact import SHOVE, drive, in_wall
+from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
+from tests.floor import floor
+
+FASTEST = 260.0 * 1.3 * 1.25  # px/s, with turbo and the pick-up
+
+
+def ask(robot, linear, angular=0.0):
+    robot.ask_linear, robot.ask_angular = linear, angular
+
+
+def driven(world, seconds):
+    for _ in range(round(seconds * HZ)):
+        drive(world)
+    return world
+
+
+def from_wall(wall, x, y):
+    ex, ey = wall.bx - wall.ax, wall.by - wall.ay
+    length2 = ex * ex + ey * ey
+    t = min(1.0, max(0.0, ((x - wall.ax) * ex + (y - wall.ay) * ey) / length2)) if length2 else 0.0
+    return hypot(x - wall.ax - t * ex, y - wall.ay - t * ey)
+
+
+def depth(world):
+    """How far the deepest present robot is inside a wall, px: measured here, without the grid."""
+    deepest = 0.0
+    for robot in world.robots:
+        if robot.present:
+            bounds = min(robot.x, WIDTH - robot.x, robot.y, HEIGHT - robot.y)
+            deepest = max(deepest, RADIUS - bounds)
+            for wall in world.walls[: world.wall_count]:
+                if wall.health:
+                    deepest = max(deepest, wall.half + RADIUS - from_wall(wall, robot.x, robot.y))
+    return deepest
+
+
+@pytest.mark.parametrize("degrees", [30, 60, 80])
+def test_a_robot_slides_along_a_wall_at_the_cosine_of_its_speed(degrees):
+    world = floor(walls=[(700.0, 100.0, 700.0, 850.0)], poses=[(700.0 - 51.0, 300.0, radians(90 - degrees))])
+    robot = world.robots[0]
+    ask(robot, 200.0)
+    driven(world, 0.5)
+    y = robot.y
+    driven(world, 1.0)
+    assert robot.y - y == pytest.approx(200.0 * sin(radians(90 - degrees)), rel=0.01)
+    assert robot.x == pytest.approx(700.0 - 15.0 - RADIUS, abs=1e-3)
+
+
+def test_along_the_outer_wall_too():
+    world = floor(poses=[(800.0, RADIUS, radians(-60))])
+    ask(world.robots[0], 200.0)
+    driven(world, 0.5)
+    x = world.robots[0].x
+    driven(world, 1.0)
+    assert world.robots[0].x - x == pytest.approx(200.0 * cos(radians(60)), rel=0.01)
+    assert world.robots[0].y == RADIUS
+
+
+def test_head_on_stops_at_the_wall():
+    world = floor(walls=[(700.0, 100.0, 700.0, 800.0)], poses=[(500.0, 450.0, 0.0)])
+    ask(world.robots[0], FASTEST)
+    driven(world, 3.0)
+    assert world.robots[0].x == pytest.approx(700.0 - 15.0 - RADIUS, abs=1e-3)
+    assert world.robots[0].y == pytest.approx(450.0)
+
+
+def test_two_head_on_stop_each_other_in_the_middle():
+    world = floor(poses=[(400.0, 450.0, 0.0), (800.0, 450.0, pi)])
+    for robot in world.robots[:2]:
+        ask(robot, 260.0)
+    driven(world, 4.0)
+    one, other = world.robots[:2]
+    assert one.x == pytest.approx(600.0 - RADIUS, abs=0.01)
+    assert other.x == pytest.approx(600.0 + RADIUS, abs=0.01)
+
+
+def test_a_robot_that_stands_still_is_pushed():
+    world = floor(poses=[(300.0, 450.0, 0.0), (400.0, 450.0, 0.0)])
+    ask(world.robots[0], 260.0)
+    driven(world, 2.0)
+    assert world.robots[1].x > 600.0
+    assert world.robots[1].y == pytest.approx(450.0)
+    assert world.robots[1].x - world.robots[0].x == pytest.approx(2 * RADIUS, abs=0.01)
+
+
+def test_an_absent_robot_is_no_obstacle():
+    world = floor(poses=[(300.0, 110.0, 0.0)])
+    world.robots[1].x, world.robots[1].y = 500.0, 110.0
+    ask(world.robots[0], 260.0)
+    driven(world, 2.0)
+    assert world.robots[0].x == pytest.approx(300.0 + 260.0 * (2.0 - 0.08), abs=6.0)
+
+
+@pytest.mark.parametrize("corner", ["outer", "inner"])
+def test_four_robots_pressed_into_a_corner_stay_apart_and_out_of_walls(corner):
+    poses = [(120.0, 120.0, 0.0), (220.0, 110.0, 0.0), (110.0, 220.0, 0.0), (240.0, 240.0, 0.0)]
+    walls = []
+    to_x, to_y = 0.0, 0.0
+    if corner == "inner":
+        walls = [(700.0, 300.0, 1100.0, 300.0), (700.0, 300.0, 700.0, 700.0)]
+        poses = [(x + 680.0, y + 280.0, heading) for x, y, heading in poses]
+        to_x, to_y = 700.0, 300.0
+    world = floor(walls, poses)
+    closest = 1e9
+    for tick in range(10 * HZ):
+        before = [(robot.x, robot.y, robot.linear) for robot in world.robots]
+        for robot in world.robots:
+            robot.heading = atan2(to_y - robot.y, to_x - robot.x)
+            ask(robot, FASTEST)
+        drive(world)
+        for robot, (x, y, _) in zip(world.robots, before, strict=True):
+            assert hypot(robot.x - x, robot.y - y) <= SHOVE + FASTEST * DT
+        assert depth(world) < 1e-5, tick
+        for i, one in enumerate(world.robots):
+            for other in world.robots[:i]:
+                closest = min(closest, hypot(one.x - other.x, one.y - other.y))
+    assert closest > 0.8 * 2 * RADIUS
+
+
+PLACES = st.tuples(st.floats(40.0, WIDTH - 40.0), st.floats(40.0, HEIGHT - 40.0), st.floats(0.0, 6.28))
+LINES = st.tuples(st.floats(0.0, WIDTH), st.floats(0.0, HEIGHT), st.floats(0.0, WIDTH), st.floats(0.0, HEIGHT))
+STICKS = st.lists(
+    st.tuples(*[st.tuples(st.sampled_from([-1.0, 0.5, 1.0]), st.floats(-1, 1)) for _ in range(4)]),
+    min_size=2,
+    max_size=5,
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(LINES, max_size=6), st.lists(PLACES, min_size=4, max_size=4), STICKS, st.floats(5.0, 60.0))
+def test_no_driving_gets_into_a_wall(walls, poses, sticks, half):
+    world = floor(walls, poses, half=half)
+    assume(not any(in_wall(world, robot.x, robot.y) for robot in world.robots))
+    assert depth(world) < 1e-5
+    for stick in sticks:
+        for robot, (linear, angular) in zip(world.robots, stick, strict=True):
+            ask(robot, linear * FASTEST, angular * 3.0)
+        for _ in range(20):
+            before = [(robot.x, robot.y) for robot in world.robots]
+            drive(world)
+            assert depth(world) < 1e-5
+            for robot, (x, y) in zip(world.robots, before, strict=True):
+                assert hypot(robot.x - x, robot.y - y) <= SHOVE + FASTEST * DT
+
+
+def test_a_crowd_near_walls_never_gets_into_one():
+    """Random driving from fixed free poses where it is narrow, for 20 s."""
+    walls = [(500.0, 300.0, 700.0, 500.0), (700.0, 300.0, 500.0, 500.0), (500.0, 600.0, 700.0, 600.0)]
+    world = floor(walls, [(400.0, 400.0, 0.0), (800.0, 400.0, pi), (600.0, 200.0, 1.6), (450.0, 550.0, 0.0)])
+    luck = SimpleNamespace(random=seeded(5))
+    for tick in range(20 * HZ):
+        if tick % 10 == 0:
+            for robot in world.robots:
+                ask(robot, FASTEST * (1 if chance(luck) < 0.7 else -1), 6 * chance(luck) - 3)
+        drive(world)
+        assert depth(world) < 1e-5
+
+
+def test_a_robot_in_an_acute_wedge_stands_and_can_drive_out_again():
+    """Two walls that meet at 30 degrees: the tip is (600, 450), open to the right."""
+    lean = radians(15)
+    arm_x, arm_y = 500.0 * cos(lean), 500.0 * sin(lean)
+    walls = [(600.0, 450.0, 600.0 + arm_x, 450.0 - arm_y), (600.0, 450.0, 600.0 + arm_x, 450.0 + arm_y)]
+    world = floor(walls, [(1050.0, 450.0, pi)])
+    robot = world.robots[0]
+    ask(robot, FASTEST)
+    for _ in range(5 * HZ):
+        drive(world)
+        assert depth(world) < 1e-5
+    # both arms touch it where its centre is (half + RADIUS) / sin 15 from the tip
+    assert robot.x == pytest.approx(600.0 + (15.0 + RADIUS) / sin(lean), abs=FASTEST * DT)
+    ask(robot, -FASTEST)
+    driven(world, 1.5)
+    assert robot.x > 1100.0
