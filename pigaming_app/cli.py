@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -29,6 +30,7 @@ def main(argv: Sequence[str]) -> int:
     from pigaming_app.games.replay import ReplayError
     from pigaming_app.sim.arena import ArenaError
 
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # standard output belongs to the job
     try:
         if argv and argv[0] == "test":
             from pigaming_app.checks import run as check
