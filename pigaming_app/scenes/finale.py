@@ -5,9 +5,11 @@ import random
 
 import pygame
 
-from pigaming_app.scenes import sprites
+from pigaming_app.scenes.effects import SPARK_LEVELS, SPARK_SIZES, SPARK_TURNS, sparks
 from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.pane import LEFT, RIGHT
+from pigaming_app.scenes.sprites import HEADINGS, Batch, put, step
+from pigaming_app.scenes.tank import tank
 
 Y = 176  # of the line, px
 DRIVE = 2.0  # seconds along the line
@@ -23,7 +25,7 @@ class Spark:
     def __init__(self, x: float, y: float, chance: random.Random) -> None:
         angle, speed = chance.uniform(0, math.tau), 60 + 300 * chance.random()
         self.x, self.y, self.vx, self.vy = x, y, math.cos(angle) * speed, math.sin(angle) * speed - 120
-        self.size, self.life, self.age = chance.choice((3, 4, 6)), chance.uniform(0.5, 1.1), 0.0
+        self.size, self.life, self.age = chance.choice(SPARK_SIZES), chance.uniform(0.5, 1.1), 0.0
 
     def move(self, seconds: float) -> bool:
         """Fly on; false when it has gone out."""
@@ -59,15 +61,15 @@ class Finale:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Add sparks and winner to the screen."""
-        color, light = PLAYERS[self.player], []
+        color = PLAYERS[self.player]
+        light: Batch = []
         for spark in self.sparks:
-            level = math.ceil(6 * (1 - spark.age / spark.life))
-            turn = round(math.atan2(spark.vy, spark.vx) / math.tau * 24) % 24
-            image, (dx, dy) = sprites.spark(color, spark.size, turn, max(1, min(6, level)))
-            light.append((image, (round(spark.x + dx), round(spark.y + dy))))
+            level = min(SPARK_LEVELS - 1, int(SPARK_LEVELS * (1 - spark.age / spark.life)))
+            turn = step(math.atan2(spark.vy, spark.vx), SPARK_TURNS)
+            put(light, sparks(color, spark.size, turn)[level], spark.x, spark.y)
         screen.fblits(light, pygame.BLEND_RGB_ADD)
         dancing = self.age - DRIVE
         angle = math.tau * min(1.0, dancing % REST / SPIN) if dancing > 0 else 0.0
-        turn = round(angle / math.tau * sprites.TURNS) % sprites.TURNS
-        image, (dx, dy) = sprites.tank(self.player, turn)
-        screen.blit(image, (round(LEFT + self.reach + dx), round(Y + dy)), special_flags=pygame.BLEND_PREMULTIPLIED)
+        robot: Batch = []
+        put(robot, tank(self.player, step(angle, HEADINGS)), LEFT + self.reach, Y)
+        screen.fblits(robot, pygame.BLEND_PREMULTIPLIED)

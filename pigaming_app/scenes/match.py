@@ -10,9 +10,10 @@ from dataclasses import replace
 
 import pygame
 
-from pigaming_app.ai.brain import Hands, make
+from pigaming_app.ai import make
+from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
-from pigaming_app.games.match import Match
+from pigaming_app.playing import seated
 from pigaming_app.scenes.countdown import CENTRE, Countdown, popped
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, PLAYERS
@@ -39,8 +40,8 @@ class MatchScene:
         self.house, self.setup, self.speed = house, setup, speed
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
-        self.match = Match(setup)
-        self.stage = Stage(house, self.match, [f"{i + 1}" for i in range(len(setup.seats))])
+        self.match = seated(setup)
+        self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
@@ -100,7 +101,7 @@ class MatchScene:
             popped(words("match.time"), ALARM, pop).draw(screen, *CENTRE)
         elif self.count.shown:
             if self.count.locked:
-                self._captions(screen)
+                self.stage.captions(screen, self.devices)
             self.count.draw(screen, words("match.go"))
         if self.notice and self.noticed > 0.0:
             self.notice.draw(screen, 960, 206)
@@ -125,9 +126,8 @@ class MatchScene:
     def hand(self, seat: int, device: Device | None) -> None:
         """Give a seat to a device, or to an AI that drives until somebody comes."""
         self._sit(seat, device)
-        words = self.house.words
-        name = self.house.controls.name(device) if device else words("match.ai_drives")
-        sign = ("pad" if device.kind == "pad" else "keys") if device else "ai"
+        name, sign = self.stage.driver(seat, device)
+        name = name if device else self.house.words("match.back_in")
         self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.house.sounds.play("join", seat)
 
@@ -147,8 +147,9 @@ class MatchScene:
 
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
-        brain = Hands(lambda: self._held(device)) if device else make(STAND_IN, new_seed())
+        brain = Hands(lambda: self._held(device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
+        self.stage.players[seat] = "human" if device else STAND_IN
 
     def _held(self, device: Device) -> Drive:
         """How a device is held on the tick that acts on it."""
@@ -170,20 +171,6 @@ class MatchScene:
         if ready and (self.stopped or self.frozen >= FREEZE):
             return Swap(self.results)
         return None
-
-    def _captions(self, screen: pygame.Surface) -> None:
-        """Who drives what, beside each robot, until it goes."""
-        for seat, robot in enumerate(self.match.state.robots):
-            if robot.present:
-                device = self.devices[seat]
-                if device:
-                    name, sign = self.house.controls.name(device), "pad" if device.kind == "pad" else "keys"
-                else:
-                    name, sign = self.house.words("match.ai"), "ai"
-                sheet = plate(name, PLAYERS[seat], sign=sign)
-                x = min(max(160 + robot.x, 184 + sheet.width / 2), 1736 - sheet.width / 2)
-                y = 140 + robot.y + (104 if robot.y < 450 else -104)
-                sheet.draw(screen, x, y)
 
 
 def again(house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:

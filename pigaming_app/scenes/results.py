@@ -70,10 +70,10 @@ class Results:
         if self.age < DEAF or self.claims:
             return None
         match press.act:
-            case Act.FIRE:
+            case Act.FIRE if press.device.kind != "mouse":
                 if self.ballot.vote(press.device):
                     self.house.sounds.play("ready", None)
-            case Act.START:
+            case Act.START | Act.FIRE:
                 return self._rematch(everyone=True)
             case Act.EXTRA:
                 self.house.sounds.play("accept")
@@ -97,7 +97,7 @@ class Results:
             self.house.sounds.play(name, player)
         if self.claims and self.age >= CLAIMS:
             claims, self.claims = self.claims, []
-            return Push(Initials(self.house, self.setup.game, self.setup.arena, claims))
+            return Push(Initials(self.house, self.setup, claims))
         if self.ballot.update(seconds):
             return self._rematch(everyone=False)
         return Home() if self.idle > IDLE else None

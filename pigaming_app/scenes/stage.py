@@ -3,25 +3,34 @@
 What a match, a demonstration and a replay have in common; who drives and what may be pressed is up to the scene.
 """
 
+from collections.abc import Sequence
+
 import pygame
 
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.pace import Pace
+from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.views import VIEWS
-from pigaming_app.sim.world import WIDTH
+from pigaming_app.sim.world import HEIGHT, WIDTH
 
 BEHIND = 72  # of 255: how bright a match is behind a page
 LAST = 10  # seconds before the end in which each second is heard
+LEFT, TOP = 160, 140  # of the arena on the canvas
+BESIDE = 104  # px from a robot to what is said about it
+STRENGTHS = ("easy", "normal", "hard")
 
 
 class Stage:
     """A match and its view. `loud`: its sounds are heard."""
 
-    def __init__(self, house: House, match: Match, players: list[str], loud: bool = True) -> None:
+    def __init__(self, house: House, match: Match, loud: bool = True) -> None:
         self.house, self.match, self.loud = house, match, loud
+        self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
         kind = VIEWS[match.setup.game]
-        self.view = kind(match.arena, match.state, players, house.settings, house.words)
+        self.view = kind(match.arena, match.state, self.players, house.settings, house.words)
         self.pace = Pace()
         self.unseen = 0.0  # seconds of real time since the last picture
         self.second = LAST + 1
@@ -58,6 +67,30 @@ class Stage:
         self.draw(canvas)
         canvas.fill((BEHIND, BEHIND, BEHIND), special_flags=pygame.BLEND_RGB_MULT)
         return canvas
+
+    def captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
+        """Who drives with what, beside each robot."""
+        for seat, robot in enumerate(self.match.state.robots):
+            if robot.present:
+                name, sign = self.driver(seat, devices[seat])
+                sheet = plate(name, PLAYERS[seat], sign=sign)
+                margin = LEFT + 24 + sheet.width / 2
+                x = min(max(LEFT + robot.x, margin), 1920 - margin)
+                sheet.draw(screen, x, TOP + robot.y + (BESIDE if robot.y < HEIGHT / 2 else -BESIDE))
+
+    def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
+        """What drives a seat, in words, and the icon for it."""
+        words = self.house.words
+        if device and device.kind == "pad":
+            return self.house.controls.name(device), "pad"
+        if device:
+            moves = self.house.controls.moves(device)
+            steer = words("match.arrows") if "←" in moves else moves
+            return f"{steer} + {self.house.controls.label(device, Act.FIRE)}", "keys"
+        brain = self.players[seat]
+        if brain == "human":
+            return words("match.player", player=seat + 1), "pad"
+        return (words(f"match.{brain}") if brain in STRENGTHS else brain.upper()), "ai"
 
     def _count_down(self) -> None:
         second = int(self.match.seconds_left) + 1

@@ -1,0 +1,136 @@
+"""What runs while nobody plays: an AI match, how to play, the best scores. Any input ends it, and does nothing else."""
+
+import secrets
+from collections.abc import Callable, Iterator
+from itertools import cycle
+
+import pygame
+
+from pigaming_app.ai import STRENGTHS
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.playing import seated
+from pigaming_app.scenes.best import Best
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.howto import HowTo
+from pigaming_app.scenes.ink import FOCUS, LABEL
+from pigaming_app.scenes.match import new_seed
+from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.stack import Home, Scene, Turn
+from pigaming_app.scenes.stage import Stage
+from pigaming_app.sim.arena import arenas
+
+MINUTES = 1.0  # of a match
+AFTER = 2.5  # seconds for which its end is shown
+PAGE = 12.0  # seconds for a page
+PROMPT_Y = 984
+LEVELS = 6  # brightnesses of the prompt
+
+
+class Attract:
+    """A round of shows. `house.idle` has brought it up; the title lies below."""
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.age = 0.0
+        self.shows: Iterator[Callable[[], Scene | None]] = cycle((self._match, self._howto, self._best))
+        self.show: Scene | None = None
+        self._next()
+
+    def entered(self) -> None:
+        """Quiet: nobody is listening."""
+        self.house.sounds.music(False)
+
+    def on(self, press: Press) -> Turn:
+        """Whatever is pressed, back to the title, where it counts for nothing."""
+        return None if press.act is Act.LOST else Home()
+
+    def update(self, seconds: float) -> Turn:
+        """Let the show go on, or begin the next one."""
+        self.age += seconds
+        if self.show is None or self.show.update(seconds) is not None:
+            self._next()
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The show, and what to press."""
+        if self.show:
+            self.show.draw(screen)
+        level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
+        color = tuple(round(channel * (0.45 + 0.55 * level / LEVELS)) for channel in FOCUS)
+        text = self.house.words("attract.press")
+        plate(text, (color[0], color[1], color[2]), (color[0], color[1], color[2]), LABEL, face="head").draw(
+            screen, 960, PROMPT_Y
+        )
+
+    def _next(self) -> None:
+        self.show = next(show for show in (make() for make in self.shows) if show)
+        self.show.entered()
+
+    def _match(self) -> Scene:
+        return Demonstration(self.house)
+
+    def _howto(self) -> Scene:
+        return Page(HowTo(self.house))
+
+    def _best(self) -> Scene | None:
+        """The tables of an arena in which somebody has scored."""
+        scores = self.house.scores
+        there = [(game, arena) for game in GAMES for arena in arenas(game) if scores.best(game, arena)]
+        return Page(Best(self.house, *secrets.choice(there))) if there else None
+
+
+class Demonstration:
+    """AIs play for a minute."""
+
+    def __init__(self, house: House) -> None:
+        game = secrets.choice(list(GAMES))
+        teams = secrets.choice(((0, 1, 2, 3), (0, 1, 2, 3), (0, 1, 0, 1)))
+        one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
+        arena, variant = secrets.choice(arenas(game)), GAMES[game].variants[0]
+        setup = Setup(game, arena, (one, two, three, four), MINUTES, new_seed(), variant)
+        self.stage = Stage(house, seated(setup), loud=False)
+        self.warm = False
+        self.over = 0.0
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """Nobody is asked."""
+
+    def update(self, seconds: float) -> Turn:
+        """Play; then stand for a moment."""
+        self.warm = self.warm or self.stage.warm(3.0)
+        self.stage.advance(seconds)
+        self.over += seconds * self.stage.match.over
+        return Home() if self.over > AFTER else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The match."""
+        self.stage.draw(screen)
+
+
+class Page:
+    """A page that is only looked at."""
+
+    def __init__(self, page: HowTo | Best) -> None:
+        self.page, self.age = page, 0.0
+
+    def entered(self) -> None:
+        """Begin it."""
+        self.page.entered()
+
+    def on(self, press: Press) -> Turn:
+        """Nobody is asked."""
+
+    def update(self, seconds: float) -> Turn:
+        """Stay a while."""
+        self.age += seconds
+        self.page.update(seconds)
+        return Home() if self.age > PAGE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page, without its hints if it can be had so."""
+        self.page.paint(screen)

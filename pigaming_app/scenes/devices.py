@@ -1,0 +1,80 @@
+"""Who drives with what, in a pause: for each seat its device, the keys that steer, fire and turbo."""
+
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, icon, panel
+from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.prompts import Prompts, key
+from pigaming_app.scenes.stack import Pop, Turn
+
+TOP, PITCH, HIGH = 236, 164, 140
+NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 560, LEFT + 1000, LEFT + 1370
+
+
+class DeviceTable:
+    """One row for every seat that a device drives; None: an AI, or nobody."""
+
+    def __init__(self, house: House, devices: Sequence[Device | None]) -> None:
+        self.house = house
+        self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
+        self.lit: list[Lit] = []
+        self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")])
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """Any button leads back."""
+        if self.prompts.meant(press).act in (Act.FIRE, Act.START, Act.BACK):
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Nothing moves."""
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the table."""
+        if not self.lit:
+            self.lit = [self._heading(), *(self._row(i, *row) for i, row in enumerate(self.rows))]
+        screen.blit(backdrop(), (0, 0))
+        for lit in self.lit:
+            lit.draw(screen)
+        self.prompts.draw(screen)
+
+    def _heading(self) -> Lit:
+        pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
+        text = self.house.words("pause.drives")
+        pane.page.text(text, fitted(text, TITLE, RIGHT - LEFT), LEFT, 112)
+        pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], ICE, LINE)
+        return pane.done()
+
+    def _row(self, i: int, seat: int, device: Device) -> Lit:
+        words, controls = self.house.words, self.house.controls
+        y = TOP + PITCH * i + HIGH // 2
+        pane = Pane(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
+        panel(pane.hot, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
+        badge(pane.hot, seat, LEFT + 84, y, 40)
+        icon(pane.hot, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
+        name = controls.name(device)
+        pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 290, "body"))
+        self._moves(pane, device, y)
+        for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
+            wide = key(pane.page, x, y, controls.label(device, act))
+            pane.page.body(words(name), x + wide + 18, y, MIST)
+        return pane.done()
+
+    def _moves(self, pane: Pane, device: Device, y: float) -> None:
+        x = MOVES
+        if device.kind == "pad":
+            pane.hot.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
+            x += 78
+        for mark in self.house.controls.moves(device).replace(" ", ""):
+            key(pane.page, x, y, mark)
+            x += 66
+        pane.page.body(self.house.words("pause.moves"), x + 12, y, MIST)
