@@ -110,7 +110,7 @@ def _read(raw: bytes) -> Replay:
     line, newline, packed = raw.partition(b"\n")
     try:
         head = json.loads(line) if newline and len(line) < MOST_HEAD else None
-    except ValueError:
+    except (ValueError, RecursionError):
         head = None
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
@@ -127,7 +127,7 @@ def _read(raw: bytes) -> Replay:
         if not 0 <= count <= MOST_TICKS:
             raise ValueError("ticks")
         columns = zlib.decompressobj().decompress(packed, BYTES * MOST_TICKS)
-    except (KeyError, TypeError, ValueError, ArenaError, zlib.error) as error:
+    except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
         raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {error})") from None
     if len(columns) != count * BYTES:
         raise ReplayError("not a replay that makes sense (the number of ticks)")
