@@ -1,0 +1,79 @@
+"""Many matches at once are the same matches as one at a time, plain or compiled."""
+
+import numpy as np
+import pytest
+
+from pigaming_app.games.batch import matches, started, step_all
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.action import press
+from pigaming_app.sim.record import digest
+
+TICKS = 400
+VARIANTS = ("pickups", "plain", "classic", "pickups", "plain")
+
+
+def setups():
+    return [
+        Setup(
+            "pitanks", "classic", (Seat("human", 0), Seat("human", 1), Seat("human", 2), Seat("off", 3)), 1, i, variant
+        )
+        for i, variant in enumerate(VARIANTS)
+    ]
+
+
+def wishes(tick):
+    """What every seat of every match asks for, (n, 4, 4), held for ten ticks."""
+    luck = np.random.default_rng(tick // 10)
+    sticks = luck.uniform(-1.2, 1.2, (len(VARIANTS), 4, 2))
+    return np.concatenate([sticks, luck.integers(0, 2, (len(VARIANTS), 4, 2))], axis=2)
+
+
+class Given:
+    """Does what the row of wishes says."""
+
+    def __init__(self, index):
+        self.index = index
+
+    def think(self, state, seat):
+        linear, angular, fire, turbo = wishes(state.tick)[self.index][seat]
+        press(state.actions[seat], linear, angular, int(fire), int(turbo))
+
+
+@pytest.fixture(scope="module")
+def alone():
+    digests = []
+    for i, setup in enumerate(setups()):
+        match = Match(setup)
+        for seat in range(4):
+            match.sit(seat, Given(i))
+        for _ in range(TICKS):
+            match.tick()
+        digests.append(digest(match.state))
+    return digests
+
+
+def test_plain_matches_at_once_are_the_same_matches_alone(alone):
+    states = started(setups())
+    for tick in range(TICKS):
+        step_all(states, wishes(tick).tolist())
+    assert [digest(state) for state in states] == alone
+
+
+def test_compiled_matches_at_once_are_the_same_matches_alone(alone):
+    rows = matches(setups())
+    for tick in range(TICKS):
+        step_all(rows, wishes(tick))
+    assert [digest(row) for row in rows] == alone
+
+
+def test_no_matches_are_no_trouble():
+    step_all([], [])
+    step_all(matches(setups())[:0], np.zeros((0, 4, 4)))
+
+
+def test_foreign_records_are_refused():
+    with pytest.raises(TypeError, match="not matches of any game"):
+        step_all(np.zeros(3), np.zeros((3, 4, 4)))
+    with pytest.raises(TypeError, match="not matches of any game"):
+        step_all([object()], [[[0] * 4] * 4])

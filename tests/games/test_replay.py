@@ -1,0 +1,213 @@
+"""Replays: what is saved plays out again to the last bit, and anything else is refused in one line."""
+
+import hashlib
+import json
+import random
+import zlib
+
+import pytest
+
+from pigaming_app.ai import make
+from pigaming_app.games import replay as replays
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.replay import ReplayError, load, play, save, verify
+from pigaming_app.sim.record import digest
+
+BRAINS = ("hard", "random", "fsm", "random")
+
+
+def played(minutes, brains=BRAINS, arena="classic"):
+    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
+    match = Match(Setup("pitanks", arena, (one, two, three, four), minutes, 42, "pickups"))
+    for seat, brain in enumerate(brains):
+        if brain != "off":
+            match.sit(seat, make("pitanks", brain, seat))
+    while not match.over:
+        match.tick()
+    return match
+
+
+@pytest.fixture(scope="module")
+def match():
+    return played(0.2)
+
+
+@pytest.fixture
+def path(match, tmp_path):
+    save(match, tmp_path / "match.replay")
+    return tmp_path / "match.replay"
+
+
+def refused(path, raw):
+    """The one line with which these bytes are refused."""
+    path.write_bytes(raw)
+    with pytest.raises(ReplayError) as caught:
+        load(path)
+    line = str(caught.value)
+    assert line.startswith(path.name + ": ")
+    assert "\n" not in line
+    assert len(line) < 300
+    return line
+
+
+def forged(path, packed=None, **changes):
+    """The bytes of the file with another head and a check that fits: somebody did it on purpose."""
+    line, _, rest = path.read_bytes().partition(b"\n")
+    head = {**json.loads(line), **changes}
+    head = {key: value for key, value in head.items() if key != "check" and value is not None}
+    rest = rest if packed is None else packed
+    head["check"] = hashlib.sha256(json.dumps(head, sort_keys=True).encode() + rest).hexdigest()
+    return json.dumps(head).encode() + b"\n" + rest
+
+
+def test_what_is_saved_comes_back_and_plays_out_to_the_last_bit(match, path):
+    replay = load(path)
+    assert replay.setup == match.setup
+    assert replay.ticks == bytes(match.log.ticks)
+    assert verify(replay)
+    again = play(replay)
+    while not again.over:
+        again.tick()
+    assert digest(again.state) == digest(match.state)
+    assert again.outcome() == match.outcome()
+
+
+def test_a_replay_of_a_replay_is_the_same_file(path, tmp_path):
+    again = play(load(path))
+    while not again.over:
+        again.tick()
+    save(again, tmp_path / "again")
+    assert (tmp_path / "again").read_bytes() == path.read_bytes()
+
+
+def test_a_match_is_saved_as_far_as_it_has_been_played(tmp_path):
+    match = Match(played(0.05).setup)
+    save(match, tmp_path / "none")
+    assert verify(load(tmp_path / "none"))
+    for _ in range(10):
+        match.tick()
+    save(match, tmp_path / "ten")
+    assert len(load(tmp_path / "ten").ticks) == 120
+    assert verify(load(tmp_path / "ten"))
+
+
+def test_a_minute_takes_less_than_10_kb(tmp_path):
+    for brains in (("hard",) * 4, ("random",) * 4):
+        save(played(1.0, brains), tmp_path / "minute")
+        assert (tmp_path / "minute").stat().st_size < 10_000
+
+
+def test_another_action_plays_out_differently(path):
+    replay = load(path)
+    ticks = bytearray(replay.ticks)
+    ticks[600] = 128 - ticks[600] if ticks[600] != 64 else 128
+    assert not verify(replays.Replay(replay.setup, replay.source, bytes(ticks), replay.digest))
+
+
+def test_a_file_cut_short_anywhere_is_refused(path):
+    raw = path.read_bytes()
+    for length in [*range(0, len(raw), 100), len(raw) - 1]:
+        refused(path, raw[:length])
+
+
+def test_any_flipped_byte_is_refused(path):
+    raw = path.read_bytes()
+    for place in range(0, len(raw), 37):
+        for flip in (0x01, 0x80, 0xFF):
+            edited = bytearray(raw)
+            edited[place] ^= flip
+            refused(path, bytes(edited))
+
+
+def test_something_added_at_the_end_is_refused(path):
+    assert "damaged" in refused(path, path.read_bytes() + b"\0")
+
+
+FOREIGN = {
+    "empty": b"",
+    "noise": random.Random(1).randbytes(5000),
+    "text": b"Dear diary,\nit rained.",
+    "picture": b"\x89PNG\r\n\x1a\n" + bytes(100),
+    "json": b'{"a": 1}\nrest',
+    "list": b"[1, 2]\nrest",
+    "number": b"7\nrest",
+    "null format": b'{"format": null}\n',
+    "deep": b"[" * 90_000 + b"\n",
+    "deep tables": b'{"format":' * 9_000 + b"\n",
+    "long number": b"9" * 50_000 + b"\n",
+}
+
+
+@pytest.mark.parametrize("name", FOREIGN)
+def test_a_foreign_file_is_refused(name, tmp_path):
+    assert "not a PiGaming replay" in refused(tmp_path / "foreign", FOREIGN[name])
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path):
+    for path in (tmp_path / "nowhere", tmp_path):
+        with pytest.raises(ReplayError, match="cannot be read"):
+            load(path)
+
+
+def test_another_format_says_so(path):
+    line = refused(path, forged(path, format="pigaming-replay-2"))
+    assert "pigaming-replay-2" in line
+    assert "pigaming-replay-1" in line
+
+
+def test_another_engine_says_so(path):
+    assert "another version of the engine" in refused(path, forged(path, engine="0" * 64))
+
+
+def test_a_changed_engine_refuses_old_files(path, monkeypatch):
+    monkeypatch.setattr(replays, "engine_hash", lambda: "1" * 64)
+    assert "another version of the engine" in refused(path, path.read_bytes())
+
+
+def head_of(path):
+    return json.loads(path.read_bytes().partition(b"\n")[0])
+
+
+NONSENSE = {
+    "no setup": {"setup": None},
+    "setup is a text": {"setup": "classic"},
+    "setup is a list": {"setup": [1]},
+    "no ticks": {"ticks": None},
+    "fewer ticks": {"ticks": 1},
+    "ticks below zero": {"ticks": -1},
+    "ticks are a text": {"ticks": "many"},
+    "ticks for ever": {"ticks": float("inf")},
+    "too many ticks": {"ticks": 10**9},
+    "no arena": {"arena": None},
+    "arena is no arena": {"arena": "[[wall]]"},
+}
+
+
+@pytest.mark.parametrize("name", NONSENSE)
+def test_a_forged_head_is_refused(name, path):
+    refused(path, forged(path, **NONSENSE[name]))
+
+
+SETUPS = {
+    "another game": {"game": "chess"},
+    "another variant": {"variant": "blitz"},
+    "no time": {"minutes": 0},
+    "nan minutes": {"minutes": float("nan")},
+    "endless": {"minutes": 10**400},
+    "seed is a text": {"seed": "lucky"},
+    "three seats": {"seats": [{"brain": "random", "team": i} for i in range(3)]},
+    "seats are numbers": {"seats": [1, 2, 3, 4]},
+    "team is nothing": {"seats": [{"brain": "random", "team": None}] * 4},
+}
+
+
+@pytest.mark.parametrize("name", SETUPS)
+def test_a_forged_setup_is_refused(name, path):
+    refused(path, forged(path, setup={**head_of(path)["setup"], **SETUPS[name]}))
+
+
+def test_forged_ticks_are_refused(path):
+    refused(path, forged(path, packed=b"no zlib at all"))
+    refused(path, forged(path, packed=zlib.compress(b"\0" * 11)))
+    refused(path, forged(path, packed=zlib.compress(bytes(10_000_000), 9)))
