@@ -28,10 +28,12 @@ def main() -> int:
     if folder not in sys.path:
         sys.path.insert(0, folder)
     if "pigaming" in sys._xoptions:  # start.py handed over to this Python, a moment ago
-        from pigaming_app.cli import main as job
-    else:
-        from pigaming_app.start import start as job
-    return job(sys.argv[1:])
+        from pigaming_app import cli
+
+        return cli.main(sys.argv[1:])
+    from pigaming_app.start import start
+
+    return start(sys.argv[1:])
 
 
 if __name__ == "__main__":

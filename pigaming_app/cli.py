@@ -1,10 +1,9 @@
-"""The command line: one job a subcommand. What is wrong is said in one line on standard error; the exit code is then 2."""
+"""The command line: one job a subcommand. What is wrong is said in one line on standard error, with exit code 2."""
 
 import argparse
 import json
 import os
 import sys
-from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NoReturn
@@ -24,7 +23,7 @@ class Parser(argparse.ArgumentParser):
         raise Wrong(message)
 
 
-def main(argv: Sequence[str]) -> int:
+def main(argv: list[str]) -> int:
     """Do what the arguments say; the exit code."""
     from pigaming_app.games.choices import ChoiceError
     from pigaming_app.games.replay import ReplayError

@@ -17,6 +17,7 @@ from pigaming_app.games.replay import save
 from pigaming_app.sim.world import DT, ROBOTS
 
 FASTEST = 64.0  # times real time that a window shows
+WATCHED = 150  # ticks before a picture in which shots, sparks and treads of it begin
 
 
 def play(arguments: argparse.Namespace, show: Callable[[Any], int], wrong: type[Exception]) -> int:
@@ -66,17 +67,18 @@ def _headless(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: 
     if any(seat.brain == "human" for seat in setup.seats):
         print("PiGaming: nobody can steer without a window; the human seat stands still", file=sys.stderr)
     began = perf_counter()
-    shot_at = round(arguments.at / DT) if arguments.screenshot else -1
+    shot_at = min(round(arguments.at / DT), match.state.rules.ticks) if arguments.screenshot else -1
+    camera: Any = None
     while not match.over:
         match.tick()
+        if shot_at - WATCHED <= match.state.tick <= shot_at:
+            camera = camera or _camera(match)
+            camera.watch()
         if match.state.tick == shot_at:
-            _picture(match, arguments.screenshot, wrong)
-            shot_at = -1
+            _picture(camera, arguments.screenshot, wrong)
         ahead = match.seconds / speed - (perf_counter() - began)
         if ahead > 0.0:
             sleep(ahead)
-    if shot_at >= 0:
-        _picture(match, arguments.screenshot, wrong)
     _record(match, arguments.record, wrong)
     _tell(match, arguments.json, perf_counter() - began)
     return 0
@@ -94,7 +96,7 @@ def _on_screen(arguments: argparse.Namespace, setup: Setup, speed: float, show: 
         """People take the pads that are there, then the key clusters."""
         free = [*house.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
         people = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
-        devices = {seat: device for seat, device in zip(people, free, strict=False)}
+        devices = dict(zip(people, free, strict=False))
         made.append(MatchScene(house, setup, [devices.get(i) for i in range(ROBOTS)], speed))
         return made[0]
 
@@ -112,13 +114,17 @@ def _on_screen(arguments: argparse.Namespace, setup: Setup, speed: float, show: 
     return code
 
 
-def _picture(match: Match, path: Path, wrong: type[Exception]) -> None:
-    """The match as it stands, drawn without a window."""
+def _camera(match: Match) -> Any:
+    """A camera that needs no window."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
-    from pigaming_app.scenes.still import picture
+    from pigaming_app.scenes.still import Still
 
+    return Still(match)
+
+
+def _picture(camera: Any, path: Path, wrong: type[Exception]) -> None:
     try:
-        picture(match, path)
+        camera.picture(path)
     except OSError as trouble:
         raise wrong(f"{path}: the picture cannot be saved ({trouble})") from None
 

@@ -23,6 +23,8 @@ from pigaming_app.sim.world import DT, HZ
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 ENGAGE = 420.0  # px at which an attacker no longer closes in
 CROWD = 230.0  # px at which it backs off
+REACH = 760.0  # px from which an attacker fires
+SWERVE = 0.9  # rad to the side of the other while it reloads
 ARRIVED = 26.0  # px from the goal that count as there
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 30
@@ -101,8 +103,8 @@ def defend(view: Any, mind: Any, action: Any) -> int:
     else:
         go_to(mind, view.cover_x, view.cover_y)
     other = view.others[mind.target]
-    if mind.seen and other.distance < 700.0 and abs(other.aim) < 1.2:
-        shoot(view, mind, action, duel_speed(view, mind, other))
+    if mind.seen and (other.distance < CROWD or view.goal_distance <= ARRIVED):
+        duel(view, mind, action, other)
     elif view.goal_distance > ARRIVED:
         follow(view, mind, action)
     else:
@@ -123,10 +125,8 @@ def attack(view: Any, mind: Any, action: Any) -> int:
         go_to(mind, view.prize_x, view.prize_y)
     else:
         go_to(mind, other.x, other.y)
-    if mind.seen and (other.distance < ENGAGE or abs(other.aim) > 0.9):
-        shoot(view, mind, action, duel_speed(view, mind, other))
-    elif mind.seen and abs(other.aim) < 0.5:
-        shoot(view, mind, action, 1.0)
+    if mind.seen and other.distance < REACH:
+        duel(view, mind, action, other)
     else:
         follow(view, mind, action)
     return ATTACK
@@ -214,7 +214,8 @@ def go_to(mind: Any, x: float, y: float) -> None:
 @kernel
 def turning(view: Any, bearing: float) -> float:
     """The stick that turns by `bearing` until the next decision, as far as the motors can."""
-    return 0.75 * (bearing - 0.08 * view.angular) / (view.turn_rate * PERIOD * DT)
+    stick: float = 0.75 * (bearing - 0.08 * view.angular) / (view.turn_rate * PERIOD * DT)
+    return stick
 
 
 @kernel
@@ -263,13 +264,17 @@ def snap_shot(view: Any, mind: Any) -> int:
 
 
 @kernel
-def duel_speed(view: Any, mind: Any, other: Any) -> float:
-    """Keep the distance of a duel, and never stand still in it."""
-    if other.distance > ENGAGE:
-        return 1.0
+def duel(view: Any, mind: Any, action: Any, other: Any) -> None:
+    """Aim and fire while the gun is loaded; swerve across the other's sights while it is not."""
+    ahead = 1.0
     if other.distance < CROWD:
-        return -1.0
-    return mind.weave
+        ahead = -1.0
+    elif other.distance < ENGAGE:
+        ahead = mind.weave
+    if view.loaded:
+        shoot(view, mind, action, ahead)
+    else:
+        press(action, ahead, turning(view, other.bearing + SWERVE * mind.weave), 0, 0)
 
 
 @kernel
@@ -298,7 +303,7 @@ def wake(delay: float, spread: float, patience: float) -> Any:
     return fill
 
 
-EASY = Kind("easy", FsmMind, think, wake(delay=0.5, spread=0.15, patience=6.0))
-NORMAL = Kind("normal", FsmMind, think, wake(delay=0.36, spread=0.10, patience=4.0))
-HARD = Kind("hard", FsmMind, think, wake(delay=0.24, spread=0.06, patience=2.5))
-FSM = Kind("fsm", FsmMind, think, wake(delay=0.36, spread=0.10, patience=4.0))
+EASY = Kind("easy", FsmMind, think, wake(delay=0.42, spread=0.14, patience=4.0))
+NORMAL = Kind("normal", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5))
+HARD = Kind("hard", FsmMind, think, wake(delay=0.12, spread=0.045, patience=1.5))
+FSM = Kind("fsm", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5))

@@ -63,11 +63,13 @@ class Batch:
         self.kinds = tuple(kind or IDLE for kind in kinds)
         minds = [[awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
         columns = [list(column) for column in zip(*minds, strict=True)]
-        think = tuple(kind.think for kind in self.kinds)
         states = started(setups)
         self.matches: Any = packed(states) if fast else states
         self.minds = [packed(column) for column in columns] if fast else columns
-        self.loop = (compiled_rollout if fast else plain_rollout)(setups[0].game, think)
+        one, two, three, four = (kind.think for kind in self.kinds)
+        think = one, two, three, four
+        game = setups[0].game
+        self.loop: Loop = compiled_rollout(game, think) if fast else plain_rollout(game, think)
 
     def play(self, ticks: int) -> None:
         """Play every match on."""

@@ -1,7 +1,7 @@
 """Replays: setup, arena, engine hash, what every seat did on every tick, and the digest of the last state.
 
-The file is one line of JSON (the head) and the ticks, column by column and compressed. A column is one byte of one seat:
-it changes seldom, so a two-minute match takes a few kilobytes. Everything is checked at the door: a file that is
+The file is one line of JSON (the head) and the ticks, column by column and compressed. A column is one byte of one
+seat: it changes seldom, so a two-minute match takes a few kilobytes. Everything is checked at the door: a file that is
 truncated, edited or foreign is refused in one line.
 """
 

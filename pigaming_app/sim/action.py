@@ -24,6 +24,6 @@ def notch(value: float) -> float:
         return 1.0
     if value <= -1.0:
         return -1.0
-    if not value == value:
+    if value != value:
         return 0.0
     return floor(value * STEPS + 0.5) / STEPS

@@ -1,9 +1,9 @@
 """Robots against robots and walls: they slide along walls and part from each other.
 
-Nothing here bounces. After every robot has rolled, overlaps are taken back along their normals, which lets a robot keep
-the part of its way that leads along the wall. What still touches a wall when the rounds are used up goes back to where
-it stood before the tick, and nobody stood in a wall then: so no crush, however hard, can press a robot into one. Nor can
-it throw one, since contact moves a robot by at most SHOVE px a tick.
+Nothing here bounces. After every robot has rolled, overlaps are taken back along their normals, which lets a robot
+keep the part of its way that leads along the wall. What still touches a wall when the rounds are used up goes back to
+where it stood before the tick, and nobody stood in a wall then: so no crush, however hard, can press a robot into one.
+Nor can it throw one, since a tick moves a robot by at most SHOVE px.
 """
 
 from math import sqrt

@@ -1,7 +1,7 @@
 """The grid: which nodes, 50 px apart, are free for a robot's centre, and near which there is a wall at all.
 
-Each node counts the walls that keep a robot away (low six bits) and the walls that are near (the bits above). Where none
-is near, contact and bullets need not look at walls.
+Each node counts the walls that keep a robot away (low six bits) and the walls that are near (the bits above). Where
+none is near, contact and bullets need not look at walls.
 """
 
 from math import sqrt

@@ -15,7 +15,6 @@ and `unpack` copy between the two, and `digest` gives the same hash for both.
 import hashlib
 import struct
 from collections.abc import Iterator, Sequence
-from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_hints
 
 if TYPE_CHECKING:
@@ -25,6 +24,8 @@ T = TypeVar("T")
 
 _CODES = {float: "d", int: "q"}
 _NUMPY = {"d": "<f8", "q": "<i8", "h": "<i2"}
+_DTYPES: "dict[type, np.dtype[Any]]" = {}
+_LAYOUTS: dict[type, struct.Struct] = {}
 
 
 class Field:
@@ -59,13 +60,13 @@ def record(cls: type[T]) -> type[T]:
     fields = tuple(Field(name, hint) for name, hint in get_type_hints(cls, include_extras=True).items())
     zeros = tuple((field.name, field.zero) for field in fields)
 
-    def __init__(self: Any) -> None:
+    def begin(self: Any) -> None:
         for name, zero in zeros:
             setattr(self, name, zero())
 
     body = {
         "__slots__": tuple(field.name for field in fields),
-        "__init__": __init__,
+        "__init__": begin,
         "__annotations__": get_type_hints(cls, include_extras=True),
         "__doc__": cls.__doc__,
         "__module__": cls.__module__,
@@ -82,11 +83,12 @@ def fields_of(kind: type) -> tuple[Field, ...]:
     return kind._fields  # type: ignore[attr-defined, no-any-return]
 
 
-@cache
 def dtype(kind: Any) -> "np.dtype[Any]":
     """The NumPy record type of a record: packed, little-endian, every number on its natural boundary."""
     import numpy as np
 
+    if kind in _DTYPES:
+        return _DTYPES[kind]
     parts: list[tuple[Any, ...]] = []
     for field in fields_of(kind):
         one = _NUMPY[field.code] if field.code else dtype(field.kind)
@@ -94,6 +96,7 @@ def dtype(kind: Any) -> "np.dtype[Any]":
     made = np.dtype(parts)
     if made.itemsize % 8:
         raise TypeError(f"{kind.__name__}: {made.itemsize} bytes; lists of narrow numbers must fill whole 8 bytes")
+    _DTYPES[kind] = made
     return made
 
 
@@ -107,7 +110,6 @@ def numbers(state: Any) -> Iterator[float]:
                 yield from numbers(element)
 
 
-@cache
 def _layout(kind: Any) -> struct.Struct:
     def codes(kind: Any) -> str:
         parts = []
@@ -116,7 +118,9 @@ def _layout(kind: Any) -> struct.Struct:
             parts.append(one * (1 if field.count is None else field.count))
         return "".join(parts)
 
-    return struct.Struct("<" + codes(kind))
+    if kind not in _LAYOUTS:
+        _LAYOUTS[kind] = struct.Struct("<" + codes(kind))
+    return _LAYOUTS[kind]
 
 
 def to_bytes(state: Any) -> bytes:

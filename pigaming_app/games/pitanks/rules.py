@@ -1,10 +1,10 @@
 """PiTanks, as a player would hear it: hit the others, don't get hit.
 
-Every hit you make is a point, every hit you take costs one; a team adds up. Nobody is out: when the time is up, the most
-points win. Bullets stop at walls; an inner wall takes five and is gone. They pass your team mates and yourself. After a
-hit you blink and cannot be hit again for three quarters of a second. Turbo makes you faster while its meter lasts.
-Pick-ups: a shield takes the next hit for you; speed; rapid fire; three bullets at once; bullets that bounce off walls; a
-mine, which your next shot lays behind you.
+Every hit you make is a point, every hit you take costs one; a team adds up. Nobody is out: when the time is up, the
+most points win. Bullets stop at walls; an inner wall takes five and is gone. They pass your team mates and yourself.
+After a hit you blink and cannot be hit again for three quarters of a second. Turbo makes you faster while its meter
+lasts. Pick-ups: a shield takes the next hit for you; speed; rapid fire; three bullets at once; bullets that bounce off
+walls; a mine, which your next shot lays behind you.
 """
 
 from math import cos, sin, sqrt
