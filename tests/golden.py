@@ -1,0 +1,73 @@
+"""Golden digests: where a thousand ticks lead to in each game, on each arena, in each variant.
+
+`tests/golden.json` holds them. A change of the engine that is meant to change how matches play out renews them with
+
+    python -m tests.golden --write
+
+and says why in its commit. Without --write it lists what differs.
+"""
+
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+from pigaming_app.ai import make
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.arena import arenas
+from pigaming_app.sim.record import to_bytes
+
+FILE = Path(__file__).with_name("golden.json")
+TICKS = 1000
+SEED = 2018
+
+
+def main() -> int:
+    """Renew the file, or say what differs."""
+    now = {key: played(key) for key in keys()}
+    if "--write" in sys.argv[1:]:
+        FILE.write_text(json.dumps(now, indent=1) + "\n", encoding="utf-8")
+        print(f"{len(now)} digests written to {FILE.name}")
+        return 0
+    kept = golden()
+    differ = [key for key in sorted({*now, *kept}) if now.get(key) != kept.get(key)]
+    print("\n".join(differ) or "all as they were")
+    return 1 if differ else 0
+
+
+def keys() -> list[str]:
+    """Every game/arena/variant there is."""
+    return [f"{game}/{arena}/{variant}" for game in GAMES for arena in arenas(game) for variant in GAMES[game].variants]
+
+
+def golden() -> dict[str, str]:
+    """The digests that are kept."""
+    kept: dict[str, str] = json.loads(FILE.read_text(encoding="utf-8"))
+    return kept
+
+
+def played(key: str) -> str:
+    """The digest of where TICKS ticks of random brains lead to now, and of what every seat then sees.
+
+    Random brains, since the hand-written ones may be tuned without any change of the engine.
+    """
+    game, arena, variant = key.split("/")
+    one, two, three, four = (Seat("random", team) for team in range(4))
+    match = Match(Setup(game, arena, (one, two, three, four), 1.0, SEED, variant))
+    for seat in range(4):
+        match.sit(seat, make(game, "random", SEED + seat))
+    for _ in range(TICKS):
+        match.tick()
+    sha = hashlib.sha256(to_bytes(match.state))
+    rules = GAMES[game]
+    for seat in range(4):
+        view = rules.view()
+        rules.see(match.state, seat, rules.eyes(), view)
+        sha.update(to_bytes(view))
+    return sha.hexdigest()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

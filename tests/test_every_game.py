@@ -1,0 +1,139 @@
+"""What must hold for every game, on every arena it has: a new game is tested by being in GAMES."""
+
+import os
+from math import isfinite
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+
+import pytest
+
+from pigaming_app.ai import BRAINS, make
+from pigaming_app.ai.rollout import Batch
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.arena import arenas
+from pigaming_app.sim.record import digest, numbers
+
+EVERY_ARENA = [(game, arena) for game in GAMES for arena in arenas(game)]
+TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
+
+
+def setup(game, arena="classic", seed=1, variant=None, minutes=0.2, teams=(0, 1, 2, 3)):
+    one, two, three, four = (Seat("random", team) for team in teams)
+    return Setup(game, arena, (one, two, three, four), minutes, seed, variant or GAMES[game].variants[0])
+
+
+def company(game):
+    """Brains for the four seats: the strongest hand-written ones if there are, and random ones."""
+    kinds = BRAINS[game]
+    return [kinds.get("hard", kinds["random"]), kinds["random"], kinds.get("fsm", kinds["random"]), kinds["random"]]
+
+
+def played(setup, brains=("random",) * 4):
+    match = Match(setup)
+    for seat, brain in enumerate(brains):
+        match.sit(seat, make(setup.game, brain, setup.seed * 4 + seat))
+    while not match.over:
+        match.tick()
+    return match
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_the_same_seed_is_the_same_match_and_another_is_another(game):
+    one, same, other = (played(setup(game, seed=seed)) for seed in (1, 1, 2))
+    assert digest(one.state) == digest(same.state)
+    assert digest(one.state) != digest(other.state)
+
+
+@pytest.mark.parametrize(("game", "arena"), EVERY_ARENA)
+def test_a_random_match_ends_when_its_time_is_up(game, arena):
+    match = played(setup(game, arena))
+    assert match.seconds == pytest.approx(0.2 * 60)
+    assert match.outcome().rows[0].place == 1
+    assert all(isfinite(number) for number in numbers(match.state))
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_both_bodies_play_the_same_match_to_the_last_bit(game):
+    names = arenas(game)
+    each = -(-TWINS_TICKS // (2 * len(names)))
+    setups = [setup(game, name, seed, minutes=60.0) for name in names for seed in (1, 2)]
+    plain, fast = (Batch(setups, company(game), fast) for fast in (False, True))
+    for batch in (plain, fast):
+        batch.play(each)
+    assert sum(state.tick for state in plain.matches) >= TWINS_TICKS
+    assert [digest(row) for row in fast.matches] == [digest(state) for state in plain.matches]
+    for rows, minds in zip(fast.minds, plain.minds, strict=True):
+        assert [digest(row) for row in rows] == [digest(mind) for mind in minds]
+    assert any(any(scores) for scores in plain.scores())
+
+
+@pytest.mark.parametrize("fast", [False, True], ids=["plain", "compiled"])
+@pytest.mark.parametrize("game", GAMES)
+def test_a_match_of_a_batch_is_that_match_alone(game, fast):
+    setups = [setup(game, seed=seed, variant=variant) for seed in (3, 4) for variant in GAMES[game].variants]
+    together = Batch(setups, company(game), fast)
+    together.play(600)
+    for i, one in enumerate(setups):
+        alone = Batch([one], company(game), fast)
+        alone.play(600)
+        assert digest(alone.matches[0]) == digest(together.matches[i])
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_a_batch_is_the_match_that_people_see(game):
+    """The rollout and `Match` are two loops over the same rules."""
+    batch = Batch([setup(game, seed=9)], [BRAINS[game]["random"]] * 4, False)
+    batch.play(600)
+    match = played(setup(game, seed=9))
+    assert digest(batch.matches[0]) == digest(match.state)
+
+
+@pytest.mark.parametrize("teams", [(0, 1, 2, 3), (0, 0, 1, 1)])
+@pytest.mark.parametrize(("game", "arena"), EVERY_ARENA)
+def test_every_number_of_every_view_is_finite(game, arena, teams):
+    match = Match(setup(game, arena, teams=teams))
+    for seat in range(4):
+        match.sit(seat, make(game, "random", seat))
+    rules = GAMES[game]
+    eyes, view = rules.eyes(), rules.view()
+    while not match.over:
+        match.tick()
+        if match.state.tick % 20 == 0:
+            before = digest(match.state)
+            for seat in range(4):
+                rules.see(match.state, seat, eyes, view)
+                assert all(isfinite(number) for number in numbers(view))
+            assert digest(match.state) == before, "looking changes nothing"
+
+
+@pytest.mark.parametrize(("game", "arena"), EVERY_ARENA)
+def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
+    import pygame
+
+    from pigaming_app.scenes.views import VIEWS
+
+    if game not in VIEWS:
+        return
+    from pigaming_app.scenes.views.busy import Full
+
+    pygame.display.init()
+    pygame.font.init()
+    screen = pygame.display.set_mode((1920, 1080))
+    match = Match(setup(game, arena))
+    scene = VIEWS[game](match.arena, match.state, ["easy", "random", "random", "random"], Full())
+    for seat in range(4):
+        match.sit(seat, make(game, "random", seat))
+    screen.fill((1, 2, 3))
+    blank = pygame.image.tobytes(screen, "RGB")
+    for _ in range(100):
+        match.tick()
+        before = digest(match.state)
+        scene.watch(match.state)
+        if match.state.tick % 25 == 0:
+            scene.draw(screen, match.state, 0.5, 0.02)
+        assert digest(match.state) == before
+    assert pygame.image.tobytes(screen, "RGB") != blank

@@ -1,0 +1,14 @@
+"""Matches play out as they always have. How to renew the digests: see tests/golden.py."""
+
+import pytest
+
+from tests.golden import golden, keys, played
+
+
+@pytest.mark.parametrize("key", keys())
+def test_a_match_plays_out_as_it_always_has(key):
+    assert golden().get(key) == played(key), "meant? then: python -m tests.golden --write, and say why in the commit"
+
+
+def test_nothing_is_kept_that_is_not_there():
+    assert set(golden()) <= set(keys())
