@@ -335,8 +335,8 @@ def drop_pickup(match: Any) -> None:
     if free < 0:
         return
     for _ in range(8):
-        column = 1 + int(chance(match) * (COLUMNS - 2))
-        row = 1 + int(chance(match) * (ROWS - 2))
+        column = 2 + int(chance(match) * (COLUMNS - 4))
+        row = 2 + int(chance(match) * (ROWS - 4))
         x, y = column * CELL, row * CELL
         if not match.grid[row * COLUMNS + column] & BLOCKED and lonely(match, x, y):
             pickup = match.pickups[free]
