@@ -1,0 +1,79 @@
+"""Who is better: the interval is Wilson's, and nobody is favoured by seed or side."""
+
+from math import sqrt
+
+import pytest
+
+from pigaming_app.ai import league
+from pigaming_app.ai.league import duel, wilson
+from pigaming_app.games.choices import ChoiceError
+
+
+def test_hundred_wins_of_hundred_say_at_least_96_percent():
+    low, high = wilson(100, 100)
+    assert low == pytest.approx(0.963, abs=5e-4)
+    assert high == 1.0
+
+
+def test_no_win_is_the_mirror_of_all_wins():
+    low, high = wilson(0, 100)
+    assert low == 0.0
+    assert high == pytest.approx(1 - 0.963, abs=5e-4)
+
+
+def test_half_of_hundred_is_ten_percent_either_way():
+    # Wilson at 1/2: z sqrt(n + z^2) / (2 (n + z^2))
+    z = 1.959964
+    low, high = wilson(50, 100)
+    assert high - 0.5 == pytest.approx(z / (2 * sqrt(100 + z * z)))
+    assert low + high == pytest.approx(1.0)
+
+
+def test_more_matches_say_more():
+    widths = [high - low for low, high in (wilson(n // 2, n) for n in (10, 100, 1000))]
+    assert widths == sorted(widths, reverse=True)
+
+
+@pytest.mark.parametrize("brain", ["random", "fsm"])
+def test_a_duel_with_oneself_is_even(brain):
+    """Both sides of a pair are the same match, so what one wins on one side it loses on the other."""
+    result = duel("pitanks", brain, brain, matches=8, seed=5, minutes=0.5, variant="plain", fast=False)
+    assert result.wins == result.losses
+    assert result.mean_score_left == result.mean_score_right
+    assert result.wins + result.ties + result.losses == 8
+
+
+def test_each_seed_is_played_from_both_sides(monkeypatch):
+    seen = []
+
+    def play(setups, one, other, fast, ticks):
+        seen.append((one, other, [setup.seed for setup in setups]))
+        return [(3, 1)] * len(setups)
+
+    monkeypatch.setattr(league, "_play", play)
+    result = duel("pitanks", "easy", "hard", matches=6, seed=7, fast=False)
+    assert seen == [("easy", "hard", [7, 8, 9]), ("hard", "easy", [7, 8, 9])]
+    assert (result.wins, result.losses, result.ties) == (3, 3, 0)  # whoever sits on the first seat wins here
+    assert result.mean_score_left == result.mean_score_right == 2.0
+
+
+def test_left_and_right_swapped_is_the_same_duel_seen_from_the_other_side():
+    one = duel("pitanks", "random", "idle", matches=8, seed=3, minutes=0.5, variant="plain", fast=False)
+    other = duel("pitanks", "idle", "random", matches=8, seed=3, minutes=0.5, variant="plain", fast=False)
+    assert (one.wins, one.ties, one.losses) == (other.losses, other.ties, other.wins)
+    assert one.mean_score_left == other.mean_score_right
+    assert one.wilson95 == wilson(one.wins, 8)
+
+
+def test_compiled_or_plain_the_scores_are_the_same():
+    plain, fast = (
+        duel("pitanks", "fsm", "random", matches=4, seed=11, minutes=0.5, variant="plain", fast=fast)
+        for fast in (False, True)
+    )
+    assert (plain.wins, plain.ties, plain.losses) == (fast.wins, fast.ties, fast.losses)
+    assert plain.mean_score_left == fast.mean_score_left
+
+
+def test_a_brain_that_is_not_there_is_refused():
+    with pytest.raises(ChoiceError, match="no seat 'genius'"):
+        duel("pitanks", "genius", "random", matches=2, seed=1)
