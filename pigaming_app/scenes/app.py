@@ -69,10 +69,10 @@ class App:
 def run(options: Options) -> int:
     """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
     where = folders()
-    crash_file = _keep_log(where.data)
     settings, said = Settings.load(where.config)
     scores, more = Scores.load(where.data)
     canvas = Canvas.open(settings, options.display, False if options.headless else None, options.headless)
+    crash_file = _keep_log(where.data)
     pygame.font.init()
     pygame.display.set_caption("PiGaming")
     house = House(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)

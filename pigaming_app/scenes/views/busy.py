@@ -126,3 +126,10 @@ def busy_frames(screen: pygame.Surface, frames: int) -> list[float]:
         if frame >= 60:
             times.append(1000.0 * (perf_counter() - began))
     return times
+
+
+def unseen_frames(frames: int) -> list[float]:
+    """The same on a display of the dummy driver, which the caller has chosen."""
+    pygame.display.init()
+    pygame.font.init()
+    return busy_frames(pygame.display.set_mode((1920, 1080)), frames)

@@ -1,0 +1,90 @@
+"""The command line: jobs that work, and one clear line for what does not."""
+
+import json
+import os
+
+import pytest
+
+from pigaming_app.cli import main
+
+SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--seats", "fsm,easy,off,off"]
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+
+
+def test_a_match_without_a_window_tells_its_result(capsys):
+    assert main(["play", *SHORT, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [row["seat"] for row in told["rows"]] == [1, 2] or [row["seat"] for row in told["rows"]] == [2, 1]
+    assert told["match_seconds"] == pytest.approx(6.0)
+
+
+def test_a_recorded_match_is_proven(tmp_path, capsys):
+    file = tmp_path / "a.replay"
+    assert main(["play", *SHORT, "--record", str(file)]) == 0
+    assert main(["replay", str(file), "--verify"]) == 0
+    assert "the same" in capsys.readouterr().out
+
+
+def test_a_picture_is_taken(tmp_path):
+    picture = tmp_path / "a.png"
+    assert main(["play", *SHORT, "--screenshot", str(picture), "--at", "3"]) == 0
+    assert picture.stat().st_size > 10_000
+
+
+def test_a_duel_prints_one_object(capsys):
+    duel = ["duel", "pitanks", "hard", "idle", "--matches", "4", "--seed", "1", "--minutes", "0.2", "--json"]
+    assert main(duel) == 0
+    told = json.loads(capsys.readouterr().out)
+    wanted = {"game", "left", "right", "matches", "wins", "ties", "losses", "wilson95"}
+    wanted |= {"mean_score_left", "mean_score_right", "seconds", "ticks_per_second"}
+    assert set(told) == wanted
+    assert told["wins"] + told["ties"] + told["losses"] == 4
+
+
+def test_the_doctor_speaks_json(capsys):
+    code = main(["doctor", "--json"])
+    lines = json.loads(capsys.readouterr().out)["lines"]
+    assert code == int(any(line["state"] == "problem" for line in lines))
+    assert {line["what"] for line in lines} >= {"Python", "pygame-ce", "displays", "engine"}
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["nonsense"],
+        ["play", "--seats", "fsm,wizard"],
+        ["play", "--seats", "fsm"],
+        ["play", "--seats", "fsm,fsm,fsm,fsm,fsm"],
+        ["play", "--game", "chess"],
+        ["play", "--arena", "nowhere", "--headless"],
+        ["play", "--minutes", "-1"],
+        ["play", "--minutes", "nan"],
+        ["play", "--speed", "slow", "--headless"],
+        ["play", "--teams", "1,1,1,1"],
+        ["play", "--teams", "a,b"],
+        ["play", "--record", "/nowhere/at/all.replay", "--headless"],
+        ["replay", "/nowhere"],
+        ["duel", "pitanks", "fsm", "wizard"],
+        ["duel", "pitanks", "fsm", "easy", "--matches", "0"],
+        ["duel", "chess", "fsm", "easy"],
+        ["bench", "chess"],
+    ],
+    ids=" ".join,
+)
+def test_what_is_wrong_is_one_line_and_exit_code_2(arguments, capsys):
+    assert main(arguments) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert len(captured.err.strip().splitlines()) == 1
+
+
+def test_no_display_is_said_with_the_way_out(monkeypatch, capsys):
+    for name in ("SDL_VIDEODRIVER", "DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    if os.name == "posix":
+        assert main([]) == 2
+        assert "--headless" in capsys.readouterr().err

@@ -1,0 +1,59 @@
+"""Imports go one way, and the arcade starts without numba."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parent.parent / "pigaming_app"
+MAY = {
+    "sim": {"sim"},
+    "games": {"games", "sim"},
+    "ai": {"ai", "games", "sim"},
+    "hardware": {"hardware", "sim"},
+}
+ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
+FILES = sorted(PACKAGE.rglob("*.py"))
+
+
+def imported(path):
+    """The modules that a file imports, each with whether it does so at once (not inside a function)."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    inside = {id(node) for f in ast.walk(tree) if isinstance(f, ast.FunctionDef) for node in ast.walk(f)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, id(node) not in inside) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module, id(node) not in inside
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_a_file_imports_only_what_its_layer_may(path):
+    place = path.relative_to(PACKAGE).parts
+    layer = place[0] if len(place) > 1 else ""
+    for module, at_once in imported(path):
+        root = module.split(".")[0]
+        if root == "pigaming_app" and layer in MAY and module.count("."):
+            assert module.split(".")[1] in MAY[layer], f"{path.name} imports {module}"
+        if root in ONLY_IN:
+            assert layer in ONLY_IN[root], f"{path.name} imports {module}"
+        if root == "numba":
+            assert place == ("sim", "kernel.py")
+            assert not at_once
+
+
+def test_main_needs_nothing_but_the_standard_library():
+    for path in (PACKAGE.parent / "main.py", PACKAGE / "start.py", PACKAGE / "install.py"):
+        roots = {module.split(".")[0] for module, at_once in imported(path) if at_once}
+        assert roots <= set(sys.stdlib_module_names) | {"pigaming_app"}
+
+
+def test_the_arcade_is_imported_without_numba_and_numpy():
+    code = (
+        "import sys\nsys.modules['numba'] = None\n"
+        "import pigaming_app.cli, pigaming_app.scenes.app, pigaming_app.scenes.title, pigaming_app.scenes.match\n"
+        "assert 'numpy' not in sys.modules, 'numpy costs a tenth of a second at the start'\n"
+    )
+    subprocess.run([sys.executable, "-c", code], cwd=PACKAGE.parent, check=True)
