@@ -12,7 +12,6 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.playing import seated
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.howto import HowTo
 from pigaming_app.scenes.ink import FOCUS, LABEL
 from pigaming_app.scenes.match import new_seed
 from pigaming_app.scenes.plate import plate
@@ -72,13 +71,19 @@ class Attract:
         return Demonstration(self.house)
 
     def _howto(self) -> Scene:
-        return Page(HowTo(self.house))
+        from pigaming_app.scenes.howto import HowTo
+
+        page = HowTo(self.house)
+        return Page(page, page.draw)
 
     def _best(self) -> Scene | None:
         """The tables of an arena in which somebody has scored."""
         scores = self.house.scores
         there = [(game, arena) for game in GAMES for arena in arenas(game) if scores.best(game, arena)]
-        return Page(Best(self.house, *secrets.choice(there))) if there else None
+        if not there:
+            return None
+        best = Best(self.house, *secrets.choice(there))
+        return Page(best, best.paint)
 
 
 class Demonstration:
@@ -115,8 +120,8 @@ class Demonstration:
 class Page:
     """A page that is only looked at."""
 
-    def __init__(self, page: HowTo | Best) -> None:
-        self.page, self.age = page, 0.0
+    def __init__(self, page: Scene, paint: Callable[[pygame.Surface], None]) -> None:
+        self.page, self.paint, self.age = page, paint, 0.0
 
     def entered(self) -> None:
         """Begin it."""
@@ -132,5 +137,5 @@ class Page:
         return Home() if self.age > PAGE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page, without its hints if it can be had so."""
-        self.page.paint(screen)
+        """The page, as `paint` shows it."""
+        self.paint(screen)

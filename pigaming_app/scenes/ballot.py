@@ -1,4 +1,4 @@
-"""Who wants a rematch: everyone who played presses FIRE once; whoever is missing does not hold up the others for long."""
+"""Who wants a rematch: everyone who played presses FIRE once; somebody missing does not hold the others up for long."""
 
 from collections.abc import Sequence
 from functools import cache

@@ -71,7 +71,7 @@ class Best:
         for first, days, key in ((0, 1, "results.today"), (6, None, "results.ever")):
             x, w = span(first, 6)
             rows = self.house.scores.best(self.game, self.arena, days)[:ROWS]
-            head = Pane(x, 216, w, 620)
+            head = Pane(x, 216, w, 670)
             panel(head.hot, x, 276, w, 24 + PITCH * ROWS + 8, STEEL, THIN)
             head.page.text(words(key), LABEL, x, 236, ICE)
             out.append((0.1, head.done()))

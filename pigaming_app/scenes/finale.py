@@ -1,4 +1,4 @@
-"""A little celebration on the results: the winner drives along the line under its name, turns round for joy, and sparks fly."""
+"""A celebration on the results: the winner drives along the line under its name and turns for joy, and sparks fly."""
 
 import math
 import random
@@ -57,7 +57,7 @@ class Finale:
     def reach(self) -> float:
         """How far along the line the winner is, px from its left end."""
         share = min(1.0, self.age / DRIVE)
-        return (1 - (1 - share) ** 2.2) * (RIGHT - 40 - LEFT)
+        return (1.0 - (1.0 - share) ** 2) * (RIGHT - 40 - LEFT)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Add sparks and winner to the screen."""

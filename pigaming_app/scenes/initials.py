@@ -25,14 +25,13 @@ from pigaming_app.scenes.ink import (
     badge,
     brackets,
     cut,
-    dim,
     icon,
     text_width,
 )
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, word
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.stack import Swap, Turn
+from pigaming_app.scenes.stack import Pop, Swap, Turn
 from pigaming_app.scores import LETTERS, Score
 from pigaming_app.settings import folders
 
@@ -87,7 +86,7 @@ class Initials:
         self.claim = self.claims.pop(0)
         self.letters, self.slot = [0, 0, 0], 0
         self.age = self.idle = 0.0
-        self.rolled, self.rolling = 0, 0.0
+        self.rolled, self.rolling, self.touched = 0, 0.0, False
         self.lit: list[Lit] = []
 
     def entered(self) -> None:
@@ -99,13 +98,11 @@ class Initials:
         theirs = press.device == self.claim.device or not self.house.controls.connected(self.claim.device)
         if self.age < DEAF or not (theirs or press.device.kind == "mouse" or press.act is Act.START):
             return None
-        self.idle = 0.0
+        self.idle, self.touched = 0.0, True
         match press.act:
             case Act.UP | Act.DOWN:
                 self._turn(-1 if press.act is Act.UP else 1)
-            case Act.LEFT:
-                self._move(max(0, self.slot - 1))
-            case Act.BACK:
+            case Act.LEFT | Act.BACK:
                 self._move(max(0, self.slot - 1))
             case Act.RIGHT:
                 self._move(min(2, self.slot + 1))
@@ -118,11 +115,13 @@ class Initials:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the letters roll; take them as they are when nobody chooses."""
+        """Let the letters roll; take them as they are when nobody chooses any more, none when nobody ever did."""
         self.age += seconds
         self.idle += seconds
         self.rolling += seconds
-        return self._enter() if self.idle > PATIENCE else None
+        if self.idle <= PATIENCE:
+            return None
+        return self._enter() if self.touched else self._next()
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the question and the letters."""
@@ -150,17 +149,22 @@ class Initials:
 
     def _move(self, slot: int) -> None:
         self.house.sounds.play("accept" if slot > self.slot else "back")
-        if slot > self.slot and self.letters[slot] == 0 and slot == self.slot + 1:
-            self.rolled = 0
+        self.rolled = 0
         self.slot = slot
 
     def _enter(self) -> Turn:
         initials = "".join(LETTERS[letter] for letter in self.letters)
         self.fresh.append(self.house.scores.add(self.setup.game, self.setup.arena, initials, self.claim.score))
         self.house.sounds.play("ready", self.claim.seat)
+        return self._next()
+
+    def _next(self) -> Turn:
+        """Ask the next one, or show the tables; nothing new in them, nothing to show."""
         if self.claims:
             self._begin()
             return None
+        if not self.fresh:
+            return Pop()
         try:
             self.house.scores.save(folders().data)
         except NotSaved as reason:
@@ -188,8 +192,7 @@ class Initials:
         for i in range(3):
             pane.hot.line(cut(middle(i) - SLOT_W / 2, MIDDLE - SLOT_H / 2, SLOT_W, SLOT_H, 20), STEEL, THIN, True)
         found = places(self.house, self.setup, self.claim.score)
-        texts = [f"{self.house.words('results.' + name)}: {place}." for name, place in found.items()]
-        text = "     ".join(texts)
+        text = "   ·   ".join(self.house.words(f"results.place_{name}", place=place) for name, place in found.items())
         x = 960 - text_width(text, BODY, "body") / 2
         icon(pane.hot, "crown", x - 52, MIDDLE + 262, 24, FOCUS, THIN)
         pane.page.body(text, x, MIDDLE + 264, MIST)
@@ -210,7 +213,7 @@ def focus(x: float) -> Lit:
         pane = Pane(-SLOT_W / 2 - 20, MIDDLE - 230, SLOT_W + 40, 460)
         brackets(pane.hot, -SLOT_W / 2, MIDDLE - SLOT_H / 2, SLOT_W, SLOT_H, FOCUS, 40, 20)
         for side, name in ((-1, "up"), (1, "down")):
-            icon(pane.hot, name, 0, MIDDLE + side * 176, 26, dim(FOCUS, 0.9), LINE)
+            icon(pane.hot, name, 0, MIDDLE + side * 178, 32, FOCUS, LINE)
         _FOCUS.append(pane.done())
     lit = _FOCUS[0]
     return Lit(lit.image, (round(lit.at[0] + x), lit.at[1]))

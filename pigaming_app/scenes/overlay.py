@@ -1,4 +1,4 @@
-"""A page that lies over a match: the match dark and frozen, a black sheet with cut corners on it, all of it one picture.
+"""A page that lies over a match: the match dark and frozen, a black sheet with cut corners on it, all one picture.
 
 A scene paints the still part once; what moves on it is added frame by frame.
 """

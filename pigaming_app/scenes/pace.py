@@ -1,5 +1,7 @@
-"""Real time becomes ticks of the world. A slow machine makes a match slow, never jumpy: what cannot be caught up within one
-frame is dropped, so neither a dragged window nor a sleeping laptop is followed by a burst of ticks.
+"""Real time becomes ticks of the world.
+
+A slow machine makes a match slow, never jumpy: what cannot be caught up within one frame is dropped, so neither a
+dragged window nor a sleeping laptop is followed by a burst of ticks.
 """
 
 import math

@@ -22,13 +22,15 @@ class Lit:
     image: pygame.Surface
     at: tuple[int, int]
 
-    def draw(self, screen: pygame.Surface, dx: float = 0.0, dy: float = 0.0, share: float = 1.0) -> None:
-        """Add it to the screen, moved by (dx, dy) px; of its width only `share`, 0..1, from the left."""
-        if share >= 1.0:
-            screen.blit(self.image, (self.at[0] + dx, self.at[1] + dy), special_flags=ADD)
-        elif share > 0.0:
-            area = (0, 0, round(self.image.get_width() * share), self.image.get_height())
-            screen.blit(self.image, (self.at[0] + dx, self.at[1] + dy), area, special_flags=ADD)
+    def draw(
+        self, screen: pygame.Surface, dx: float = 0.0, dy: float = 0.0, share: float = 1.0, begin: float = 0.0
+    ) -> None:
+        """Add it to the screen, moved by (dx, dy) px; of its width only from `begin` to `share`, 0..1."""
+        w, h = self.image.get_size()
+        left, right = round(w * max(0.0, begin)), round(w * min(1.0, share))
+        if right > left:
+            place = self.at[0] + dx + left, self.at[1] + dy
+            screen.blit(self.image, place, (left, 0, right - left, h), special_flags=ADD)
 
 
 class Pane:

@@ -111,5 +111,3 @@ def title(pane: Pane, player: int | None, text: str, color: Color) -> None:
         badge(pane.hot, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
         x = X + 232
     pane.page.text(text, fitted(text, TITLE, X + W - 60 - x), x, Y + 116, color)
-
-

@@ -1,4 +1,4 @@
-"""The row at the foot of a page: which button does what, as it is printed on the device used last; the mouse clicks on it."""
+"""The row at the foot of a page: which button of the device used last does what. The mouse clicks on it."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -7,7 +7,20 @@ from functools import cache
 import pygame
 
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import BLACK, BODY, ICE, MIST, STEEL, THIN, Page, button, button_width, cut, icon, text_width
+from pigaming_app.scenes.ink import (
+    BLACK,
+    BODY,
+    ICE,
+    MIST,
+    STEEL,
+    THIN,
+    Page,
+    button,
+    button_width,
+    cut,
+    icon,
+    text_width,
+)
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.press import Act, Press
 
@@ -18,7 +31,10 @@ HIGH = 34  # px from the middle of the row to the edge of what can be clicked
 
 
 class Prompts:
-    """A row of (act, key of its text), centred on the line y px of the canvas, not wider than `room` px; `solid`: on a black plate."""
+    """A row of (act, key of its text), centred on the line y px of the canvas, not wider than `room` px.
+
+    `solid`: the row lies on a black plate.
+    """
 
     def __init__(
         self, house: House, items: Sequence[tuple[Act, str]], y: int = 980, room: int = ROOM, solid: bool = False

@@ -7,7 +7,6 @@ from typing import Protocol
 import pygame
 
 from pigaming_app.scenes.effects import timer_ring
-from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
 from pigaming_app.scenes.overlay import HEAD, PROMPTS, W, X, Y, overlay
 from pigaming_app.scenes.pane import Lit, Pane, fitted, lines_of, word

@@ -23,11 +23,11 @@ class ReplayScene:
     def __init__(self, house: House, replay: Replay) -> None:
         self.house, self.replay = house, replay
         self.length = len(replay.ticks) // BYTES * DT
-        self.speed, self.shown = 0, SHOWN
+        self.speed, self.shown, self.playing = 0, SHOWN, True
         hints = [(Act.FIRE, "replay.hint_pause"), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, "replay.hint_again"),
                  (Act.BACK, "replay.hint_back")]  # fmt: skip
         self.prompts = Prompts(house, hints, 984, 1500, solid=True)
-        self._begin()
+        self.stage, self.warm = Stage(house, play(replay)), False
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -89,5 +89,4 @@ class ReplayScene:
         return match.over or match.seconds >= self.length
 
     def _begin(self) -> None:
-        self.stage = Stage(self.house, play(self.replay))
-        self.warm, self.playing = False, True
+        self.stage, self.warm, self.playing = Stage(self.house, play(self.replay)), False, True

@@ -12,6 +12,7 @@ from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.scenes.finale import Finale
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
+    BODY,
     FOCUS,
     ICE,
     LABEL,
@@ -36,7 +37,7 @@ from pigaming_app.scenes.plot import Curve, Plot, dot, team_curve
 from pigaming_app.sim.arena import load
 
 TOP, ROW, PITCH = 280, 120, 136
-COLUMNS = (372, 510, 672, 820)  # right edges: score, and what the game counts
+COLUMNS = (362, 506, 678, 820)  # right edges: score, and what the game counts
 FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
 
 
@@ -101,8 +102,12 @@ class ResultsPage:
         elif drawn >= 1.0:
             self.lines.draw(screen)
             self.ends.draw(screen)
-        if age >= self.title_at:
-            self.colored.draw(screen, share=self._line_share(age))
+        if age < self.title_at:
+            self.steel.draw(screen)
+        else:
+            share = self._line_share(age)
+            self.steel.draw(screen, begin=share)
+            self.colored.draw(screen, share=share)
             if self.finale:
                 self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
                 self.finale.draw(screen)
@@ -112,11 +117,11 @@ class ResultsPage:
     def _make(self) -> Iterator[bool]:
         """Make one piece at a time."""
         self.colored = line(self._color(), RIGHT - LEFT)
-        self.parts.append(Part(line(STEEL, RIGHT - LEFT, THIN), 0.0))
-        yield True
-        self.parts.append(Part(self._title(), self.title_at))
+        self.steel = line(STEEL, RIGHT - LEFT, THIN)
         yield True
         self.parts.append(Part(self._where(), 0.1))
+        yield True
+        self.parts.append(Part(self._title(), self.title_at))
         yield True
         self.parts.append(Part(self._columns(), 0.1))
         yield True
@@ -125,6 +130,9 @@ class ResultsPage:
             begins = FIRST + APART * (len(self.teams) - 1 - i)
             self.parts.append(Part(self._team(team, y), begins))
             y += PITCH * len(team)
+            yield True
+        if len(self.outcome.rows) < 4 and (records := self._records()):
+            self.parts.append(Part(records, self.ready_at))
             yield True
         x, w = span(6, 6)
         self.plot = Plot(x, TOP, w, 528, self._curves(), self.outcome.seconds)
@@ -156,7 +164,7 @@ class ResultsPage:
             text = words("results.wins", player=numbers[0])
         else:
             text = words("results.win", players=", ".join(numbers[:-1]), last=numbers[-1])
-        size = fitted(text, TITLE, 1210 - x)
+        size = fitted(text, TITLE, self.room - x - (130 if self.winners else 0))
         pane.page.text(text, size, x, 112, self._color())
         if self.winners:
             at = x + text_width(text, size) + 70
@@ -169,12 +177,13 @@ class ResultsPage:
     def _where(self) -> Lit:
         """Game, time, arena."""
         words, setup = self.house.words, self.setup
-        pane = Pane(1300, 60, RIGHT - 1300, 100)
         minutes = words("results.minutes", minutes=f"{setup.minutes:g}")
-        title = load(setup.game, setup.arena).title
-        where = title.get(words.language, setup.arena)
-        pane.page.body(f"{words('results.' + setup.game)}  ·  {minutes}", RIGHT, 86, MIST, "r")
-        pane.page.body(where, RIGHT, 138, MIST, "r", fitted(where, 40, 500, "body"))
+        arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
+        where = f"{words('results.' + setup.game)}  ·  {arena}  ·  {minutes}"
+        size = fitted(where, BODY, 720, "body")
+        self.room = RIGHT - text_width(where, size, "body") - 40  # px, where the title must end
+        pane = Pane(self.room, 60, RIGHT - self.room, 100)
+        pane.page.body(where, RIGHT, 112, MIST, "r", size)
         return pane.done()
 
     def _columns(self) -> Lit:
@@ -197,10 +206,10 @@ class ResultsPage:
         h = PITCH * len(rows) - (PITCH - ROW)
         wins = rows[0].seat in self.winners
         pane = Pane(x, y, w, h)
-        panel(pane.hot, x, y, w, h, PLAYERS[rows[0].seat] if wins else STEEL, LINE if wins else THIN)
+        panel(pane.hot, x, y, w, h, PLAYERS[min(row.seat for row in rows)] if wins else STEEL, LINE if wins else THIN)
         number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
         color = ICE if wins else MIST
-        pane.page.text(number, fitted(number, SUB, 96), x + 62, y + h / 2, color, "head", "c")
+        pane.page.text(number, fitted(number, SUB, 84), x + 58, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
             self._row(pane, row, x, y + ROW / 2 + PITCH * i, color)
         return pane.done()
@@ -210,7 +219,7 @@ class ResultsPage:
         badge(pane.hot, row.seat, x + 164, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
-            icon(pane.hot, "ai", x + 232, y, 19, MIST, 3)
+            icon(pane.hot, "ai", x + 228, y, 17, MIST, 3)
         score = signed(row.score)
         size = fitted(score, SUB, 110 if brain != "human" else 150, "hero")
         pane.page.text(score, size, x + COLUMNS[0], y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
@@ -219,13 +228,30 @@ class ResultsPage:
             text = f"{round(100 * value)}%" if name == "aim" else signed(round(value))
             pane.page.cold.text(text, LABEL, x + right, y, color, "head", "r")
 
+    def _records(self) -> Lit | None:
+        """Who was best in this arena, in the place of a row that nobody needs; nothing before somebody was."""
+        scores, setup, words = self.house.scores, self.setup, self.house.words
+        tables = [(key, scores.best(setup.game, setup.arena, days)) for key, days in (("today", 1), ("ever", None))]
+        if not tables[1][1]:
+            return None
+        x, w = span(0, 6)
+        y = TOP + 3 * PITCH + ROW // 2
+        pane = Pane(x, y - ROW // 2, w, ROW)
+        for left, (key, rows) in zip((x + 24, x + w // 2 + 24), tables, strict=True):
+            icon(pane.hot, "crown", left + 24, y - 34, 20, FOCUS, 3)
+            pane.page.body(words(f"results.{key}"), left + 64, y - 32, MIST)
+            if rows:
+                pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
+                pane.page.text(str(rows[0].score), LABEL, left + 330, y + 32, ICE, "hero", "r")
+        return pane.done()
+
     def _curves(self) -> list[Curve]:
         series = self.outcome.series
         if not self.by_team:
             return sorted(
                 (Curve((row.seat,), tuple(series[row.seat])) for row in self.outcome.rows), key=lambda c: c.players
             )
-        seats = [[row.seat for row in team] for team in self.teams]
+        seats = [sorted(row.seat for row in team) for team in self.teams]
         return [team_curve(team, [series[seat] for seat in team]) for team in seats]
 
     def _plot_share(self, drawn: float) -> float:

@@ -1,0 +1,227 @@
+"""After a match: who won, who wants another one, whose three letters stand in the table."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.games.game import Outcome, Row
+from pigaming_app.scenes.ballot import PATIENCE
+from pigaming_app.scenes.best import Best
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.initials import Initials
+from pigaming_app.scenes.match import MatchScene, again
+from pigaming_app.scenes.plot import moments, scale, spread, team_curve
+from pigaming_app.scenes.press import Act, Device
+from pigaming_app.scenes.results import IDLE, Results
+from pigaming_app.scores import Scores
+from pigaming_app.settings import folders
+from tests.scenes.arcade import KEYS, Arcade, setup
+
+LONG = 4.0  # seconds after which everything is there and may be pressed
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    return Arcade(controls)
+
+
+def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, ...] = (0, 1, 2, 3)) -> Outcome:
+    """A minute that ended so."""
+    sums = {team: sum(scores[seat] for seat in scores if teams[seat] == team) for team in teams}
+    seats = sorted(scores, key=lambda seat: (-sums[teams[seat]], teams[seat], -scores[seat]))
+    rows = [Row(seat, teams[seat], 1, scores[seat], {"hits": 9, "taken": 12, "aim": 0.617}) for seat in seats]
+    rows = [replace(row, place=1 + sum(sums[teams[seat]] > sums[row.team] for seat in seats)) for row in rows]
+    series = tuple(((0.0, 0), (20.0, scores[seat])) if seat in scores else ((0.0, 0),) for seat in range(4))
+    return Outcome(tuple(rows), winners, series, 60.0)
+
+
+def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, teams=(0, 1, 2, 3)) -> Results:
+    match = setup(brains, 1.0, teams)
+    devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
+    results = Results(arcade.house, ended, match, devices, again, finished)
+    arcade.open(results)
+    return results
+
+
+LOST = outcome({0: -4, 1: -1, 2: 5}, (2,))
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize(
+    ("brains", "scores", "winners", "teams", "finished", "cheer"),
+    [
+        ("human human hard human", {0: 12, 1: -3, 2: 7, 3: 5}, (0,), (0, 1, 2, 3), True, "win"),
+        ("human normal off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), True, "lose"),
+        ("human off human easy", {0: 3, 2: 3, 3: -6}, (), (0, 1, 2, 3), True, "tie"),
+        ("human human human easy", {0: -3, 1: -2, 2: 9, 3: -4}, (0, 2), (0, 1, 0, 1), True, "win"),
+        ("human human human human", {0: 60, 1: -20, 2: -20, 3: -20}, (0,), (0, 1, 1, 1), True, "win"),
+        ("human human off off", {0: 0, 1: 0}, (), (0, 1, 2, 3), False, None),
+    ],
+)
+def test_every_ending_is_shown(
+    controls, monkeypatch, tmp_path, language, brains, scores, winners, teams, finished, cheer
+):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls, language)
+    opened(arcade, brains, outcome(scores, winners, teams), finished, teams)
+    arcade.wait(2.4, fps=10, draw=True)
+    assert [name for name in arcade.sounds.heard if name in ("win", "lose", "tie")] == ([cheer] if cheer else [])
+    whole = pygame.Rect(0, 0, 1920, 1080)
+    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
+    lit.invert()
+    edge = [box for box in lit.get_bounding_rects() if box.left < 20 or box.right > whole.right - 20]
+    assert not edge, "nothing runs over the edge"
+
+
+def test_nobody_who_still_fires_leaves_the_results_unseen(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    for _ in range(10):
+        for act in (Act.FIRE, Act.BACK, Act.START, Act.EXTRA):
+            arcade.press(act)
+        arcade.frame(0.1)
+    assert arcade.stack.top is results
+    assert not results.ballot.votes
+
+
+def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.FIRE, KEYS[1])
+    arcade.frame()
+    assert arcade.shown(Results) is results
+    arcade.press(Act.FIRE, KEYS[3])
+    arcade.frame()
+    assert arcade.stack.top is results, "a free key cluster has no vote"
+    arcade.press(Act.FIRE, KEYS[0])
+    arcade.frame()
+    match = arcade.shown(MatchScene)
+    assert match.devices == [KEYS[0], KEYS[1], None, None]
+    assert replace(match.setup, seed=0) == replace(results.setup, seed=0)
+    assert match.setup.seed != results.setup.seed
+    assert len(arcade.stack.scenes) == 3, "the choice of the match still lies below"
+
+
+def test_start_waits_for_nobody(arcade: Arcade) -> None:
+    opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.START, KEYS[3])
+    assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[1]]
+
+
+def test_somebody_who_has_gone_holds_nobody_up(arcade: Arcade) -> None:
+    opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.FIRE, KEYS[0])
+    waited = arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
+    assert waited == pytest.approx(PATIENCE, abs=0.2)
+    assert arcade.shown(MatchScene).devices == [KEYS[0], None, None, None]
+
+
+def test_a_free_pad_votes_for_a_seat_whose_pad_has_gone(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    results.ballot.devices[1] = Device("pad", 999)
+    arcade.wait(LONG)
+    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Act.FIRE, KEYS[2])
+    arcade.frame()
+    assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[2]]
+
+
+def test_other_ways_on(arcade: Arcade) -> None:
+    opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.ALT)
+    arcade.wait(1.0, draw=True)
+    arcade.shown(Best)
+    arcade.press(Act.FIRE)
+    arcade.shown(Results)
+    arcade.press(Act.EXTRA)
+    assert arcade.stack.top is arcade.setup
+    opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.BACK)
+    assert arcade.stack.top is arcade.title
+    opened(arcade, "human human hard off", LOST)
+    arcade.until(lambda: arcade.stack.top is arcade.title, IDLE + 1.0)
+
+
+def test_the_mouse_clicks_on_what_the_row_says(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.click(960, 500)
+    assert arcade.stack.top is results
+    arcade.click(300, 980)
+    arcade.shown(MatchScene)
+
+
+def test_three_letters_by_stick(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard human", outcome({0: 4, 1: 9, 2: 12, 3: -7}, (2,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    assert arcade.shown(Initials).claim.seat == 1, "the better one first; an AI and a loss do not count"
+    arcade.press(Act.DOWN, KEYS[1])
+    arcade.wait(1.0)
+    for act in (Act.UP, Act.FIRE, Act.DOWN, Act.DOWN, Act.FIRE, Act.BACK, Act.FIRE, Act.FIRE):
+        arcade.press(act, KEYS[1])
+        arcade.press(Act.DOWN, KEYS[0])  # the others cannot interfere
+        arcade.frame(draw=True)
+    page = arcade.shown(Initials)
+    assert page.claim.seat == 0
+    arcade.wait(1.0)
+    arcade.press(Act.START, KEYS[0])
+    arcade.wait(2.0, draw=True)
+    assert [row.initials for row in arcade.shown(Best).fresh] == ["ZCA", "AAA"]
+    arcade.press(Act.FIRE)
+    assert arcade.shown(Results) is results
+    kept, said = Scores.load(folders().data)
+    assert not said
+    assert [(row.initials, row.score) for row in kept.best("pitanks", "classic")] == [("ZCA", 9), ("AAA", 4)]
+
+
+def test_nobody_chooses_and_nothing_is_written(arcade: Arcade) -> None:
+    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    arcade.until(lambda: arcade.stack.top is results)
+    assert not arcade.house.scores.best("pitanks", "classic")
+
+
+def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
+    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)), finished=False)
+    arcade.wait(5.0)
+    assert arcade.stack.top is results
+
+
+def test_a_low_score_is_no_record(arcade: Arcade) -> None:
+    for _ in range(10):
+        arcade.house.scores.add("pitanks", "classic", "ABC", 20)
+    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
+    arcade.wait(5.0)
+    assert arcade.stack.top is results
+
+
+def test_axes_hold_every_score_and_zero() -> None:
+    assert scale(-3, 12) == (-5, 15, 5)
+    assert scale(0, 0) == (0, 2, 1)
+    assert scale(-14, 0) == (-15, 0, 5)
+    for low, high in ((-130, 7), (0, 1), (-1, 0), (-40, 61)):
+        bottom, top, step = scale(low, high)
+        assert bottom <= low <= 0 <= high <= top
+        assert (top - bottom) // step <= 6
+
+
+def test_times_below_a_plot() -> None:
+    assert moments(180.0) == [0, 60, 120, 180]
+    assert moments(60.0) == [0, 15, 30, 45, 60]
+    assert moments(6.0) == [0, 2, 4, 6]
+
+
+def test_badges_part_and_stay_on_the_page() -> None:
+    assert spread([100, 110, 500], 54, 600) == [100, 154, 500]
+    assert spread([590, 110, 595], 54, 600) == [546, 110, 600]
+
+
+def test_a_team_is_the_sum_of_its_robots() -> None:
+    curve = team_curve((0, 2), [((0.0, 0), (3.0, 1)), ((0.0, 0), (2.0, -1), (5.0, -2))])
+    assert curve.series[-3:] == ((2.0, -1), (3.0, 0), (5.0, -1))
