@@ -1,24 +1,34 @@
-"""The job `doctor`: what is there, what is missing, and what to do about it."""
+"""The job `doctor`: what is there, what is missing, and what to do about it. It changes nothing and never hangs."""
 
 import json
 import os
 import platform
 import shutil
+import subprocess
 import sys
-from collections.abc import Callable, Iterator
+import tempfile
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.settings import folders
+from pigaming_app.start import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
 
-NEEDED = ("pygame-ce", "numpy", "platformdirs", "tomli-w")
-OPTIONAL = {
-    "numba": "training and bench are slow without it: pip install numba",
-    "opencv-python-headless": "only real robots need it",
-    "pyserial": "only real robots need it",
-}
 ROOM = 100_000_000  # bytes of free disk, below which it is said
+PATIENCE = 15.0  # seconds for all that drivers are asked
+ANEW = "get the whole folder of the program again"
+EXTRAS = {
+    "train": "bench and duel fetch it when they first run; the arcade does not need it",
+    "hardware": "only real robots need it",
+}
+DEVICES = {  # what main.py can do without, and what to do about it
+    "pygame": ("problem", "delete the folder .venv and start main.py again"),
+    "screens": ("note", "connect one to play; play --headless, duel and bench go without"),
+    "sound": ("note", "the arcade is silent, and works"),
+    "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
+    "fonts": ("problem", ANEW),
+}
 
 
 @dataclass(frozen=True)
@@ -34,95 +44,117 @@ class Line:
 def run(as_json: bool) -> int:
     """Print the report; 1 if something prevents playing."""
     lines = report()
+    well = all(line.state != "problem" for line in lines)
     if as_json:
-        print(json.dumps({"lines": [asdict(line) for line in lines]}))
-    else:
-        for line in lines:
-            print(f"{line.state:8} {line.what:24} {line.found}{'  ->  ' + line.advice if line.advice else ''}")
-    return int(any(line.state == "problem" for line in lines))
+        print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
+        return int(not well)
+    for line in lines:
+        print(f"{line.state:8} {line.what:12} {line.found}{': ' + line.advice if line.advice else ''}")
+    print("All is well." if well else "Something prevents playing: see the lines that begin with problem.")
+    return int(not well)
 
 
 def report() -> list[Line]:
     """Everything worth looking at. It never raises: what fails becomes a line."""
-    return [*_system(), *_packages(), *_folders(), *_devices(), *_engine()]
+    return [*_system(), *_packages(), *_folders(), *_assets(), *_devices(), _engine()]
 
 
 def _system() -> Iterator[Line]:
-    good = sys.version_info >= (3, 11)
-    yield Line(
-        "Python", "ok" if good else "problem", platform.python_version(), "" if good else "3.11 or newer is needed"
-    )
+    yield Line("Python", "ok", f"{platform.python_version()}, {sys.executable}")
     yield Line(
         "system", "ok", f"{platform.system()} {platform.release()}, {platform.machine()}, {os.cpu_count()} cores"
     )
 
 
 def _packages() -> Iterator[Line]:
-    for name in NEEDED:
-        found = _version(name)
-        yield Line(name, "ok" if found else "problem", found or "missing", "" if found else "start main.py once more")
-    if _version("pygame"):
-        advice = "they overwrite each other: uninstall both, then install pygame-ce"
-        yield Line("pygame", "problem", "installed beside pygame-ce", advice)
-    for name, advice in OPTIONAL.items():
-        found = _version(name)
-        yield Line(name, "ok" if found else "note", found or "not installed", "" if found else advice)
-
-
-def _version(package: str) -> str | None:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return None
+    there = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
+    for group in (ARCADE, *EXTRAS):
+        try:
+            wanted = requirements([group])
+        except Trouble as trouble:
+            yield Line("packages", "problem", str(trouble))
+            return
+        for one in wanted:
+            name = one.partition(">")[0]
+            if not lacks(there, one):
+                yield Line(name, "ok", there[name])
+            elif group == ARCADE:
+                yield Line(name, "problem", f"{there.get(name, 'missing')}, but {one} is needed", "start main.py again")
+            else:
+                yield Line(name, "note", there.get(name, "not installed"), EXTRAS[group])
+    if both_pygames(there):
+        yield Line(
+            "pygame", "problem", "it is installed beside pygame-ce and they overwrite each other", "uninstall both"
+        )
 
 
 def _folders() -> Iterator[Line]:
     where = folders()
-    for what, folder in (("settings", where.config), ("scores, pictures, log", where.data)):
+    for what, folder in (("settings", where.config), ("scores", where.data), ("cache", where.cache)):
+        there = next(place for place in (folder, *folder.parents) if place.exists())
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            writable = os.access(folder, os.W_OK)
-        except OSError:
-            writable = False
-        advice = "" if writable else "it cannot be written to: nothing will be kept"
-        yield Line(what, "ok" if writable else "note", str(folder), advice)
-        if writable and (room := shutil.disk_usage(folder).free) < ROOM:
-            yield Line("disk", "note", f"{room // 1_000_000} MB free", "scores may not be saved")
-    missing = [name for name in ("arenas", "fonts", "sounds", "text") if not (ASSETS / name).is_dir()]
-    found = "all there" if not missing else "missing: " + ", ".join(missing)
-    yield Line("assets", "problem" if missing else "ok", found, "clone the repository anew" if missing else "")
+            tempfile.TemporaryFile(dir=there).close()
+        except OSError as error:
+            yield Line(what, "note", f"{folder} ({error.strerror})", "it cannot be written, so nothing will be kept")
+            continue
+        room = shutil.disk_usage(there).free
+        full = f"only {room // 1_000_000} MB are free: make room, or nothing will be kept" if room < ROOM else ""
+        yield Line(what, "note" if full else "ok", str(folder), full)
+
+
+def _assets() -> Iterator[Line]:
+    from pigaming_app.games import GAMES
+    from pigaming_app.sim.arena import ArenaError, arenas, load
+
+    for game in GAMES:
+        names = arenas(game)
+        for name in names:
+            try:
+                load(game, name)
+            except ArenaError as error:
+                yield Line("arena", "note", str(error), "mend the file, or take it away")
+        yield Line(
+            "arenas", "ok" if names else "problem", f"{game}: {', '.join(names) or 'none'}", "" if names else ANEW
+        )
+    for what, files, state in (("texts", "text/*.toml", "problem"), ("sounds", "sounds/*.ogg", "note")):
+        count = len(list(ASSETS.glob(files)))
+        yield Line(what, "ok" if count else state, f"{count} files", "" if count else ANEW)
 
 
 def _devices() -> Iterator[Line]:
-    if not _version("pygame-ce"):
-        return
-    from pigaming_app.scenes import probe
+    answers = _probed()
+    for what, (state, advice) in DEVICES.items():
+        if what not in answers:
+            yield Line(what, "problem" if state == "problem" else "note", "its driver did not answer", advice)
+        else:
+            found, wrong = answers[what]
+            none = "none; the keyboard will do" if what == "pads" else "none"
+            text = "; ".join(part for part in (found, wrong) if part) or none
+            yield Line(what, state if wrong else "ok", text, advice if wrong else "")
 
-    yield _looked(
-        "displays", lambda: ", ".join(probe.displays()), "use play --headless, or connect a screen", "problem"
-    )
-    yield _looked("sound", probe.sound, "no sound card: the arcade is silent", "note")
-    yield _looked("pads", lambda: ", ".join(probe.pads()) or "none; the keyboard does too", "", "note")
-    yield _looked("fonts", lambda: "readable" if probe.fonts() else "", "clone the repository anew", "problem")
+
+def _probed() -> dict[str, tuple[str, str]]:
+    """What the probe could tell before it ended, crashed or had to be stopped: found and wrong, by name."""
+    command = [sys.executable, "-m", "pigaming_app.scenes.probe"]
+    surroundings = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
+    try:
+        said = subprocess.run(
+            command, cwd=ROOT, env=surroundings, capture_output=True, timeout=PATIENCE, check=False
+        ).stdout
+    except subprocess.TimeoutExpired as stopped:
+        said = stopped.stdout or b""
+    answers = (json.loads(line) for line in said.decode().splitlines() if line.endswith("]"))
+    return {name: (found, wrong) for name, found, wrong in answers}
 
 
-def _engine() -> Iterator[Line]:
-    def played() -> str:
+def _engine() -> Line:
+    try:
         from pigaming_app.games.choices import choose
         from pigaming_app.playing import seated
 
         match = seated(choose("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
         for _ in range(50):
             match.tick()
-        return "a second of a match was played"
-
-    yield _looked("engine", played, "clone the repository anew", "problem")
-
-
-def _looked(what: str, look: Callable[[], str], advice: str, otherwise: str) -> Line:
-    """What a look found; nothing, or a failure, is `otherwise`."""
-    try:
-        found = look()
-    except Exception as trouble:
-        return Line(what, otherwise, f"{trouble}", advice)
-    return Line(what, "ok", found) if found else Line(what, otherwise, "none", advice)
+    except Exception as error:  # whatever is broken in it, the report is wanted
+        return Line("engine", "problem", f"{type(error).__name__}: {error}", ANEW)
+    return Line("engine", "ok", "a second of a match was played")

@@ -73,7 +73,8 @@ class Batch:
 
     def play(self, ticks: int) -> None:
         """Play every match on."""
-        self.loop(self.matches, *self.minds, ticks)
+        ones, twos, threes, fours = self.minds
+        self.loop(self.matches, ones, twos, threes, fours, ticks)
 
     def scores(self) -> list[list[int]]:
         """For each match the scores of its seats."""

@@ -19,7 +19,6 @@ from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.plate import plate
-from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.sounds import Sounds
 from pigaming_app.scenes.stack import Push, Scene, Stack
 from pigaming_app.scenes.words import Words
@@ -149,7 +148,6 @@ def _frame(app: App, seconds: float) -> None:
     if not stack.scenes:
         return
     app.tick_ms = 1000.0 * (perf_counter() - began)
-    _operator(app, presses)
     stack.top.draw(house.canvas.screen)
     _say(app, seconds)
     shot = app.options.shot
@@ -186,19 +184,6 @@ def _function_key(app: App, key: int) -> None:
         except OSError as trouble:
             log.warning("%s", trouble)
             app.notices.append(house.words("app.unsaved"))
-
-
-def _operator(app: App, presses: list[Press]) -> None:
-    """In a kiosk, START pressed while BACK is held down on the same pad, or Ctrl+F10, opens the operator's options."""
-    if not app.house.kiosk or len(app.stack.scenes) != 1:
-        return
-    keys = pygame.key.get_pressed()
-    starts = [press for press in presses if press.act is Act.START and press.device.kind == "pad"]
-    combo = any(app.house.controls.drive(press.device).turbo for press in starts)
-    if combo or (keys[pygame.K_F10] and pygame.key.get_mods() & pygame.KMOD_CTRL):
-        from pigaming_app.scenes.options import Options as OptionsPage
-
-        app.stack.turn(Push(OptionsPage(app.house)))
 
 
 def _say(app: App, seconds: float) -> None:

@@ -45,8 +45,8 @@ LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
 class HowTo:
     """The page; FIRE, BACK, START or a click leaves it."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
+    def __init__(self, house: House, game: str = "pitanks") -> None:
+        self.house, self.game = house, game
 
     def entered(self) -> None:
         """Nothing moves here."""
@@ -66,7 +66,7 @@ class HowTo:
         """The pictures and the keys."""
         words = self.house.words
         screen.blit(backdrop(), (0, 0))
-        heading(words("title.howto"), words("games.pitanks")).draw(screen)
+        heading(words("title.howto"), words(f"games.{self.game}")).draw(screen)
         pictures(tuple(words(f"howto.{name}") for name in PAGES)).draw(screen)
         controls = self.house.controls
         device = controls.last

@@ -39,14 +39,12 @@ ENDS = ((1716, 100), (1640, 172), (1764, 244), (1590, 316))  # of the four trail
 
 
 def logo(ink: Ink, x: float, y: float, u: float) -> Ink:
-    """PiGAMING in tubes; the dot of the i is a robot. (x, y): the P's upper left, u: a sixth of the height, px."""
+    """PiGAMING in tubes, its i without a dot. (x, y): the P's upper left, u: a sixth of the height, px."""
     strokes: list[tuple[list[Point], Color]] = []
-    dot, at = (x, y), x
+    at = x
     for i, letter in enumerate("PiGAMING"):
         w, lines = LETTERS[letter]
         strokes += [([(at + a * u, y + b * u) for a, b in line], FOCUS if i < 2 else ICE) for line in lines]
-        if letter == "i":
-            dot = at, y + 0.3 * u
         at += (w + 1.9) * u
     for line, color in strokes:
         ink.line(line, color, u)
@@ -54,25 +52,18 @@ def logo(ink: Ink, x: float, y: float, u: float) -> Ink:
         ink.void(line, u * 0.56, 0.4)
     for line, color in strokes:
         ink.line(line, color, u * (0.22 if color == FOCUS else 0.1))
-    return robot(ink, 0, *dot, -0.5, u / 42)
-
-
-def trails(ink: Ink, y: float = 312) -> Ink:
-    """Four robots that draw the underline, the first line at `y`, and peel off to the upper right. For a whole page."""
-    for player, (x1, y1) in enumerate(ENDS):
-        y0, x0 = y + 16 * player, 1388 + 7 * player
-        _trail(ink, player, [(0, y0), (900, y0), (x0, y0), (x0 + y0 - y1, y1), (x1, y1)])
     return ink
 
 
-def _trail(ink: Ink, player: int, points: list[Point]) -> None:
-    (x0, y0), (x1, y1) = points[-2:]
-    color, ((ax, ay), (bx, _)) = PLAYERS[player], points[:2]
-    for i in range(24):  # fades in along its first stretch
-        piece = [(ax + (bx - ax) * i / 24, ay), (ax + (bx - ax) * (i + 1) / 24, ay)]
-        ink.line(piece, dim(color, 0.25 + 0.75 * i / 24), LINE)
-    ink.line(points[1:], color, LINE)
-    robot(ink, player, x1, y1, math.atan2(y1 - y0, x1 - x0), 0.9)
+def trail_path(player: int, y: float = 312) -> list[Point]:
+    """The way of a robot that draws its part of the underline: in from the left, up, and off to the right; px."""
+    (x1, y1), y0, x0 = ENDS[player], y + 16 * player, 1388 + 7 * player
+    return [(-80, y0), (x0, y0), (x0 + y0 - y1, y1), (x1, y1), (2000, y1)]
+
+
+def dot_of(x: float, y: float, u: float) -> Point:
+    """Where the robot is that dots the i of the logo."""
+    return x + (LETTERS["P"][0] + 1.9) * u, y + 0.3 * u
 
 
 def vignette(game: str, ink: Ink, x: float, y: float) -> Ink:

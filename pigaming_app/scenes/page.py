@@ -5,14 +5,12 @@ Pieces lie round (0, 0) and are drawn where they are needed.
 """
 
 import math
-from functools import cache, lru_cache
+from functools import lru_cache
 
 import pygame
 
-from pigaming_app.scenes.focus import Box
 from pigaming_app.scenes.ink import (
     BODY,
-    BOLD,
     FOCUS,
     ICE,
     LINE,
@@ -21,7 +19,6 @@ from pigaming_app.scenes.ink import (
     THIN,
     TITLE,
     Color,
-    Ink,
     Page,
     button,
     button_width,
@@ -35,7 +32,6 @@ from pigaming_app.scenes.sprites import Sprite
 
 LEVELS = 8  # brightnesses kept of what pulses
 ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # labels that are drawn: no font of ours has them
-REACH = 60  # px that a corner of the focus covers
 
 
 def pulse(seconds: float, low: int = 4) -> int:
@@ -67,7 +63,7 @@ def heading(title: str, right: str = "", color: Color = ICE) -> Lit:
 def text(
     said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
 ) -> Lit:
-    """One line, its capitals round the line y = 0; larger ones shimmer. It shrinks where it would be wider than `room`."""
+    """One line, its capitals round y = 0; all but sentences shimmer. It shrinks where it would be wider than `room`."""
     size = fitted(said, size, room, face)
     w = text_width(said, size, face)
     left = -w * {"l": 0.0, "c": 0.5, "r": 1.0}[align]
@@ -131,7 +127,7 @@ def chip_width(said: str) -> int:
 
 @lru_cache(maxsize=128)
 def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
-    """A box with a word, its upper left at (0, 0). `state`: off, on (lit), focus (lit and in focus) or ready (calls)."""
+    """A box with a word, its upper left at (0, 0). `state`: off, on, focus (on and in focus), ready (calls)."""
     edge = {"off": STEEL, "on": ICE, "focus": FOCUS, "ready": FOCUS}[state]
     pane = Pane(0, 0, w, high)
     pane.hot.line(cut(0, 0, w, high, 12), edge, THIN, True)
@@ -140,33 +136,16 @@ def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
     return pane.done()
 
 
-@cache
-def corner(across: int, down: int, arm: int, c: int, width: int, color: Color) -> Lit:
-    """One of the four corners of the focus; `across` and `down` are 1 or -1: where the box lies from it."""
-    ink = Ink(2 * REACH + 40, 2 * REACH + 40).to(REACH + 20, REACH + 20)
-    points = [(0, down * (c + arm)), (0, down * c), (across * c, 0), (across * (c + arm), 0)]
-    return Lit(ink.neon(points, color, width).lit(1.0), (-REACH - 20, -REACH - 20))
-
-
-def focused(screen: pygame.Surface, box: Box, seconds: float, small: bool = False, color: Color = FOCUS) -> None:
-    """Paint the four corners that mean focus round a box; they breathe once a second."""
-    arm, c, width = (12, 12, LINE) if small else (38, 20, BOLD)
-    out = 2.0 + 2.0 * math.sin(math.tau * seconds)
-    x, y, w, h = box[0] - out, box[1] - out, box[2] + 2 * out, box[3] + 2 * out
-    for across, down, px, py in ((1, 1, x, y), (-1, 1, x + w, y), (-1, -1, x + w, y + h), (1, -1, x, y + h)):
-        corner(across, down, arm, c, width, color).draw(screen, round(px), round(py))
-
-
-def blacked(screen: pygame.Surface, *boxes: Box) -> pygame.Surface:
+def blacked(screen: pygame.Surface, *boxes: pygame.Rect) -> pygame.Surface:
     """Hide the dots of the floor inside boxes of the house shape."""
-    for x, y, w, h in boxes:
-        pygame.draw.polygon(screen, (0, 0, 0), cut(x, y, w, h, 20))
+    for box in boxes:
+        pygame.draw.polygon(screen, (0, 0, 0), cut(box.x, box.y, box.w, box.h, 20))
     return screen
 
 
-def glow_bar(screen: pygame.Surface, box: Box, color: Color = FOCUS) -> None:
+def glow_bar(screen: pygame.Surface, box: pygame.Rect, color: Color = FOCUS) -> None:
     """A breath of colour inside a row in focus."""
-    screen.fill(dim(color, 0.09), (round(box[0]), round(box[1]), round(box[2]), round(box[3])), pygame.BLEND_RGB_ADD)
+    screen.fill(dim(color, 0.09), box, pygame.BLEND_RGB_ADD)
 
 
 def stamp(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:

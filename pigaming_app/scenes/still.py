@@ -8,21 +8,31 @@ from pigaming_app.games.match import Match
 from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.words import Words
 from pigaming_app.settings import Settings
+from pigaming_app.sim.world import DT
 
 SIZE = (1920, 1080)
 
 
-def picture(match: Match, path: Path) -> None:
-    """Save the match as it stands as a PNG file. Raises OSError."""
-    pygame.display.init()
-    pygame.font.init()
-    pygame.display.set_mode(SIZE)
-    screen = pygame.Surface(SIZE)
-    players = [seat.brain for seat in match.setup.seats]
-    view = VIEWS[match.setup.game](match.arena, match.state, players, Settings(), Words("en"))
-    view.watch(match.state)
-    view.draw(screen, match.state, 1.0, 0.0)
-    try:
-        pygame.image.save(screen, str(path))
-    except pygame.error as reason:
-        raise OSError(str(reason)) from reason
+class Still:
+    """A camera on a match: it watches some ticks, so that shots and treads are there, and takes one picture."""
+
+    def __init__(self, match: Match) -> None:
+        pygame.display.init()
+        pygame.font.init()
+        pygame.display.set_mode(SIZE)
+        self.match, self.screen = match, pygame.Surface(SIZE)
+        players = [seat.brain for seat in match.setup.seats]
+        self.view = VIEWS[match.setup.game](match.arena, match.state, players, Settings(), Words("en"))
+
+    def watch(self) -> None:
+        """See the tick that has just been played."""
+        self.view.watch(self.match.state)
+        self.view.draw(self.screen, self.match.state, 1.0, DT)
+
+    def picture(self, path: Path) -> None:
+        """Save the match as it stands as a PNG file. Raises OSError."""
+        self.view.draw(self.screen, self.match.state, 1.0, 0.0)
+        try:
+            pygame.image.save(self.screen, str(path))
+        except pygame.error as reason:
+            raise OSError(str(reason)) from reason

@@ -1,9 +1,9 @@
-"""The title: the name in tubes of light, four robots on their way, three games, and what else there is.
+"""The title: the name in light, four robots that underline it, a tile for each game, and what else there is to do.
 
-Nobody there for a while: an AI match begins. One focus for pad, keyboard and mouse: three tiles above, a row below.
+A game that is not in GAMES yet is shown dimmed, and says so. When nobody is there for a while, an AI match begins.
 """
 
-import math
+from functools import lru_cache
 
 import pygame
 
@@ -13,180 +13,242 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BODY,
     FOCUS,
+    HAIR,
     ICE,
     LABEL,
     LINE,
     MIST,
     STEEL,
     SUB,
-    Page,
-    button,
-    button_width,
-    cut,
     dim,
-    icon,
     panel,
     text_width,
 )
-from pigaming_app.scenes.logo import logo, trails, vignette
-from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, span, word
+from pigaming_app.scenes.logo import dot_of, logo, vignette
+from pigaming_app.scenes.operator import Combination
+from pigaming_app.scenes.page import (
+    ARROWS,
+    blacked,
+    calling,
+    calling_width,
+    chip,
+    chip_width,
+    dimmed,
+    key,
+    key_width,
+    pulse,
+    sign,
+    stamp,
+)
+from pigaming_app.scenes.pane import LEFT, MARGIN, RIGHT, Lit, Pane, backdrop, fitted, span
+from pigaming_app.scenes.parade import dot_robot, parade
+from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Press
-from pigaming_app.scenes.stack import Push, Quit, Turn
+from pigaming_app.scenes.stack import Push, Quit, Scene, Turn
+from pigaming_app.scenes.words import LANGUAGES
 
-TILES = ("pitanks", "factory", "race")
+SHOWN = ("pitanks", "factory", "race")  # tiles, from the left
 TILE_Y, TILE_H = 416, 416
-ROW_Y = 990
+PROMPT_Y, FOOT_Y = 906, 990
+LOGO = (LEFT + 16, 84, 30)
+SOON = 0.42  # how bright the picture of a game is that does not exist yet
 
 
 class Title:
-    """The lowest scene of all."""
+    """The lowest scene: what the arcade comes back to."""
 
     def __init__(self, house: House) -> None:
         self.house = house
-        self.age = 0.0
-        self.page: pygame.Surface | None = None
-        self.row: dict[str, Lit] = {}
-        self.focus = Focus([])
-        self.language = ""
+        self.clock = 0.0
+        self.refused = 9.0  # seconds since somebody chose a game that does not exist yet
+        self.combination = Combination(house)
+        self.focus = Focus(self._spots())
 
     def entered(self) -> None:
-        """Back here: words may be other ones now."""
-        self.house.sounds.music(False)
+        """Shown, or shown again."""
         self.house.idle = 0.0
-        if self.language != self.house.words.language:
-            self._make()
+        self.house.sounds.music(True)
+        self.focus.place(self._spots())
 
     def on(self, press: Press) -> Turn:
-        """Choose, or change the language with one press."""
+        """Directions and the mouse move the focus; FIRE, START or a click choose; ALT changes the language."""
         if press.act is Act.ALT:
-            self._switch()
-            return None
-        if press.act is Act.BACK:
-            return None
-        if press.act in (Act.EXTRA, Act.LEAVE, Act.FOUND, Act.LOST):
-            return None
-        moved = self.focus.on(press)
-        if moved:
+            self._speak(self.house.words.other)
+        elif self.focus.on(press):
             self.house.sounds.play("move")
         chosen = self.focus.chosen(press)
-        if chosen is None:
-            return None
-        return self._open(chosen)
+        return self._open(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
-        """Wait; after a while, show what it is about."""
-        self.age += seconds
+        """Let the robots drive; after a while without anybody, show a match."""
+        self.clock += seconds
+        self.refused += seconds
         self.focus.update(seconds)
+        if self.combination.held(seconds):
+            from pigaming_app.scenes.options import OptionsPage
+
+            self.house.sounds.play("accept")
+            return Push(OptionsPage(self.house, operator=True))
         if self.house.idle > self.house.settings.attract_seconds:
             from pigaming_app.scenes.attract import Attract
 
-            self.house.idle = 0.0
             return Push(Attract(self.house))
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page as it was made, and what pulses on it."""
-        if self.page is None:
-            self._make()
-        assert self.page is not None
-        screen.blit(self.page, (0, 0))
-        beat = round(4 + 4 * (0.5 + 0.5 * math.cos(self.age * math.tau)))
-        line = self.house.words("title.press", button=self.house.controls.label(None, Act.FIRE))
-        word(line, SUB, FOCUS, "head", 0.45, level=beat).draw(screen, 960, 900)
-        w = text_width(line, SUB) / 2
-        for side in (-1, 1):
-            for k in range(3):
-                step = (round(self.age * 3) + k) % 3
-                x = 960 + side * (w + 44 + 34 * k)
-                arrow("right" if side < 0 else "left", (8, 5, 2)[step]).draw(screen, x, 900)
+        """Paint the page."""
+        words = self.house.words
+        screen.blit(ground(), (0, 0))
+        parade(screen, self.clock)
+        stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
+        for i, game in enumerate(SHOWN):
+            there = game in GAMES
+            lit = tile(game, words(f"games.{game}"), words(f"games.{game}_line"), self.focus.name == game, there)
+            lit.draw(screen, *tile_rect(i).topleft)
+            if not there:
+                self._soon(screen, game, tile_rect(i))
+        self._prompt(screen)
+        self._foot(screen)
         self.focus.draw(screen)
 
     # ---- inside
 
     def _open(self, name: str) -> Turn:
+        if name in LANGUAGES:
+            self._speak(name)
+            return None
+        scene = self._scene(name)
+        if scene is None and name != "quit":
+            self.house.sounds.play("error")
+            self.refused = 0.0
+            return None
         self.house.sounds.play("accept")
+        return Push(scene) if scene else Quit()
+
+    def _scene(self, name: str) -> Scene | None:
+        """The page of a place; pages are imported when they are wanted, so that the title comes at once."""
         if name in GAMES:
             from pigaming_app.scenes.lobby import Lobby
 
-            return Push(Lobby(self.house, name))
+            return Lobby(self.house, name)
         if name == "howto":
             from pigaming_app.scenes.howto import HowTo
 
-            return Push(HowTo(self.house))
+            return HowTo(self.house, next(iter(GAMES)))
         if name == "options":
-            from pigaming_app.scenes.options import Options
+            from pigaming_app.scenes.options import OptionsPage
 
-            return Push(Options(self.house))
-        if name == "quit":
-            return Quit()
-        if name == "language":
-            self._switch()
-        else:
-            self.house.sounds.play("error")
+            return OptionsPage(self.house)
         return None
 
-    def _switch(self) -> None:
-        self.house.words.switch(self.house.words.other)
-        self.house.settings.language = self.house.words.language
-        self.house.sounds.play("accept")
-        self._make()
+    def _speak(self, language: str) -> None:
+        if language != self.house.words.language:
+            self.house.words.switch(language)
+            self.house.settings.language = language
+            self.house.sounds.play("accept")
+        self.focus.place(self._spots())
 
-    def _make(self) -> None:
-        """Paint all of the page that stands still."""
-        self.language = self.house.words.language
-        at = self.focus.name
-        page = Page()
-        trails(page.hot)
-        logo(page.hot, LEFT + 16, 84, 30)
-        spots = [self._tile(page, i, game) for i, game in enumerate(TILES)]
-        spots += self._row(page)
-        self.page = backdrop().copy()
-        self.page.blit(page.done(), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
-        self.focus = Focus(spots, at)
-
-    def _tile(self, page: Page, i: int, game: str) -> Spot:
-        words, there = self.house.words, game in GAMES
-        x, w = span(4 * i, 4)
-        ink = page.hot
-        panel(ink, x, TILE_Y, w, TILE_H, STEEL)
-        vignette(game, ink, x, TILE_Y + 4)
-        ink.line([(x + 24, TILE_Y + 284), (x + w - 24, TILE_Y + 284)], STEEL, 2)
-        page.text(words(f"games.{game}"), LABEL, x + 32, TILE_Y + 326, ICE if there else MIST)
-        page.body(words(f"games.{game}_line") if there else words("title.soon"), x + 32, TILE_Y + 380, MIST)
-        return Spot(game, pygame.Rect(x, TILE_Y, w, TILE_H))
-
-    def _row(self, page: Page) -> list[Spot]:
-        """How to play, options, quit on the left; the languages on the right."""
-        words, spots, x = self.house.words, [], LEFT
-        names = ["howto", "options"] + ([] if self.house.kiosk else ["quit"])
-        for name in names:
-            text = words(f"title.{name}")
-            w = round(text_width(text, BODY)) + 56
-            page.hot.line(cut(x, ROW_Y - 34, w, 68, 12), STEEL, 4, True)
-            page.cold.text(text, BODY, x + w / 2, ROW_Y, ICE, "head", "c")
-            spots.append(Spot(name, pygame.Rect(x, ROW_Y - 34, w, 68)))
+    def _spots(self) -> list[Spot]:
+        spots = [Spot(game, tile_rect(i)) for i, game in enumerate(SHOWN)]
+        x = LEFT
+        for name in self._menu():
+            w = chip_width(self.house.words(f"title.{name}"))
+            spots.append(Spot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
             x += w + 24
         x = RIGHT
-        for language in ("PT", "EN"):
-            w = round(text_width(language, BODY)) + 48
-            lit = language.lower() == words.language
-            page.hot.line(cut(x - w, ROW_Y - 32, w, 64, 12), ICE if lit else STEEL, 4, True)
-            page.cold.text(language, BODY, x - w / 2, ROW_Y, ICE if lit else MIST, "head", "c")
+        for language in reversed(LANGUAGES):
+            w = chip_width(language.upper())
+            spots.append(Spot(language, pygame.Rect(x - w, FOOT_Y - 32, w, 64)))
             x -= w + 12
-        label = self.house.controls.label(None, Act.ALT)
-        w = round(button_width(label))
-        button(page, x - w - 8, ROW_Y, label)
-        spots.append(Spot("language", pygame.Rect(x, ROW_Y - 34, RIGHT - x, 68)))
         return spots
 
+    def _menu(self) -> tuple[str, ...]:
+        return ("howto", "options") if self.house.kiosk else ("howto", "options", "quit")
 
-_ARROWS: dict[tuple[str, int], Lit] = {}
+    def _soon(self, screen: pygame.Surface, game: str, box: pygame.Rect) -> None:
+        hot = self.focus.name == game
+        shake = 0 if self.refused > 0.3 or not hot else round(8 * (-1) ** int(self.refused * 30))
+        sheet = plate(self.house.words("title.soon"), ICE if hot else STEEL, ICE if hot else MIST, face="head")
+        sheet.draw(screen, box.centerx + shake, box.top + 142)
+
+    def _prompt(self, screen: pygame.Surface) -> None:
+        """The line that asks for a press, between arrows that run towards it."""
+        words, game = self.house.words, self.focus.name
+        if game in SHOWN and game not in GAMES:
+            said = words("title.soon_line", game=words(f"games.{game}"))
+            dimmed_line(said).draw(screen, 960, PROMPT_Y)
+            return
+        label = words.printed(self.house.controls.label(None, Act.FIRE))
+        said = words("title.press", button="{button}")
+        calling(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
+        reach = calling_width(said, label, SUB) / 2 + 44
+        for k in range(3):
+            level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
+            sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
+            sign("left", 24, FOCUS, LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
+
+    def _foot(self, screen: pygame.Surface) -> None:
+        words = self.house.words
+        for name in (*self._menu(), *LANGUAGES):
+            lit = name == words.language if name in LANGUAGES else name == self.focus.name
+            said, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
+            chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
+        label = self.house.controls.label(None, Act.ALT)
+        if label and label not in ARROWS:
+            button_light(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - key_width(label), FOOT_Y)
 
 
-def arrow(name: str, level: int) -> Lit:
-    """A chevron round (0, 0), `level` of 8 parts of its brightness."""
-    if (name, level) not in _ARROWS:
-        pane = Pane(-24, -24, 48, 48)
-        icon(pane.hot, name, 0, 0, 24, dim(FOCUS, level / 8), LINE)
-        _ARROWS[name, level] = pane.done()
-    return _ARROWS[name, level]
+def tile_rect(i: int) -> pygame.Rect:
+    """Where the tile of a game is, the i-th from the left."""
+    x, w = span(4 * i, 4)
+    return pygame.Rect(x, TILE_Y, w, TILE_H)
+
+
+@lru_cache(maxsize=1)
+def ground() -> pygame.Surface:
+    """What never changes: the floor's dots, the name, and black where the tiles are."""
+    pane = Pane(LEFT, 54, 1210, 260)
+    logo(pane.hot, *LOGO)
+    out = backdrop().copy()
+    pane.done().draw(out)
+    return blacked(out, *map(tile_rect, range(len(SHOWN))))
+
+
+@lru_cache(maxsize=24)
+def tile(game: str, name: str, line: str, hot: bool, there: bool) -> Lit:
+    """A game's picture and name, its upper left at (0, 0)."""
+    w = span(0, 4)[1]
+    pane = Pane(0, 0, w, TILE_H)
+    panel(pane.hot, 0, 0, w, TILE_H, (dim(FOCUS, 0.55) if there else MIST) if hot else STEEL)
+    pane.hot.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
+    color = (FOCUS if hot else ICE) if there else MIST
+    pane.page.text(name, fitted(name, LABEL, w - 64), 32, 326, color)
+    pane.page.body(line, 32, 380, ICE if hot and there else MIST, "l", fitted(line, BODY, w - 64, "body"))
+    picture = _picture(game) if there else dimmed(_picture(game), SOON)
+    lit = pane.done()
+    picture.draw(lit.image, -lit.at[0], -lit.at[1])
+    return lit
+
+
+@lru_cache(maxsize=3)
+def _picture(game: str) -> Lit:
+    pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
+    vignette(game, pane.hot, MARGIN, MARGIN)
+    return Lit(pane.done().image, (-MARGIN, -MARGIN))
+
+
+@lru_cache(maxsize=8)
+def dimmed_line(said: str) -> Lit:
+    """What stands in the place of the prompt when there is nothing to press."""
+    w = text_width(said, SUB)
+    pane = Pane(-w / 2, -SUB, w, 2 * SUB)
+    pane.page.text(said, SUB, 0, 0, MIST, "head", "c")
+    return pane.done()
+
+
+@lru_cache(maxsize=16)
+def button_light(label: str) -> Lit:
+    """A button as it is printed on the device, its left edge at x = 0."""
+    pane = Pane(0, -32, key_width(label), 64)
+    key(pane.page, 0, 0, label)
+    return pane.done()

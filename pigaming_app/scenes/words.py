@@ -1,7 +1,7 @@
-"""Everything the arcade says, in English and in Portuguese: assets/text/en.toml and pt.toml, with the same keys in both.
+"""Everything the arcade says, in English and Portuguese: assets/text/en.toml and pt.toml, with the same keys.
 
-    words = Words("pt")
-    words("lobby.seat", player=2)      "Jogador 2"
+words = Words("pt")
+words("lobby.seat", player=2)      "Jogador 2"
 """
 
 import tomllib

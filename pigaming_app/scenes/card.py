@@ -1,0 +1,158 @@
+"""One seat of the lobby: a card with the player's colour, shape and number, a robot on a turntable, and who drives it.
+
+All of it is made of small pieces that are kept; a card's upper left is at (0, 0) of its own.
+"""
+
+import math
+from functools import lru_cache
+
+from pigaming_app.scenes.ink import (
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    Color,
+    Ink,
+    badge,
+    cut,
+    dim,
+    icon,
+    panel,
+    shape_points,
+    text_width,
+)
+from pigaming_app.scenes.logo import seat_robot
+from pigaming_app.scenes.page import ARROWS, LEVELS, dimmed, key, key_width
+from pigaming_app.scenes.pane import Lit, Pane, fitted, span
+from pigaming_app.scenes.sprites import HEADINGS, Sprite
+
+W, H = span(0, 3)[1], 600
+MIDDLE = W / 2
+ROBOT = (268, 2.1, 130)  # middle, scale, radius of the turntable
+ROBOT_IN_TEAM = (236, 1.7, 106)
+TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
+BAR = (24, 500, W - 48, 76)
+SPOKES, TURNS = 5, 12  # arcs of a turntable, and how many positions are kept between two of them
+UP = -math.pi / 2
+
+
+@lru_cache(maxsize=32)
+def frame(player: int, said: str, bold: bool) -> Lit:
+    """The card of somebody."""
+    pane = Pane(0, 0, W, H)
+    panel(pane.hot, 0, 0, W, H, PLAYERS[player], LINE if bold else THIN)
+    badge(pane.hot, player, 72, 76, 36)
+    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, ICE)
+    return pane.done()
+
+
+@lru_cache(maxsize=16)
+def empty(player: int, said: str) -> Lit:
+    """The card of nobody."""
+    pane, color = Pane(0, 0, W, H), PLAYERS[player]
+    pane.hot.dashes(cut(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
+    badge(pane.hot, player, 72, 76, 36, dim(color, 0.75))
+    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, MIST)
+    outline = [(MIDDLE + y * 84, 272 - x * 84) for x, y in shape_points(player, 1)]
+    pane.hot.dashes(outline, dim(color, 0.7), LINE, 24, 18)
+    return pane.done()
+
+
+@lru_cache(maxsize=64)
+def invitation(player: int, press: str, join: str, level: int) -> Lit:
+    """What an empty seat says; a `level` of 0 means: another seat comes first."""
+    if 0 < level < LEVELS:
+        return dimmed(invitation(player, press, join, LEVELS), level / LEVELS)
+    pane = Pane(0, 230, W, 320)
+    icon(pane.hot, "plus", MIDDLE, 272, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
+    size = fitted(press, LABEL, W - 48)
+    pane.page.text(press, size, MIDDLE, 436, FOCUS if level else STEEL, "head", "c")
+    pane.page.body(join, MIDDLE, 496, ICE if level else STEEL, "c", fitted(join, BODY, W - 48, "body"))
+    return pane.done()
+
+
+@lru_cache(maxsize=64)
+def driver(sign: str, name: str) -> Lit:
+    """An icon and who drives: the name of a pad, the keys that steer, or an AI."""
+    pane = Pane(24, DEVICE_Y - 44, W - 48, 88)
+    icon(pane.hot, sign, 78, DEVICE_Y, 36, MIST, THIN)
+    marks = name.split()
+    if marks and all(mark in ARROWS for mark in marks):
+        for i, mark in enumerate(marks):
+            icon(pane.hot, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
+    else:
+        pane.page.body(name, 136, DEVICE_Y, ICE, "l", fitted(name, BODY, W - 160, "body"))
+    return pane.done()
+
+
+@lru_cache(maxsize=16)
+def ready(player: int, said: str) -> Lit:
+    """The bar of somebody who is ready."""
+    pane, color = Pane(*BAR), PLAYERS[player]
+    pane.hot.fill(cut(*BAR, 14), dim(color, 0.28)).line(cut(*BAR, 14), color, THIN, True)
+    size = fitted(said, LABEL, W - 150)
+    icon(pane.hot, "check", MIDDLE - text_width(said, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
+    pane.page.text(said, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
+    return pane.done()
+
+
+@lru_cache(maxsize=64)
+def asked(label: str, said: str, level: int) -> Lit:
+    """The bar of somebody who has to press a button to be ready."""
+    if level < LEVELS:
+        return dimmed(asked(label, said, LEVELS), level / LEVELS)
+    wide = key_width(label)
+    size = fitted(said, BODY, W - 40 - wide - 18, "body")
+    x = MIDDLE - (wide + 18 + text_width(said, size, "body")) / 2
+    pane = Pane(*BAR)
+    pane.page.body(said, x + key(pane.page, x, BAR_Y, label, FOCUS) + 18, BAR_Y, ICE, "l", size)
+    return pane.done()
+
+
+@lru_cache(maxsize=32)
+def strength(said: str, upright: bool) -> Lit:
+    """The bar of an AI: how strong it is, between the arrows that change that."""
+    pane = Pane(*BAR)
+    pane.hot.line(cut(*BAR, 14), STEEL, THIN, True)
+    pane.page.text(said, fitted(said, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
+    for name, x in zip(("down", "up") if upright else ("left", "right"), (60, W - 60), strict=True):
+        icon(pane.hot, name, x, BAR_Y, 20, MIST, LINE)
+    return pane.done()
+
+
+@lru_cache(maxsize=8)
+def team(said: str, number: int, arrows: bool) -> Lit:
+    """Which team, with the bars that its robots wear, between the arrows that change it."""
+    pane = Pane(24, TEAM_Y - 34, W - 48, 68)
+    size = fitted(said, BODY, W - 240)
+    wide = text_width(said, size) + 44
+    x = MIDDLE - wide / 2
+    for i in range(number + 1):
+        pane.hot.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
+    pane.page.cold.text(said, size, x + 44, TEAM_Y, ICE, "head")
+    if arrows:
+        for name, cx in (("left", 60), ("right", W - 60)):
+            icon(pane.hot, name, cx, TEAM_Y, 18, MIST, LINE)
+    return pane.done()
+
+
+@lru_cache(maxsize=192)
+def turntable(player: int, turn: int, lit: bool, r: int) -> Lit:
+    """Arcs round a robot at (0, 0), `turn` of TURNS on their way to the next, on a circle of `r` px."""
+    ink = Ink(320, 320)
+    color: Color = dim(PLAYERS[player], 0.8 if lit else 0.35)
+    for i in range(SPOKES):
+        start = 0.25 + (i + turn / TURNS) * math.tau / SPOKES
+        ink.arc(160, 160, r, start, start + 0.7, color, THIN)
+    return Lit(ink.lit(1.0), (-160, -160))
+
+
+@lru_cache(maxsize=160)
+def robot(player: int, turn: int, scale: float) -> Sprite:
+    """A seat's robot at heading `turn` of HEADINGS."""
+    return seat_robot(player, turn * math.tau / HEADINGS, scale)

@@ -1,0 +1,105 @@
+"""Rows in which something is chosen, and the small things round them, for the page before a match."""
+
+from functools import lru_cache
+
+from pigaming_app.scenes.ink import (
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    STEEL,
+    SUB,
+    THIN,
+    badge,
+    cut,
+    dim,
+    icon,
+    panel,
+    text_width,
+)
+from pigaming_app.scenes.pane import Lit, Pane, fitted, lines_of, span
+
+W = span(8, 4)[1]
+PAD = 32  # px between a row's edge and what is in it
+CHIP, APART = 112, 16  # px
+
+
+@lru_cache(maxsize=64)
+def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
+    """What is chosen, a fact beside it, the value between arrows, and a sentence about it; upper left at (0, 0)."""
+    high = 236 if line else 140
+    pane = _named(name, high)
+    pane.page.body(aside, W - PAD, 38, MIST, "r")
+    size = fitted(value, LABEL, W - 2 * PAD - 100)
+    pane.page.text(value, size, W / 2, 94, ICE, "head", "c")
+    for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
+        icon(pane.hot, sign, x, 94, 20, MIST, LINE)
+    for i, part in enumerate(lines_of(line, BODY, W - 2 * PAD)[:2] if line else []):
+        pane.page.body(part, PAD, 156 + 48 * i, MIST)
+    return pane.done()
+
+
+@lru_cache(maxsize=32)
+def chips(name: str, values: tuple[str, ...], value: str) -> Lit:
+    """All values side by side, the chosen one lit; upper left at (0, 0)."""
+    pane = _named(name, 140)
+    for i, said in enumerate(values):
+        x, on = PAD + i * (CHIP + APART), said == value
+        pane.hot.line(cut(x, 66, CHIP, 60, 12), ICE if on else STEEL, THIN, True)
+        pane.page.cold.text(said, BODY, x + CHIP / 2, 96, ICE if on else MIST, "head", "c")
+    return pane.done()
+
+
+def chip_at(count: int, x: float) -> int | None:
+    """Which of so many chips lies x px from the left edge of its row."""
+    i, rest = divmod(x - PAD, CHIP + APART)
+    return int(i) if 0 <= i < count and rest < CHIP else None
+
+
+@lru_cache(maxsize=8)
+def begin(said: str) -> Lit:
+    """The button that begins; upper left at (0, 0)."""
+    pane = Pane(0, 0, W, 96)
+    pane.hot.line(cut(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)
+    size = fitted(said, SUB, W - 200)
+    x = W / 2 - text_width(said, size) / 2
+    icon(pane.hot, "right", x - 30, 48, 24, FOCUS, LINE)
+    pane.page.text(said, size, W / 2 + 16, 48, FOCUS, "head", "c")
+    return pane.done()
+
+
+@lru_cache(maxsize=2)
+def frame(w: int, h: int) -> Lit:
+    """The frame of a picture; upper left at (0, 0)."""
+    pane = Pane(0, 0, w, h)
+    panel(pane.hot, 0, 0, w, h)
+    return pane.done()
+
+
+@lru_cache(maxsize=16)
+def lineup(seats: tuple[tuple[int, str], ...]) -> Lit:
+    """Who plays: badges and the icons of what drives them, ending at x = 0."""
+    pitch = 168
+    pane = Pane(-pitch * len(seats), -40, pitch * len(seats), 80)
+    for k, (seat, sign) in enumerate(seats):
+        x = -pitch * (len(seats) - k)
+        badge(pane.hot, seat, x + 50, 0, 30)
+        icon(pane.hot, sign, x + 124, 0, 30, MIST, THIN)
+    return pane.done()
+
+
+@lru_cache(maxsize=8)
+def meant(high: int) -> Lit:
+    """What a row in focus gets on top of its outline; upper left at (0, 0)."""
+    pane = Pane(0, 0, W, high)
+    pane.hot.line(cut(0, 0, W, high, 16), dim(FOCUS, 0.55), THIN, True)
+    return pane.done()
+
+
+def _named(name: str, high: int) -> Pane:
+    pane = Pane(0, 0, W, high)
+    pane.hot.line(cut(0, 0, W, high, 16), STEEL, THIN, True)
+    pane.page.body(name, PAD, 38, MIST)
+    return pane

@@ -1,0 +1,213 @@
+"""The lobby: press fire to join, again to be ready. AIs fill the seats that are wished for, teams are one press away.
+
+When all people are ready and at least two robots are there, the choice of the arena follows after a moment in which
+anybody may still join. Every device acts for its own seat; the mouse acts on what it points at.
+"""
+
+import pygame
+
+from pigaming_app.scenes.focus import Focus
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.lobby_page import LobbyPage, Moment, problem, spots
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, Seats
+from pigaming_app.scenes.setup import SetupPage, summary
+from pigaming_app.scenes.stack import Home, Pop, Push, Turn
+
+IDLE = 60.0  # seconds without a press until the title
+ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
+SAID = 4.0  # seconds for which a message stays
+POINTED = 4.0  # seconds after the mouse moved in which its focus shows
+
+
+class Lobby:
+    """Who plays a game."""
+
+    def __init__(self, house: House, game: str) -> None:
+        self.house, self.game = house, game
+        self.seats = Seats(house.settings.strength)
+        self.now = Moment()
+        self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
+        self.focus = Focus(spots(self.seats))
+
+    def entered(self) -> None:
+        """Shown, or come back to from the choice of the arena: everyone says again that they are ready."""
+        self.house.sounds.music(True)
+        self.now.starting = None
+        self.seats.unready()
+        for seat in self.seats.like(HUMAN):
+            device = self.seats.places[seat].device
+            if device and not self.house.controls.connected(device):
+                self.seats.leave(seat)
+
+    def on(self, press: Press) -> Turn:
+        """Join, be ready, leave, call AIs, choose teams, begin."""
+        press = self.page.prompts.meant(press)
+        device = press.device
+        match press.act:
+            case Act.FIRE:
+                self._fire(device)
+            case Act.START:
+                return self._begin(device)
+            case Act.BACK:
+                return self._back(device)
+            case Act.LEAVE:
+                self._leave(device)
+            case Act.ALT:
+                self._ais()
+            case Act.EXTRA:
+                self.seats.teams = not self.seats.teams
+                self.house.sounds.play("move")
+            case Act.LEFT | Act.RIGHT | Act.UP | Act.DOWN:
+                self._steer(device, press.act)
+            case Act.LOST:
+                self._unplugged(device)
+            case Act.POINT | Act.CLICK:
+                self._mouse(press)
+            case _:
+                pass
+        self._watch()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the robots turn; go on when everybody is ready; leave when nobody is there."""
+        self.now.pass_by(seconds)
+        self.focus.update(seconds)
+        if self.now.starting is not None:
+            self.now.starting -= seconds
+            if self.now.starting <= 0.0:
+                return self._go()
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        self.page.draw(screen)
+        if self.now.pointed > 0.0:
+            self.focus.draw(screen)
+
+    # ---- what presses do
+
+    def _fire(self, device: Device) -> None:
+        if device.kind == "mouse":  # somebody clicked on the hint
+            for waiting in self.seats.waiting:
+                self.seats.places[waiting].ready = True
+            return
+        seat = self.seats.of(device)
+        if seat is not None:
+            self.seats.places[seat].ready = True
+            self.house.sounds.play("ready", seat)
+            return
+        seat = self.seats.join(device)
+        if seat is None:
+            self._say(self.house.words("lobby.full"), "error")
+        else:
+            self.now.since[seat] = 0.0
+            self.house.sounds.play("join", seat)
+
+    def _begin(self, device: Device) -> Turn:
+        """START: everybody counts as ready. In an empty lobby it joins."""
+        if not self.seats.robots and device.kind != "mouse":
+            self._fire(device)
+            return None
+        filled = self.seats.fill()
+        if filled is not None:
+            self.now.since[filled] = 0.0
+        if trouble := problem(self.seats, self.house.words):
+            self._say(trouble, "error")
+            return None
+        return self._go()
+
+    def _go(self) -> Turn:
+        self.now.starting = None
+        self.house.sounds.play("accept")
+        return Push(SetupPage(self.house, self.game, self.seats))
+
+    def _back(self, device: Device) -> Turn:
+        """Not ready after all; then out of the seat; then back to the title."""
+        self.house.sounds.play("back")
+        seat = self.seats.of(device)
+        if seat is None:
+            return Pop()
+        if self.seats.places[seat].ready:
+            self.seats.places[seat].ready = False
+        else:
+            self.seats.leave(seat)
+        self._watch()
+        return None
+
+    def _leave(self, device: Device) -> None:
+        seat = self.seats.of(device)
+        if seat is not None:
+            self.seats.leave(seat)
+            self.house.sounds.play("back")
+
+    def _ais(self) -> None:
+        """One more AI; when all seats are taken, none."""
+        seat = self.seats.add()
+        if seat is None:
+            self.seats.clear()
+            self.house.sounds.play("back")
+        else:
+            self.now.since[seat] = 0.0
+            self.house.sounds.play("join", seat)
+
+    def _steer(self, device: Device, act: Act) -> None:
+        """Left and right choose one's own team where there are teams; every other direction the strength of the AIs."""
+        seat = self.seats.of(device)
+        if self.seats.teams and seat is not None and act in (Act.LEFT, Act.RIGHT):
+            self._change_team(seat)
+        elif self.seats.strengthen(1 if act in (Act.RIGHT, Act.UP) else -1):
+            self.house.settings.strength = self.seats.strength
+            self.house.sounds.play("move")
+
+    def _change_team(self, seat: int) -> None:
+        self.seats.places[seat].team = 1 - self.seats.places[seat].team
+        self.house.sounds.play("move")
+
+    def _unplugged(self, device: Device) -> None:
+        seat = self.seats.of(device)
+        if seat is not None:
+            self.seats.leave(seat)
+            self._say(self.house.words("lobby.unplugged", player=seat + 1), "back")
+
+    def _mouse(self, press: Press) -> None:
+        self.now.pointed = POINTED
+        self.focus.on(press)
+        name = self.focus.chosen(press)
+        if name is None:
+            return
+        what, seat = name.split()[0], int(name.split()[1])
+        kind = self.seats.places[seat].kind
+        if what == "team":
+            self._change_team(seat)
+        elif what in ("weaker", "stronger"):
+            self.seats.strengthen(1 if what == "stronger" else -1, seat)
+            self.house.settings.strength = self.seats.strength
+            self.house.sounds.play("move")
+        elif kind == AI:
+            self.seats.leave(seat)
+            self.house.sounds.play("back")
+        elif kind == EMPTY:
+            self.seats.add(seat)
+            self.now.since[seat] = 0.0
+            self.house.sounds.play("join", seat)
+        else:
+            self.seats.places[seat].ready = not self.seats.places[seat].ready
+            self.house.sounds.play("ready", seat)
+
+    def _watch(self) -> None:
+        """Begin the last moment when all are ready, and give it up when somebody is not."""
+        self.focus.place(spots(self.seats))
+        alone = len(self.seats.like(HUMAN)) == 1
+        if not self.seats.like(HUMAN) or self.seats.waiting:
+            self.now.starting = None
+        elif self.now.starting is None:
+            filled = self.seats.fill()
+            if filled is not None:
+                self.now.since[filled] = 0.0
+            if not problem(self.seats, self.house.words):
+                self.now.starting = self.now.whole = ALONE if alone else ALL
+
+    def _say(self, message: str, sound: str) -> None:
+        self.now.message, self.now.said = message, SAID
+        self.house.sounds.play(sound)

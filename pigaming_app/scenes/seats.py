@@ -1,0 +1,132 @@
+"""Who sits where before a match: people by their devices, AIs, and teams. No drawing, no sounds: only what is so.
+
+Whoever presses fire gets the next empty seat, and so becomes player 1, 2, 3 or 4. The last AI makes room for a person.
+"""
+
+from dataclasses import dataclass, field
+
+from pigaming_app.ai import STRENGTHS
+from pigaming_app.games.game import Seat
+from pigaming_app.scenes.press import Device
+
+EMPTY, HUMAN, AI = "empty", "human", "ai"
+PLACES = 4
+
+
+@dataclass
+class Place:
+    """One seat. `team` is 0 or 1 and counts only while there are teams."""
+
+    kind: str = EMPTY
+    device: Device | None = None
+    ready: bool = False
+    strength: str = "normal"
+    team: int = 0
+
+
+@dataclass
+class Seats:
+    """The four seats. `strength` is that of the next AI."""
+
+    strength: str = "normal"
+    teams: bool = False
+    places: list[Place] = field(default_factory=lambda: [Place(team=i % 2) for i in range(PLACES)])
+
+    # ---- what is so
+
+    def of(self, device: Device) -> int | None:
+        """The seat of a device."""
+        return next((i for i, place in enumerate(self.places) if place.device == device), None)
+
+    def like(self, kind: str) -> list[int]:
+        """The seats of a kind: EMPTY, HUMAN or AI."""
+        return [i for i, place in enumerate(self.places) if place.kind == kind]
+
+    @property
+    def robots(self) -> int:
+        """How many will play."""
+        return PLACES - len(self.like(EMPTY))
+
+    @property
+    def waiting(self) -> list[int]:
+        """People who are not ready yet."""
+        return [i for i in self.like(HUMAN) if not self.places[i].ready]
+
+    @property
+    def one_team(self) -> bool:
+        """There are teams, and all who play are in one of them."""
+        return self.teams and len({place.team for place in self.places if place.kind != EMPTY}) < 2
+
+    def seats(self) -> tuple[Seat, Seat, Seat, Seat]:
+        """The seats as a setup wants them."""
+        one, two, three, four = (
+            Seat(self._brain(place), place.team if self.teams else i) for i, place in enumerate(self.places)
+        )
+        return one, two, three, four
+
+    def devices(self) -> list[Device | None]:
+        """Who drives each seat."""
+        return [place.device for place in self.places]
+
+    # ---- what people do
+
+    def join(self, device: Device) -> int | None:
+        """Give a device the next empty seat, or the last AI's; None: four people sit there already."""
+        seat = next(iter(self.like(EMPTY)), None)
+        if seat is None:
+            seat = next(iter(reversed(self.like(AI))), None)
+        if seat is not None:
+            self.places[seat] = Place(HUMAN, device, team=self._wanted(seat))
+        return seat
+
+    def leave(self, seat: int) -> None:
+        """Empty a seat."""
+        self.places[seat] = Place(team=self.places[seat].team)
+
+    def add(self, seat: int | None = None) -> int | None:
+        """Put an AI on a seat, or on the next empty one; answers which, None: all are taken."""
+        seat = next(iter(self.like(EMPTY)), None) if seat is None else seat
+        if seat is not None:
+            self.places[seat] = Place(AI, strength=self.strength, team=self._wanted(seat))
+        return seat
+
+    def clear(self) -> None:
+        """Send all AIs away."""
+        for seat in self.like(AI):
+            self.leave(seat)
+
+    def strengthen(self, by: int, seat: int | None = None) -> bool:
+        """Make the AI of one seat, or all, stronger or weaker by a step; the next ones will be like it."""
+        chosen = self.like(AI) if seat is None else [seat]
+        if not chosen:
+            return False
+        now = STRENGTHS.index(self.places[chosen[0]].strength) + by
+        self.strength = STRENGTHS[now % len(STRENGTHS) if seat is not None else max(0, min(len(STRENGTHS) - 1, now))]
+        changed = any(self.places[one].strength != self.strength for one in chosen)
+        for one in chosen:
+            self.places[one].strength = self.strength
+        return changed
+
+    def unready(self) -> None:
+        """Nobody is ready any more."""
+        for place in self.places:
+            place.ready = False
+
+    def fill(self) -> int | None:
+        """One person alone gets an AI to play against; answers its seat."""
+        if self.robots != 1:
+            return None
+        alone = next(i for i, place in enumerate(self.places) if place.kind != EMPTY)
+        seat = self.add()
+        if seat is not None:
+            self.places[seat].team = 1 - self.places[alone].team
+        return seat
+
+    def _wanted(self, seat: int) -> int:
+        """The team with fewer robots; the seat's own where they are equal."""
+        others = [place.team for i, place in enumerate(self.places) if place.kind != EMPTY and i != seat]
+        more = others.count(0) - others.count(1)
+        return self.places[seat].team if more == 0 else int(more > 0)
+
+    def _brain(self, place: Place) -> str:
+        return {EMPTY: "off", HUMAN: "human"}.get(place.kind, place.strength)
