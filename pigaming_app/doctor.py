@@ -24,7 +24,7 @@ EXTRAS = {
 }
 DEVICES = {  # what main.py can do without, and what to do about it
     "pygame": ("problem", "delete the folder .venv and start main.py again"),
-    "screens": ("note", "connect one to play; play --headless, duel and bench go without"),
+    "displays": ("note", "connect one to play; play --headless, duel and bench go without"),
     "sound": ("note", "the arcade is silent, and works"),
     "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
     "fonts": ("problem", ANEW),
@@ -49,7 +49,7 @@ def run(as_json: bool) -> int:
         print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
         return int(not well)
     for line in lines:
-        print(f"{line.state:8} {line.what:12} {line.found}{': ' + line.advice if line.advice else ''}")
+        print(f"{line.state:8} {line.what:24} {line.found}{'  ->  ' + line.advice if line.advice else ''}")
     print("All is well." if well else "Something prevents playing: see the lines that begin with problem.")
     return int(not well)
 
@@ -125,12 +125,12 @@ def _devices() -> Iterator[Line]:
     answers = _probed()
     for what, (state, advice) in DEVICES.items():
         if what not in answers:
-            yield Line(what, "problem" if state == "problem" else "note", "its driver did not answer", advice)
+            yield Line(what, state, "its driver did not answer", advice)
         else:
             found, wrong = answers[what]
             none = "none; the keyboard will do" if what == "pads" else "none"
             text = "; ".join(part for part in (found, wrong) if part) or none
-            yield Line(what, state if wrong else "ok", text, advice if wrong else "")
+            yield Line(what, state if wrong else "ok", text.rstrip("."), advice if wrong else "")
 
 
 def _probed() -> dict[str, tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""What pygame finds on this machine: screens, sound, pads, fonts. It opens no window.
+"""What pygame finds on this machine: displays, sound, pads, fonts. It opens no window.
 
 The doctor runs this file as a process of its own, because a display server or a sound driver may hang or crash.
 Every look prints one line of JSON as soon as it is done: its name, what it found, and what was wrong.
@@ -17,8 +17,8 @@ from pigaming_app.scenes.sounds import Sounds
 _UNSEEN = ("dummy", "offscreen")  # SDL's drivers that paint into memory only
 
 
-def screens() -> tuple[str, str]:
-    """The screens that are there, with size and rate; or why there is none."""
+def displays() -> tuple[str, str]:
+    """The displays that are there, with size and rate; or why there is none."""
     try:
         pygame.display.init()
     except pygame.error as error:
@@ -59,7 +59,7 @@ def fonts() -> tuple[str, str]:
     return ("all there", "") if whole else ("", "letters are missing")
 
 
-LOOKS: dict[str, Callable[[], tuple[str, str]]] = {"screens": screens, "sound": sound, "pads": pads, "fonts": fonts}
+LOOKS: dict[str, Callable[[], tuple[str, str]]] = {"displays": displays, "sound": sound, "pads": pads, "fonts": fonts}
 
 
 def main() -> None:
