@@ -12,7 +12,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.playing import seated
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import FOCUS, LABEL
+from pigaming_app.scenes.ink import BODY, FOCUS, LABEL, dim
 from pigaming_app.scenes.match import new_seed
 from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Press
@@ -23,7 +23,7 @@ from pigaming_app.sim.arena import arenas
 MINUTES = 1.0  # of a match
 AFTER = 2.5  # seconds for which its end is shown
 PAGE = 12.0  # seconds for a page
-PROMPT_Y = 984
+PROMPT_Y, PAGE_PROMPT_Y = 984, 1014  # px; a page's own row ends above
 LEVELS = 6  # brightnesses of the prompt
 
 
@@ -57,11 +57,10 @@ class Attract:
         if self.show:
             self.show.draw(screen)
         level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
-        color = tuple(round(channel * (0.45 + 0.55 * level / LEVELS)) for channel in FOCUS)
+        color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
         text = self.house.words("attract.press")
-        plate(text, (color[0], color[1], color[2]), (color[0], color[1], color[2]), LABEL, face="head").draw(
-            screen, 960, PROMPT_Y
-        )
+        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, Demonstration) else (BODY, PAGE_PROMPT_Y)
+        plate(text, color, color, size, face="head").draw(screen, 960, y)
 
     def _next(self) -> None:
         self.show = next(show for show in (make() for make in self.shows) if show)

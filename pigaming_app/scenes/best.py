@@ -64,7 +64,7 @@ class Best:
         pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
         pane.page.text(words("results.best"), TITLE, LEFT, 112)
         title = load(self.game, self.arena).title.get(words.language, self.arena)
-        where = f"{words('results.' + self.game)}  ·  {title}"
+        where = f"{words('games.' + self.game)}  ·  {title}"
         pane.page.body(where, RIGHT, 112, MIST, "r", fitted(where, 40, 800, "body"))
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], FOCUS, LINE)
         out = [(0.0, pane.done())]

@@ -5,14 +5,17 @@ from functools import cache
 
 import pygame
 
-from pigaming_app.scenes.ink import BOLD, FOCUS, ICE, Color, Ink
-from pigaming_app.scenes.pane import Lit, word
+from pigaming_app.scenes.ink import BLACK, BOLD, FOCUS, ICE, Color, Ink, font
+from pigaming_app.scenes.palette import CAPITALS
+from pigaming_app.scenes.sprites import Sprite, faded, trim
 
 CENTRE = (960, 590)  # of the arena, on the canvas
 GO = 0.7  # seconds for which GO! is shown
 POP = 0.16  # seconds in which a sign shrinks to its size
 POPS = 5  # sizes kept of each sign
 HUGE = 300
+LEVELS = 8  # brightnesses of a sign that goes
+MOAT = 14  # px
 
 
 class Countdown:
@@ -53,26 +56,47 @@ class Countdown:
         pop = min(POPS - 1, int(self.since / POP * POPS))
         if not self.locked:
             if self.since < GO:
-                level = 8 if self.since < GO / 2 else math.ceil(16 * (1 - self.since / GO))
-                popped(go, FOCUS, pop, level).draw(screen, *CENTRE)
+                level = LEVELS if self.since < GO / 2 else math.ceil(2 * LEVELS * (1 - self.since / GO))
+                show(screen, popped(go, FOCUS, pop, level))
         elif self.number <= 3:
-            popped(str(self.number), ICE, pop).draw(screen, *CENTRE)
-            arcs(self.number).draw(screen, *CENTRE)
+            show(screen, popped(str(self.number), ICE, pop))
+            show(screen, arcs(self.number))
 
 
 @cache
-def popped(text: str, color: Color, pop: int, level: int = 8) -> Lit:
-    """A huge word centred on (0, 0), the larger the smaller `pop`, 0..POPS - 1, is."""
+def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
+    """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
+    if level < LEVELS:
+        return faded(popped(text, color, pop), level / LEVELS)
     if pop == POPS - 1:
-        return word(text, HUGE, color, "hero", 0.7, level)
-    whole = popped(text, color, POPS - 1, level)
+        return _word(text, color)
+    whole = popped(text, color, POPS - 1)
     scale = 1.0 + 0.7 * (1 - (pop + 1) / POPS) ** 2
     image = pygame.transform.smoothscale_by(whole.image, scale)
-    return Lit(image, (round(whole.at[0] * scale), round(whole.at[1] * scale)))
+    return Sprite(image, round(whole.dx * scale), round(whole.dy * scale))
+
+
+def _word(text: str, color: Color) -> Sprite:
+    edge = font("hero", HUGE).render(text, True, BLACK)
+    w, h = edge.get_width() + 128, HUGE + 128
+    out = pygame.Surface((w, h), pygame.SRCALPHA)
+    top = h / 2 - font("hero", HUGE).get_ascent() + CAPITALS * HUGE / 2
+    for i in range(24):
+        angle = i * math.tau / 24
+        out.blit(edge, (64 + MOAT * math.cos(angle), top + MOAT * math.sin(angle)))
+    light = Ink(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lit(0.8)
+    out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    return trim(out, w / 2, h / 2)
+
+
+def show(screen: pygame.Surface, sign: Sprite) -> None:
+    """Paint a sign in the middle of the arena."""
+    at = CENTRE[0] + sign.dx, CENTRE[1] + sign.dy
+    screen.blit(sign.image, at, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
 @cache
-def arcs(count: int) -> Lit:
+def arcs(count: int) -> Sprite:
     """Three arcs round a number, of which `count` are still lit."""
     half = 270
     ink = Ink(2 * half, 2 * half).to(half, half)
@@ -80,4 +104,4 @@ def arcs(count: int) -> Lit:
         start = -math.pi / 2 + i * math.tau / 3 + 0.14
         lit = i < count
         ink.arc(0, 0, 215, start, start + math.tau / 3 - 0.28, FOCUS if lit else (58, 54, 16), BOLD if lit else 4)
-    return Lit(ink.lit(1.0), (-half, -half))
+    return trim(ink.sprite(1.0), half, half)

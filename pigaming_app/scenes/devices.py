@@ -61,11 +61,11 @@ class DeviceTable:
         panel(pane.hot, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
         badge(pane.hot, seat, LEFT + 84, y, 40)
         icon(pane.hot, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
-        name = controls.name(device)
+        name = words(f"devices.{controls.name(device)}")
         pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 290, "body"))
         self._moves(pane, device, y)
         for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
-            wide = key(pane.page, x, y, controls.label(device, act))
+            wide = key(pane.page, x, y, words.printed(controls.label(device, act)))
             pane.page.body(words(name), x + wide + 18, y, MIST)
         return pane.done()
 

@@ -23,10 +23,10 @@ from pigaming_app.scenes.ink import (
     panel,
     text_width,
 )
-from pigaming_app.scenes.page import stamp
+from pigaming_app.scenes.logo import seat_robot
+from pigaming_app.scenes.page import stamp, text
 from pigaming_app.scenes.pane import Lit, Pane, fitted, lines_of, span
-from pigaming_app.scenes.sprites import HEADINGS, step
-from pigaming_app.scenes.tank import tank
+from pigaming_app.scenes.sprites import Sprite
 
 PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 660)
 W = span(0, 8)[1]
@@ -36,20 +36,15 @@ CELL, CELLS = 40, 10  # px from one cell of a meter to the next
 CENTRE = (PANEL.centerx, PANEL.y + 190)  # of the picture
 
 
-@lru_cache(maxsize=64)
 def label(said: str, hot: bool) -> Lit:
     """The name of a row, its middle at y = 0."""
-    pane = Pane(0, -32, AT, 64)
-    pane.page.cold.text(said, fitted(said, BODY, AT - 60, "body"), 40, 0, ICE if hot else MIST, "body")
-    return pane.done()
+    return text(said, BODY, ICE if hot else MIST, "body", "l", AT - 60)
 
 
 @lru_cache(maxsize=4)
 def rule(w: int) -> Lit:
     """The hair line between two rows."""
-    pane = Pane(0, -2, w, 4)
-    pane.page.cold.line([(24, 0), (w - 24, 0)], dim(STEEL, 0.6), HAIR)
-    return pane.done()
+    return Lit(Ink(w, 4).line([(24, 2), (w - 24, 2)], dim(STEEL, 0.6), HAIR).plain(), (0, -2))
 
 
 @lru_cache(maxsize=128)
@@ -60,7 +55,7 @@ def value(kind: str, options: tuple[str, ...], chosen: int, hot: bool) -> Lit:
         for said, (x, w), on in zip(options, chips(options), range(len(options)), strict=True):
             lit = on == chosen
             edge = (FOCUS if hot else ICE) if lit else STEEL
-            pane.hot.line(cut(x, -30, w, 60, 12), edge, THIN, True)
+            pane.hot.line(cut(x, -27, w, 54, 12), edge, THIN, True)
             pane.page.cold.text(said, BODY, x + w / 2, 0, ICE if lit else MIST, "head", "c")
     elif kind == "meter":
         _meter(pane, chosen, hot)
@@ -71,8 +66,8 @@ def value(kind: str, options: tuple[str, ...], chosen: int, hot: bool) -> Lit:
         size = fitted(said, BODY, ROOM - 120, "body")
         pane.page.cold.text(said, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
     else:
-        w = text_width(options[0], BODY) + 48
-        pane.hot.line(cut(AT, -30, w, 60, 12), FOCUS if hot else STEEL, THIN, True)
+        w = chips(options)[0][1]
+        pane.hot.line(cut(AT, -27, w, 54, 12), FOCUS if hot else STEEL, THIN, True)
         pane.page.cold.text(options[0], BODY, AT + w / 2, 0, ICE if hot else MIST, "head", "c")
     return pane.done()
 
@@ -90,7 +85,8 @@ def _meter(pane: Pane, chosen: int, hot: bool) -> None:
 
 def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
     """x and width of the options of a toggle, px from the row's left edge."""
-    places, x = [], AT
+    places: list[tuple[int, int]] = []
+    x = AT
     for said in options:
         w = round(text_width(said, BODY)) + 40
         places.append((x, w))
@@ -111,15 +107,20 @@ def hit(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | Non
     return max(0, min(len(options) - 1, chosen + by))
 
 
-@lru_cache(maxsize=32)
-def about(name: str, said: str, line: str) -> Lit:
-    """The panel beside the rows: what the row is called and does; upper left at (0, 0)."""
+@lru_cache(maxsize=1)
+def beside() -> Lit:
+    """The panel beside the rows; upper left at (0, 0)."""
     pane = Pane(0, 0, PANEL.w, PANEL.h)
     panel(pane.hot, 0, 0, PANEL.w, PANEL.h)
-    pane.page.text(said, fitted(said, LABEL, PANEL.w - 80), 40, 400)
-    for i, part in enumerate(lines_of(line, BODY, PANEL.w - 80)):
-        pane.page.body(part, 40, 472 + 58 * i, MIST)
     return pane.done()
+
+
+def about(screen: pygame.Surface, said: str, line: str) -> None:
+    """What a row is called and does, in the panel."""
+    x, y = PANEL.x + 40, PANEL.y + 400
+    text(said, LABEL, ICE, "head", "l", PANEL.w - 80).draw(screen, x, y)
+    for i, part in enumerate(lines_of(line, BODY, PANEL.w - 80)):
+        text(part, BODY, MIST, "body", "l").draw(screen, x, y + 72 + 58 * i)
 
 
 def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> None:
@@ -135,11 +136,16 @@ def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> No
         if name == "sounds":
             _speaker(chosen, int(seconds * 6) % 4).draw(screen, x, y)
         else:
-            stamp(screen, tank(1, step(-0.6, HEADINGS)), x + jolt, y)
+            stamp(screen, _robot(), x + jolt, y)
     elif name == "music":
         _note(chosen, int(seconds * 8) % 8).draw(screen, x, y)
     else:
         _drawn(name, chosen, int(seconds * 2) % 2).draw(screen, x, y)
+
+
+@lru_cache(maxsize=1)
+def _robot() -> Sprite:
+    return seat_robot(1, -0.6, 1.8)
 
 
 @lru_cache(maxsize=24)
@@ -148,7 +154,7 @@ def _burst(strength: int, stage: int) -> Lit:
     fade = (1.0 - stage / 6) * (0.25, 0.6, 1.0)[strength]
     for i in range(12):
         c, s = math.cos(i * math.tau / 12 + 0.2), math.sin(i * math.tau / 12 + 0.2)
-        near, far = 62 + 8 * stage, 78 + (4 + 8 * strength) + 10 * stage
+        near, far = 96 + 8 * stage, 112 + (4 + 8 * strength) + 10 * stage
         ink.line([(near * c, near * s), (far * c, far * s)], dim(FOCUS, fade), LINE)
     return Lit(ink.lit(0.5 + 0.5 * strength), (-200, -200))
 

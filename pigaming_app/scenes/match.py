@@ -14,7 +14,7 @@ from pigaming_app.ai import make
 from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
 from pigaming_app.playing import seated
-from pigaming_app.scenes.countdown import CENTRE, Countdown, popped
+from pigaming_app.scenes.countdown import Countdown, popped, show
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, PLAYERS
 from pigaming_app.scenes.pause import Pause
@@ -98,7 +98,7 @@ class MatchScene:
         words = self.house.words
         if self.match.over and not self.stopped:
             pop = min(4, int(self.frozen / 0.04))
-            popped(words("match.time"), ALARM, pop).draw(screen, *CENTRE)
+            show(screen, popped(words("match.time"), ALARM, pop))
         elif self.count.shown:
             if self.count.locked:
                 self.stage.captions(screen, self.devices)

@@ -44,8 +44,8 @@ class Prompts:
     @property
     def said(self) -> tuple[tuple[str, str], ...]:
         """The labels and texts of the moment; an act without a button is left out."""
-        found = [(self.house.controls.label(None, act), self.house.words(key)) for act, key in self.items]
-        return tuple((label, text) for label, text in found if label)
+        words, label = self.house.words, self.house.controls.label
+        return tuple((words.printed(label(None, act)), words(key)) for act, key in self.items if label(None, act))
 
     def meant(self, press: Press) -> Press:
         """A click on one of the hints as the press that it stands for; any other press as it is."""

@@ -17,7 +17,7 @@ from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
 
 WAIT = 15.0  # seconds
 DEAF = 1.0  # seconds in which presses are ignored: the others are still playing
-RING = X + 398, Y + 462
+RING = X + 398, Y + 468
 PAD = X + 184, Y + 376
 TEXT_X, TEXT_W = X + 352, W - 352 - 56
 
@@ -109,6 +109,7 @@ class StillThere:
         self.match, self.house = match, match.house
         self.age = 0.0
         self.picture: pygame.Surface | None = None
+        self.prompts = Prompts(self.house, [(Act.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
 
     def entered(self) -> None:
         """Ask."""
@@ -130,6 +131,7 @@ class StillThere:
             self.picture = overlay(self.match.picture(), FOCUS, self._paint)
         screen.blit(self.picture, (0, 0))
         ring(screen, WAIT - self.age, WAIT)
+        self.prompts.draw(screen)
 
     def _paint(self, pane: Pane) -> None:
         words = self.house.words
@@ -142,9 +144,9 @@ class StillThere:
 def say(pane: Pane, text: str, color: Color) -> None:
     """What to do, in up to three lines beside the picture of a sheet."""
     lines = lines_of(text, BODY, TEXT_W)
-    top = HEAD + 68 + (0 if len(lines) > 2 else 24)
+    top = HEAD + (54 if len(lines) > 2 else 80)
     for i, line in enumerate(lines):
-        pane.page.body(line, TEXT_X, top + 58 * i, color)
+        pane.page.body(line, TEXT_X, top + 56 * i, color)
 
 
 def after(pane: Pane, text: str) -> None:

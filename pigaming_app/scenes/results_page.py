@@ -153,7 +153,7 @@ class ResultsPage:
         x = LEFT
         for seat in self.winners:
             badge(pane.hot, seat, x + 52, 110, 50)
-            x += 118
+            x += 128
         x += 14 if self.winners else 0
         numbers = [str(seat + 1) for seat in sorted(self.winners)]
         if not self.finished:
@@ -179,7 +179,7 @@ class ResultsPage:
         words, setup = self.house.words, self.setup
         minutes = words("results.minutes", minutes=f"{setup.minutes:g}")
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
-        where = f"{words('results.' + setup.game)}  ·  {arena}  ·  {minutes}"
+        where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
         size = fitted(where, BODY, 720, "body")
         self.room = RIGHT - text_width(where, size, "body") - 40  # px, where the title must end
         pane = Pane(self.room, 60, RIGHT - self.room, 100)
@@ -216,17 +216,17 @@ class ResultsPage:
 
     def _row(self, pane: Pane, row: Row, x: int, y: float, color: Color) -> None:
         """One robot: badge, score, what the game counts."""
-        badge(pane.hot, row.seat, x + 164, y, 38)
+        badge(pane.hot, row.seat, x + 158, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
-            icon(pane.hot, "ai", x + 228, y, 17, MIST, 3)
+            icon(pane.hot, "ai", x + 231, y, 17, MIST, 3)
         score = signed(row.score)
         size = fitted(score, SUB, 110 if brain != "human" else 150, "hero")
         pane.page.text(score, size, x + COLUMNS[0], y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
-        for name, right in zip(GAMES[self.setup.game].columns, COLUMNS[1:], strict=False):
+        for name, before, right in zip(GAMES[self.setup.game].columns, COLUMNS, COLUMNS[1:], strict=False):
             value = row.facts[name]
             text = f"{round(100 * value)}%" if name == "aim" else signed(round(value))
-            pane.page.cold.text(text, LABEL, x + right, y, color, "head", "r")
+            pane.page.cold.text(text, fitted(text, LABEL, right - before - 24), x + right, y, color, "head", "r")
 
     def _records(self) -> Lit | None:
         """Who was best in this arena, in the place of a row that nobody needs; nothing before somebody was."""

@@ -82,11 +82,11 @@ class Stage:
         """What drives a seat, in words, and the icon for it."""
         words = self.house.words
         if device and device.kind == "pad":
-            return self.house.controls.name(device), "pad"
+            return words(f"devices.{self.house.controls.name(device)}"), "pad"
         if device:
             moves = self.house.controls.moves(device)
             steer = words("match.arrows") if "←" in moves else moves
-            return f"{steer} + {self.house.controls.label(device, Act.FIRE)}", "keys"
+            return f"{steer} + {words.printed(self.house.controls.label(device, Act.FIRE))}", "keys"
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"
