@@ -117,30 +117,37 @@ def beside() -> Lit:
 
 def about(screen: pygame.Surface, said: str, line: str) -> None:
     """What a row is called and does, in the panel."""
-    x, y = PANEL.x + 40, PANEL.y + 400
-    text(said, LABEL, ICE, "head", "l", PANEL.w - 80).draw(screen, x, y)
-    for i, part in enumerate(lines_of(line, BODY, PANEL.w - 80)):
-        text(part, BODY, MIST, "body", "l").draw(screen, x, y + 72 + 58 * i)
+    for i, lit in enumerate(told(said, line)):
+        lit.draw(screen, PANEL.x + 40, PANEL.y + 400 + (14 + 58 * i if i else 0))
+
+
+@lru_cache(maxsize=32)
+def told(said: str, line: str) -> tuple[Lit, ...]:
+    """A title, and a sentence in lines that fit into the panel."""
+    room = PANEL.w - 80
+    parts = (text(part, BODY, MIST, "body", "l") for part in lines_of(line, BODY, room))
+    return (text(said, LABEL, ICE, "head", "l", room), *parts)
 
 
 def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> None:
     """The moving picture in the panel."""
     x, y = CENTRE
-    beat = seconds % 1.4 / 1.4
-    if name in ("flashes", "shake", "sounds"):
-        jolt = 0 if name != "shake" or not chosen or beat > 0.25 else round(10 * math.sin(beat * 90) * (1 - 4 * beat))
-        if name == "flashes" and beat < 0.5:
-            _burst(min(chosen, 2), int(beat * 2 * 6)).draw(screen, x, y)
-        if name == "shake" and beat < 0.3:
-            _burst(1, int(beat / 0.3 * 6)).draw(screen, x + jolt, y)
-        if name == "sounds":
-            _speaker(chosen, int(seconds * 6) % 4).draw(screen, x, y)
-        else:
-            stamp(screen, _robot(), x + jolt, y)
-    elif name == "music":
-        _note(chosen, int(seconds * 8) % 8).draw(screen, x, y)
+    since, jolt = seconds % 1.4, 0  # the robot of the picture is hit every 1.4 seconds
+    if name == "flashes" and since < 0.6:
+        _burst(chosen, int(since * 10)).draw(screen, x, y)
+    if name == "shake" and chosen and since < 0.35:
+        jolt = round(12 * math.sin(since * 64) * (1 - since / 0.35))
+    if name in ("flashes", "shake"):
+        stamp(screen, _robot(), x + jolt, y + jolt // 2)
     else:
-        _drawn(name, chosen, int(seconds * 2) % 2).draw(screen, x, y)
+        drawn(name, chosen, seconds).draw(screen, x, y)
+
+
+def drawn(name: str, chosen: int, seconds: float = 0.0) -> Lit:
+    """The picture of a row at a moment."""
+    if name == "sounds":
+        return _speaker(chosen, int(seconds * 6) % 4)
+    return _note(chosen, int(seconds * 8) % 8) if name == "music" else _drawn(name, chosen, int(seconds * 2) % 2)
 
 
 @lru_cache(maxsize=1)

@@ -1,225 +1,238 @@
-"""The options: what an operator or a player may change. Everything acts at once and is kept.
+"""The options: what they change is changed at once, and kept on disk at once.
 
-Up and down go from row to row, left and right change, FIRE changes or opens. On the right it says what a row is for.
+In a kiosk the page offers only what children may touch; the operator's page offers everything.
 """
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import pygame
 
 from pigaming_app.keeping import NotSaved
+from pigaming_app.scenes import dials
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, cut, dim, icon, panel, text_width
-from pigaming_app.scenes.page import glow_bar, heading
-from pigaming_app.scenes.pane import Lit, Pane, backdrop, fitted, lines_of, span
+from pigaming_app.scenes.ink import LABEL
+from pigaming_app.scenes.page import blacked, calling, glow_bar, heading
+from pigaming_app.scenes.pane import backdrop, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.stack import Pop, Push, Quit, Turn
+from pigaming_app.scenes.stack import Home, Pop, Push, Quit, Turn
+from pigaming_app.scenes.words import LANGUAGES
 from pigaming_app.settings import folders
 
-X, W = span(0, 8)
-HELP_X, HELP_W = span(8, 4)
-TOP, STEP, HIGH = 212, 74, 66
-VALUE = X + 520  # where the values begin
-METER = 10  # cells of a volume
+IDLE = 90.0  # seconds without a press until the title
+SAID, SURE = 3.0, 3.0  # seconds for which a sentence stays; in which a second press deletes
+NAMES = {"en": "English", "pt": "Português"}
+FLASHES = ("off", "soft", "full")
+ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "reset")
+FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
+TOP, BOTTOM, HIGH = 246, 896, 64
 log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
-class Row:
-    """One thing that can be changed: what it shows, and what becomes of a step to either side."""
+class Value:
+    """What a row shows: options of which one is lit, a number of ten, a text between arrows, or a thing to do."""
 
-    name: str
-    shown: Callable[[], tuple[tuple[str, ...], int]]  # choices and which is chosen; no choices: a volume
-    change: Callable[[int], Turn]
+    kind: str  # toggle, meter, arrows, deed
+    options: tuple[str, ...]
+    chosen: int = 0
 
 
 class OptionsPage:
-    """The page. `operator`: it was opened in a kiosk by whoever knows how, so it can close the arcade."""
+    """The options; `operator`: everything, also in a kiosk."""
 
     def __init__(self, house: House, operator: bool = False) -> None:
         self.house, self.operator = house, operator
-        self.said, self.sure = "", False
-        self.rows = self._rows()
-        boxes = [Spot(row.name, pygame.Rect(X, TOP + STEP * i, W, HIGH)) for i, row in enumerate(self.rows)]
-        self.focus = Focus(boxes)
+        self.rows: Sequence[str] = ROWS
+        if house.kiosk:
+            self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
+        self.clock, self.sure, self.said, self.sentence = 0.0, 0.0, 0.0, ""
+        self.cleared = False
+        self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
+        self.ahead = self._ahead()
         self.prompts = Prompts(
-            house,
-            [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")],
-            1010,
+            house, [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
         )
 
     def entered(self) -> None:
-        """Shown, or come back to from the page that tests the controls."""
+        """Shown, or come back to from the test of the controls."""
 
     def on(self, press: Press) -> Turn:
-        """Move, change, or go back."""
+        """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
         press = self.prompts.meant(press)
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            return Pop()
-        if press.act in (Act.LEFT, Act.RIGHT):
-            return self._change(1 if press.act is Act.RIGHT else -1)
-        if self.focus.on(press):
-            self.said, self.sure = "", False
-            self.house.sounds.play("move")
-        if self.focus.chosen(press) is not None:
-            left = press.act is Act.CLICK and press.at is not None and press.at[0] < VALUE + 60
-            return self._change(-1 if left else 1)
+        match press.act:
+            case Act.BACK:
+                self.house.sounds.play("back")
+                return Pop()
+            case Act.LEFT | Act.RIGHT:
+                self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
+            case Act.FIRE | Act.START:
+                return self._do(self.focus.name)
+            case Act.CLICK:
+                self.focus.on(press)
+                return self._click(press)
+            case _:
+                if self.focus.on(press):
+                    self.house.sounds.play("move")
+                    self.sure = 0.0
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the focus glide."""
+        """Let sentences fade; leave when nobody is there."""
+        self.clock += seconds
+        self.sure -= seconds
+        self.said -= seconds
         self.focus.update(seconds)
-        return None
+        if piece := next(self.ahead, None):
+            piece()
+        return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words, lit = self.house.words, self.focus.name
+        words, focus = self.house.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("options.operator" if self.operator else "options.title")).draw(screen)
-        box = self.focus.rect(lit)
-        glow_bar(screen, box)
-        for row in self.rows:
-            choices, chosen = row.shown()
-            line = painted(words(f"options.{row.name}"), choices, chosen, row.name == lit)
-            line.draw(screen, 0, self.focus.rect(row.name).y)
-        advice(words(f"options.{lit}"), self.said or words(f"options.{lit}_line")).draw(screen)
+        blacked(screen, dials.PANEL)
+        glow_bar(screen, self.focus.box)
+        for i, name in enumerate(self.rows):
+            self._row(screen, i, name, name == focus)
+        dials.beside().draw(screen, *dials.PANEL.topleft)
+        dials.about(screen, words(f"options.{focus}"), words(f"options.{focus}_line"))
+        dials.sketch(screen, focus, self._value(focus).chosen, self.clock)
         self.focus.draw(screen)
+        if self.said > 0.0:
+            calling(self.sentence, "", LABEL).draw(screen, 960, 926)
         self.prompts.draw(screen)
 
-    # ---- inside
+    # ---- what is seen
 
-    def _change(self, by: int) -> Turn:
-        row = next(row for row in self.rows if row.name == self.focus.name)
-        turn = row.change(by)
-        self.house.sounds.play("accept")
-        self._keep()
-        return turn
+    def _row(self, screen: pygame.Surface, i: int, name: str, hot: bool) -> None:
+        box, value = self._box(i), self._value(name)
+        dials.label(self.house.words(f"options.{name}"), hot).draw(screen, box.x + 40, box.centery)
+        dials.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
+        if i:
+            dials.rule(box.w).draw(screen, box.x, (box.y + self._box(i - 1).bottom) // 2)
 
-    def _keep(self) -> None:
-        try:
-            self.house.settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
-            self.said = self.house.words("app.unsaved")
+    def _box(self, i: int) -> pygame.Rect:
+        """Where the i-th row is."""
+        x, w = span(0, 8)
+        pitch = min(96.0, (BOTTOM - TOP - HIGH) / max(1, len(self.rows) - 1))
+        return pygame.Rect(x, round(TOP - HIGH / 2 + pitch * i), w, HIGH)
 
-    def _rows(self) -> list[Row]:
-        settings, words = self.house.settings, self.house.words
+    def _ahead(self) -> Iterator[Callable[[], object]]:
+        """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
+        words = self.house.words
+        for name in self.rows:
+            yield lambda name=name: dials.label(words(f"options.{name}"), True)
+            yield lambda name=name: self._piece(name)
+            yield lambda name=name: dials.told(words(f"options.{name}"), words(f"options.{name}_line"))
+            yield lambda name=name: dials.drawn(name, self._value(name).chosen)
 
-        def switch(name: str) -> tuple[tuple[str, ...], int]:
-            return (words("options.off"), words("options.on")), int(getattr(settings, name))
+    def _piece(self, name: str) -> object:
+        value = self._value(name)
+        return dials.value(value.kind, value.options, value.chosen, True)
 
-        def levels() -> tuple[tuple[str, ...], int]:
-            names = ("off", "soft", "full")
-            return tuple(words(f"options.{name}") for name in names), names.index(settings.flashes)
+    # ---- what the rows are
 
-        rows = [
-            Row("language", lambda: (("English", "Português"), int(words.language == "pt")), self._language),
-            Row("music", lambda: ((), settings.music), lambda by: self._volume("music", by)),
-            Row("sounds", lambda: ((), settings.sounds), lambda by: self._volume("sounds", by)),
-            Row("flashes", levels, self._flashes),
-            Row("shake", lambda: switch("shake"), self._shake),
-            Row("display", self._displays, self._display),
-            Row("fullscreen", lambda: switch("fullscreen"), self._fullscreen),
-            Row("padtest", lambda: ((words("options.open"),), 0), self._padtest),
-            Row("reset", lambda: ((words("options.sure" if self.sure else "options.open"),), 0), self._reset),
-        ]
-        if self.operator:
-            rows.append(Row("close", lambda: ((words("options.open"),), 0), lambda by: Quit()))
-        return rows
+    def _value(self, name: str) -> Value:
+        settings, words, canvas = self.house.settings, self.house.words, self.house.canvas
+        off_on = (words("options.off"), words("options.on"))
+        match name:
+            case "language":
+                return Value("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
+            case "music" | "sounds":
+                return Value("meter", (), settings.music if name == "music" else settings.sounds)
+            case "flashes":
+                flashes = tuple(words(f"options.{one}") for one in FLASHES)
+                return Value("toggle", flashes, FLASHES.index(settings.flashes))
+            case "shake":
+                return Value("toggle", off_on, int(settings.shake))
+            case "fullscreen":
+                return Value("toggle", off_on, int(canvas.fullscreen))
+            case "display":
+                return Value("arrows", tuple(canvas.displays()), canvas.display)
+            case "reset":
+                key = "cleared" if self.cleared else "sure" if self.sure > 0.0 else "clear"
+                return Value("deed", (words(f"options.{key}"),))
+        return Value("deed", (words("options.open" if name == "padtest" else "options.end"),))
 
-    def _language(self, by: int) -> Turn:
-        self.house.words.switch(self.house.words.other)
-        self.house.settings.language = self.house.words.language
-        return None
+    def _change(self, name: str, by: int) -> None:
+        """The next value of a row, or the one before it."""
+        value = self._value(name)
+        most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
+        self._take(name, max(0, min(most, value.chosen + by)))
 
-    def _volume(self, name: str, by: int) -> Turn:
-        settings = self.house.settings
-        setattr(settings, name, max(0, min(METER, getattr(settings, name) + by)))
-        self.house.sounds.volume(settings.music, settings.sounds)
-        return None
-
-    def _flashes(self, by: int) -> Turn:
-        names = ("off", "soft", "full")
-        self.house.settings.flashes = names[(names.index(self.house.settings.flashes) + by) % len(names)]
-        return None
-
-    def _shake(self, by: int) -> Turn:
-        self.house.settings.shake = not self.house.settings.shake
-        return None
-
-    def _displays(self) -> tuple[tuple[str, ...], int]:
-        there = self.house.canvas.displays()
-        return (there[min(self.house.canvas.display, len(there) - 1)],), 0
-
-    def _display(self, by: int) -> Turn:
-        canvas = self.house.canvas
-        self.house.settings.display = (canvas.display + by) % len(canvas.displays())
-        canvas.show(self.house.settings.display, canvas.fullscreen)
-        return None
-
-    def _fullscreen(self, by: int) -> Turn:
-        self.house.settings.fullscreen = self.house.canvas.toggle_fullscreen()
-        return None
-
-    def _padtest(self, by: int) -> Turn:
-        from pigaming_app.scenes.padtest import PadTest
-
-        return Push(PadTest(self.house))
-
-    def _reset(self, by: int) -> Turn:
-        """Asked twice, the tables are emptied."""
-        if not self.sure:
-            self.sure = True
+    def _do(self, name: str) -> Turn:
+        """Fire: the next value, round and round; or the deed."""
+        value = self._value(name)
+        if value.kind != "deed":
+            count = 11 if value.kind == "meter" else len(value.options)
+            self._take(name, (value.chosen + 1) % count)
             return None
-        self.sure = False
-        self.house.scores.reset()
-        self.said = self.house.words("options.cleared")
-        try:
-            self.house.scores.save(folders().data)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
-            self.said = self.house.words("app.unsaved")
+        self.house.sounds.play("accept")
+        if name == "close":
+            return Quit()
+        if name == "padtest":
+            from pigaming_app.scenes.padtest import PadTest
+
+            return Push(PadTest(self.house))
+        self._clear()
         return None
 
+    def _click(self, press: Press) -> Turn:
+        name = self.focus.under(press)
+        if name is None or press.at is None:
+            return None
+        value = self._value(name)
+        if value.kind == "deed":
+            return self._do(name)
+        hit = dials.hit(value.kind, value.options, value.chosen, press.at[0] - self.focus.rect(name).x)
+        if hit is not None:
+            self._take(name, hit)
+        return None
 
-@lru_cache(maxsize=96)
-def painted(name: str, choices: tuple[str, ...], chosen: int, hot: bool) -> Lit:
-    """One row with its upper edge at y = 0."""
-    pane = Pane(X, 0, W, HIGH)
-    y = HIGH / 2
-    pane.page.body(name, X + 40, y, ICE if hot else MIST, size=fitted(name, BODY, VALUE - X - 60, "body"))
-    if not choices:
-        for i in range(METER):
-            cell = cut(VALUE + 40 * i, y - 22, 30, 44, 6)
-            if i < chosen:
-                pane.hot.fill(cell, FOCUS if hot else MIST)
+    def _take(self, name: str, chosen: int) -> None:
+        """Make a value so, at once."""
+        if chosen == self._value(name).chosen:
+            return
+        house, settings, canvas = self.house, self.house.settings, self.house.canvas
+        match name:
+            case "language":
+                settings.language = LANGUAGES[chosen]
+                house.words.switch(settings.language)
+                self.ahead = self._ahead()
+            case "music" | "sounds":
+                setattr(settings, name, chosen)
+                house.sounds.volume(settings.music, settings.sounds)
+            case "flashes":
+                settings.flashes = FLASHES[chosen]
+            case "shake":
+                settings.shake = bool(chosen)
+            case "display" | "fullscreen":
+                canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
+                settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+        house.sounds.play("hit" if name == "sounds" else "move")
+        self._keep()
+
+    def _clear(self) -> None:
+        """Empty the tables of scores; only the second press does it."""
+        if self.sure <= 0.0:
+            self.sure, self.cleared = SURE, False
+            return
+        self.house.scores.reset()
+        self.sure, self.cleared = 0.0, True
+        self._keep(scores=True)
+
+    def _keep(self, scores: bool = False) -> None:
+        """Save, or say in one sentence that it could not be saved."""
+        try:
+            if scores:
+                self.house.scores.save(folders().data)
             else:
-                pane.hot.line(cell, STEEL, 3, True)
-        pane.page.cold.text(str(chosen), BODY, X + W - 40, y, ICE if hot else MIST, "head", "r")
-        return pane.done()
-    x: float = VALUE
-    for i, choice in enumerate(choices):
-        w, on = text_width(choice, BODY) + 48, i == chosen
-        pane.hot.line(cut(x, y - 29, w, 58, 12), (FOCUS if hot else ICE) if on else STEEL, THIN, True)
-        pane.page.cold.text(choice, BODY, x + w / 2, y, ICE if on else MIST, "head", "c")
-        x += w + 12
-    return pane.done()
-
-
-@lru_cache(maxsize=32)
-def advice(name: str, line: str) -> Lit:
-    """What the row in focus is for."""
-    pane = Pane(HELP_X, TOP, HELP_W, 560)
-    panel(pane.hot, HELP_X, TOP, HELP_W, 560, STEEL)
-    icon(pane.hot, "right", HELP_X + 60, TOP + 76, 24, FOCUS, LINE)
-    pane.hot.line([(HELP_X + 40, TOP + 140), (HELP_X + HELP_W - 40, TOP + 140)], dim(FOCUS, 0.5), THIN)
-    pane.page.text(name, fitted(name, LABEL, HELP_W - 150), HELP_X + 104, TOP + 76, FOCUS)
-    for i, part in enumerate(lines_of(line, BODY, HELP_W - 80)):
-        pane.page.body(part, HELP_X + 40, TOP + 200 + 58 * i, ICE)
-    return pane.done()
+                self.house.settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self.sentence, self.said = self.house.words("app.unsaved"), SAID

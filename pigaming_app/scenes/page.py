@@ -19,6 +19,7 @@ from pigaming_app.scenes.ink import (
     THIN,
     TITLE,
     Color,
+    Ink,
     Page,
     button,
     button_width,
@@ -65,12 +66,11 @@ def text(
 ) -> Lit:
     """One line, its capitals round y = 0; all but sentences shimmer. It shrinks where it would be wider than `room`."""
     size = fitted(said, size, room, face)
-    w = text_width(said, size, face)
-    left = -w * {"l": 0.0, "c": 0.5, "r": 1.0}[align]
-    pane = Pane(left, -size, w, 2 * size)
-    sheet = pane.page.cold if face == "body" else pane.page.warm
-    sheet.text(said, size, left, 0, color, face)
-    return pane.done()
+    edge = 4 if face == "body" else 32  # px for the glow
+    w, h = round(text_width(said, size, face)) + 2 * edge, 2 * size + 2 * edge
+    ink = Ink(w, h).text(said, size, edge, h / 2, color, face)
+    left = -edge - round((w - 2 * edge) * {"l": 0.0, "c": 0.5, "r": 1.0}[align])
+    return Lit(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
 
 
 @lru_cache(maxsize=64)
