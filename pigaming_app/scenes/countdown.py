@@ -1,7 +1,7 @@
 """Three, two, one, go: the big signs over an arena, before a match and after every interruption."""
 
 import math
-from functools import cache
+from functools import cache, lru_cache
 
 import pygame
 
@@ -63,7 +63,7 @@ class Countdown:
             show(screen, arcs(self.number))
 
 
-@cache
+@lru_cache(maxsize=32)
 def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
     """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
     if level < LEVELS:

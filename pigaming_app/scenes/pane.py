@@ -4,7 +4,7 @@ Whole pages cost a quarter of a second to light; a scene that moves builds itsel
 """
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 import pygame
 
@@ -52,7 +52,7 @@ class Pane:
         return Lit(self.page.done(), self.at)
 
 
-@cache
+@lru_cache(maxsize=160)
 def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0.7, level: int = 8) -> Lit:
     """One line of light whose capitals are centred on (0, 0); `level` of 8 parts of its brightness."""
     if level < 8:

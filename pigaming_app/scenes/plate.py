@@ -1,7 +1,7 @@
 """A line of text on a black plate with cut corners: what is said over a running match, made once and kept."""
 
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 
 import pygame
 
@@ -24,7 +24,7 @@ class Plate:
         screen.blit(self.image, corner, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
-@cache
+@lru_cache(maxsize=96)
 def plate(
     text: str,
     color: Color = STEEL,

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
+from functools import lru_cache
 
 import pygame
 
@@ -79,7 +79,7 @@ def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, floa
     return out
 
 
-@cache
+@lru_cache(maxsize=32)
 def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> Lit:
     """The whole row, lit."""
     ends = places(said, room)
