@@ -1,11 +1,12 @@
 """Three, two, one, go: the big signs over an arena, before a match and after every interruption."""
 
 import math
+from collections.abc import Iterator
 from functools import cache, lru_cache
 
 import pygame
 
-from pigaming_app.scenes.ink import BLACK, BOLD, FOCUS, ICE, Color, Ink, font
+from pigaming_app.scenes.ink import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
 from pigaming_app.scenes.palette import CAPITALS
 from pigaming_app.scenes.sprites import Sprite, faded, trim
 
@@ -63,7 +64,17 @@ class Countdown:
             show(screen, arcs(self.number))
 
 
-@lru_cache(maxsize=32)
+def signs(go: str, end: str) -> Iterator[Sprite]:
+    """Every sign of a match, made one at a time, in the order in which they are shown."""
+    for number in (3, 2, 1):
+        yield arcs(number)
+        yield from (popped(str(number), ICE, pop) for pop in range(POPS))
+    yield from (popped(go, FOCUS, pop) for pop in range(POPS))
+    yield from (popped(go, FOCUS, POPS - 1, level) for level in range(LEVELS - 1, 0, -1))
+    yield from (popped(end, ALARM, pop) for pop in range(POPS))
+
+
+@lru_cache(maxsize=48)
 def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
     """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
     if level < LEVELS:

@@ -14,7 +14,7 @@ from pigaming_app.ai import make
 from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
 from pigaming_app.playing import seated
-from pigaming_app.scenes.countdown import Countdown, popped, show
+from pigaming_app.scenes.countdown import Countdown, popped, show, signs
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, PLAYERS
 from pigaming_app.scenes.pause import Pause
@@ -43,6 +43,7 @@ class MatchScene:
         self.match = seated(setup)
         self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
+        self.signs = signs(house.words("match.go"), house.words("match.time"))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
         self.notice: Plate | None = None
@@ -80,6 +81,7 @@ class MatchScene:
             return self._end(seconds)
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
+        next(self.signs, None)
         self.warm = self.warm or self.stage.warm(14.0 if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
             self.house.sounds.play(sound)
