@@ -165,7 +165,7 @@ def test_the_tests_fetch_their_tools_and_the_compiler(furnished):
 def test_a_duel_goes_on_without_the_compiler(furnished):
     ended = started(furnished, "duel", "pitanks", MOOD="numba:No matching distribution found for numba")
     assert ended.stdout == f"{furnished / '.venv'} duel pitanks\n"
-    assert ended.stderr.splitlines()[-1].endswith("Going on without numba.")
+    assert "Going on without numba." in ended.stderr
 
 
 def test_who_only_asks_how_a_duel_works_waits_for_no_compiler(furnished):
