@@ -13,26 +13,36 @@ MAY = {
     "games": {"games", "sim"},
     "ai": {"ai", "games", "sim"},
     "hardware": {"hardware", "sim"},
+    "scenes": {"scenes", "games", "ai", "hardware", "sim", "playing", "settings", "scores", "keeping"},
+    "settings": {"keeping"},
+    "scores": {"keeping"},
+    "keeping": set(),
+    "start": {"install", "cli"},
+    "install": {"start"},
+    "doctor": {"settings", "start", "games", "sim", "playing"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
 def imported(path):
-    """The modules that a file imports, each with whether it does so at once (not inside a function)."""
+    """The modules that a file imports, and whether at once (not inside a function): `pigaming_app.sim`, `os.path`."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     inside = {id(node) for f in ast.walk(tree) if isinstance(f, ast.FunctionDef) for node in ast.walk(f)}
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from ((alias.name, id(node) not in inside) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            yield node.module, id(node) not in inside
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path} imports by a relative name"
+            names = [f"pigaming_app.{alias.name}" for alias in node.names if (PACKAGE / alias.name).is_dir()]
+            for module in names if node.module == "pigaming_app" and names else [node.module]:
+                yield module, id(node) not in inside
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
 def test_a_file_imports_only_what_its_layer_may(path):
     place = path.relative_to(PACKAGE).parts
-    layer = place[0] if len(place) > 1 else ""
+    layer = place[0].removesuffix(".py")
     for module, at_once in imported(path):
         root = module.split(".")[0]
         if root == "pigaming_app" and layer in MAY and module.count("."):
