@@ -19,6 +19,7 @@ from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.press import Act
 from pigaming_app.scenes.sounds import Sounds
 from pigaming_app.scenes.stack import Push, Scene, Stack
 from pigaming_app.scenes.words import Words
@@ -28,6 +29,7 @@ from pigaming_app.settings import Settings, folders
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
 SAID = 4.0  # s for which a notice stays
+SETTLING = 1.0  # s after the start in which a pointer that merely lies there does not take the focus
 TROUBLES = 5  # in a row, after which the arcade gives up
 
 log = logging.getLogger("pigaming")
@@ -90,6 +92,9 @@ def run(options: Options) -> int:
         except NotSaved as trouble:
             log.warning("%s", trouble)
         canvas.close()
+        for handler in log.handlers:
+            handler.close()
+        log.handlers.clear()
         if crash_file:
             faulthandler.disable()
             crash_file.close()
@@ -135,6 +140,8 @@ def _frame(app: App, seconds: float) -> None:
         stack.scenes.clear()
         return
     presses = [*house.controls.presses(events), *house.controls.repeats(seconds)]
+    if app.seconds < SETTLING:
+        presses = [press for press in presses if press.act is not Act.POINT]
     for event in events:
         if event.type == pygame.KEYDOWN:
             _function_key(app, event.key)

@@ -52,6 +52,8 @@ class Canvas:
         """
         _tell_sdl(headless)
         wanted = os.environ.get("SDL_VIDEODRIVER")
+        if not wanted and sys.platform.startswith("linux") and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
+            raise NoDisplay(_no_display("none was found"))  # asked, SDL would look for one and complain itself
         try:
             pygame.display.init()
             driver = pygame.display.get_driver()

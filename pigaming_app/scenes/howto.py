@@ -1,55 +1,34 @@
-"""How to play, in four pictures: drive, shoot, break walls, collect. One idea a picture, a few words under it.
+"""How to play, in four moving pictures: one idea each, a few words under it, and the keys of the device used last."""
 
-The row at the foot shows the keys or buttons of the device used last.
-"""
-
+from collections.abc import Sequence
 from functools import lru_cache
 
 import pygame
 
-from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import (
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    ORANGE,
-    PLAYERS,
-    STEEL,
-    SUB,
-    THIN,
-    Ink,
-    Page,
-    dim,
-    icon,
-    panel,
-    regular,
-    text_width,
-)
-from pigaming_app.scenes.page import heading, key, key_width
-from pigaming_app.scenes.pane import Lit, Pane, backdrop, lines_of, span
+from pigaming_app.scenes.ink import BLACK, BODY, ICE, LABEL, MIST, STEEL, panel, regular, text_width
+from pigaming_app.scenes.lessons import LESSONS
+from pigaming_app.scenes.page import blacked, heading, key, key_width, text
+from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, lines_of, span
 from pigaming_app.scenes.press import Act, Press
-from pigaming_app.scenes.stack import Pop, Turn
-from pigaming_app.scenes.tank import robot
-from pigaming_app.scenes.wall import draw_wall
+from pigaming_app.scenes.stack import Home, Pop, Turn
 
-PAGES = ("drive", "shoot", "walls", "pickups")
-TOP, HIGH = 216, 620
-FOOT = 930
+TOP, HIGH = 220, 620
+CAPTION_Y, FOOT_Y = TOP + 546, 924
+IDLE = 90.0  # seconds without a press until the title
 LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
 
 
 class HowTo:
-    """The page; FIRE, BACK, START or a click leaves it."""
+    """The page of one game; almost any press leaves it."""
 
     def __init__(self, house: House, game: str = "pitanks") -> None:
         self.house, self.game = house, game
+        self.clock = 0.0
 
     def entered(self) -> None:
-        """Nothing moves here."""
+        """Begin all pictures."""
+        self.clock = 0.0
 
     def on(self, press: Press) -> Turn:
         """Leave."""
@@ -59,95 +38,82 @@ class HowTo:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Wait."""
-        return None
+        """Let the pictures move."""
+        self.clock += seconds
+        return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The pictures and the keys."""
+        """Paint panels, pictures and keys."""
         words = self.house.words
         screen.blit(backdrop(), (0, 0))
         heading(words("title.howto"), words(f"games.{self.game}")).draw(screen)
-        pictures(tuple(words(f"howto.{name}") for name in PAGES)).draw(screen)
-        controls = self.house.controls
+        boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
+        blacked(screen, *boxes)
+        for i, (box, (name, picture)) in enumerate(zip(boxes, LESSONS[self.game].items(), strict=True)):
+            frame(i + 1, box.w).draw(screen, *box.topleft)
+            said = picture(screen, box.centerx, TOP + 268, self.clock)
+            if said:
+                text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 474)
+            caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
+        keys(self._keys()).draw(screen)
+
+    def _keys(self) -> tuple[tuple[str, str], ...]:
+        """What is printed on the device used last, and what it does; the last one stands at the right end."""
+        words, controls = self.house.words, self.house.controls
         device = controls.last
-        moves = controls.moves(device) or "<>"
-        turbo = controls.label(device, Act.LEAVE if device.kind == "keys" else Act.BACK)
-        items = (
-            (moves, words("howto.hint_drive")),
+        turbo = Act.LEAVE if device.kind == "keys" else Act.BACK
+        found = (
+            (controls.moves(device) or "<>", words("howto.hint_drive")),
             (words.printed(controls.label(device, Act.FIRE)), words("howto.hint_fire")),
-            (turbo, words("howto.hint_turbo")),
+            (controls.label(device, turbo), words("howto.hint_turbo")),
+            (controls.label(device, Act.BACK), words("howto.hint_back")),
         )
-        keys(items).draw(screen)
-
-
-@lru_cache(maxsize=4)
-def pictures(captions: tuple[str, ...]) -> Lit:
-    """The four panels with their captions."""
-    page = Page()
-    for i, (draw, caption) in enumerate(zip((_drive, _shoot, _walls, _pickups), captions, strict=True)):
-        x, w = span(3 * i, 3)
-        panel(page.hot, x, TOP, w, HIGH, STEEL)
-        page.hot.fill(regular(40, 30, 0, x + w / 2, TOP), FOCUS)
-        page.hot.text(str(i + 1), LABEL, x + w / 2, TOP, (0, 0, 0), "hero", "c")
-        draw(page.hot, x + w / 2, TOP + 230)
-        lines = lines_of(caption, BODY, w - 48)
-        for row, line in enumerate(lines):
-            page.body(line, x + w / 2, TOP + 520 + 54 * (row - (len(lines) - 1) / 2), ICE, "c")
-    return Lit(page.done(), (0, 0))
+        return tuple((label, what) for label, what in found if label)
 
 
 @lru_cache(maxsize=8)
-def keys(items: tuple[tuple[str, str], ...]) -> Lit:
-    """A centred row of buttons and what they do; arrow signs in a label are drawn."""
-    widths = [_width(label) + 18 + text_width(what, BODY, "body") for label, what in items]
-    gap = 72
-    x = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2
-    pane = Pane(96, FOOT - 40, 1728, 80)
-    for (label, what), width in zip(items, widths, strict=True):
-        at = x
-        for part in _parts(label):
-            at += key(pane.page, at, FOOT, part) + 8
-        pane.page.body(what, at + 10, FOOT, MIST)
-        x += width + gap
+def frame(number: int, w: int) -> Lit:
+    """An empty panel with its number; upper left at (0, 0)."""
+    pane = Pane(0, 0, w, HIGH)
+    panel(pane.hot, 0, 0, w, HIGH, STEEL)
+    pane.hot.fill(regular(40, 32, 0, w / 2, 0), ICE)
+    pane.hot.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
     return pane.done()
 
 
-def _parts(label: str) -> list[str]:
-    """ "← ↑ ↓ →" are four keys; anything else is one."""
-    return label.split() if "←" in label else [label]
+@lru_cache(maxsize=16)
+def caption(said: str, room: int) -> Lit:
+    """A few words in lines of about the same length, their middle at (0, 0)."""
+    lines = balanced(said, room)
+    pane = Pane(-room / 2, -70, room, 140)
+    for i, line in enumerate(lines):
+        size = fitted(line, BODY, room, "body")
+        pane.page.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
+    return pane.done()
+
+
+def balanced(said: str, room: int) -> list[str]:
+    """The lines of a text, no more than needed, and none much longer than the others."""
+    count = len(lines_of(said, BODY, room))
+    narrow = next(w for w in range(40, room + 40, 20) if len(lines_of(said, BODY, w)) <= count)
+    lines = lines_of(said, BODY, narrow)
+    return lines if max(text_width(line, BODY, "body") for line in lines) <= room else lines_of(said, BODY, room)
+
+
+@lru_cache(maxsize=16)
+def keys(items: Sequence[tuple[str, str]]) -> Lit:
+    """The row at the foot: all but the last from the left, the last at the right end."""
+    pane = Pane(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
+    x: float = LEFT
+    for i, (label, what) in enumerate(items):
+        if i == len(items) - 1:
+            x = RIGHT - _width(label) - 10 - text_width(what, BODY, "body")
+        for part in label.split():
+            x += key(pane.page, x, FOOT_Y, part) + 8
+        pane.page.body(what, x + 10, FOOT_Y, MIST)
+        x += 10 + text_width(what, BODY, "body") + 56
+    return pane.done()
 
 
 def _width(label: str) -> float:
-    return sum(key_width(part) + 8 for part in _parts(label))
-
-
-def _drive(ink: Ink, x: float, y: float) -> None:
-    """A robot and the four ways of its stick."""
-    robot(ink, 0, x, y + 20, -1.5708, 1.6)
-    for sign, dx, dy in (("up", 0, -125), ("down", 0, 150), ("left", -135, 20), ("right", 135, 20)):
-        icon(ink, sign, x + dx, y + dy, 30, MIST, LINE)
-
-
-def _shoot(ink: Ink, x: float, y: float) -> None:
-    """One robot hits another: +1 here, −1 there."""
-    robot(ink, 0, x - 100, y + 110, -0.93, 1.3)
-    robot(ink, 1, x + 90, y - 90, 2.2, 1.3)
-    for i in range(6):
-        ink.line([(x - 40 + 6 * i, y + 30 - 8 * i), (x - 10, y - 10)], dim(PLAYERS[0], 0.2 + 0.13 * i), 3 + i)
-    ink.text("+1", SUB, x - 110, y + 10, PLAYERS[0], "hero", "c")
-    ink.text("−1", SUB, x + 110, y + 10, ORANGE, "hero", "c")
-
-
-def _walls(ink: Ink, x: float, y: float) -> None:
-    """The same wall with five, three, two and one hits left to take."""
-    for row, health in enumerate((5, 4, 2, 1)):
-        draw_wall(ink.to(x - 20, y - 130 + 95 * row), 240, 34, health, 7)
-        ink.to(0, 0).text(str(health), LABEL, x + 150, y - 130 + 95 * row, MIST, "hero", "c")
-
-
-def _pickups(ink: Ink, x: float, y: float) -> None:
-    """All six, as they lie on the floor."""
-    for i, name in enumerate(POWERS):
-        cx, cy = x - 75 + 150 * (i % 2), y - 120 + 125 * (i // 2)
-        ink.line(regular(6, 50, 0.5236, cx, cy), FOCUS, THIN, True)
-        icon(ink, name, cx, cy, 25, FOCUS, 5)
+    return sum(key_width(part) + 8 for part in label.split())

@@ -6,6 +6,7 @@ In a kiosk the page offers only what children may touch; the operator's page off
 import logging
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import pygame
 
@@ -126,10 +127,10 @@ class OptionsPage:
         """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
         words = self.house.words
         for name in self.rows:
-            yield lambda name=name: dials.label(words(f"options.{name}"), True)
-            yield lambda name=name: self._piece(name)
-            yield lambda name=name: dials.told(words(f"options.{name}"), words(f"options.{name}_line"))
-            yield lambda name=name: dials.drawn(name, self._value(name).chosen)
+            yield partial(dials.label, words(f"options.{name}"), True)
+            yield partial(self._piece, name)
+            yield partial(dials.told, words(f"options.{name}"), words(f"options.{name}_line"))
+            yield partial(dials.drawn, name, self._value(name).chosen)
 
     def _piece(self, name: str) -> object:
         value = self._value(name)

@@ -37,7 +37,8 @@ from pigaming_app.scenes.plot import Curve, Plot, dot, team_curve
 from pigaming_app.sim.arena import load
 
 TOP, ROW, PITCH = 280, 120, 136
-COLUMNS = (362, 506, 678, 820)  # right edges: score, and what the game counts
+COLUMNS = (356, 492, 676, 820)  # right edges: score, and what the game counts
+SHORT = 218  # px of the line under a title without a winner
 FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
 
 
@@ -98,16 +99,18 @@ class ResultsPage:
         if 0.0 < drawn < 1.0:
             for at, color in self.plot.heads(drawn):
                 dot(screen, at, color)
-            self.lines.draw(screen, share=self._plot_share(drawn))
+            now, _ = self.plot.to(drawn * self.plot.seconds, 0)
+            self.lines.draw(screen, share=share_of(self.lines, now))
         elif drawn >= 1.0:
             self.lines.draw(screen)
             self.ends.draw(screen)
         if age < self.title_at:
             self.steel.draw(screen)
         else:
-            share = self._line_share(age)
-            self.steel.draw(screen, begin=share)
-            self.colored.draw(screen, share=share)
+            reach = self._reach(age)
+            self.steel.draw(screen, begin=share_of(self.steel, LEFT + reach))
+            drawn_whole = not self.finale and reach >= SHORT
+            self.colored.draw(screen, share=1.0 if drawn_whole else share_of(self.colored, LEFT + reach))
             if self.finale:
                 self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
                 self.finale.draw(screen)
@@ -116,7 +119,7 @@ class ResultsPage:
 
     def _make(self) -> Iterator[bool]:
         """Make one piece at a time."""
-        self.colored = line(self._color(), RIGHT - LEFT)
+        self.colored = line(self._color(), RIGHT - LEFT if self.winners else SHORT)
         self.steel = line(STEEL, RIGHT - LEFT, THIN)
         yield True
         self.parts.append(Part(self._where(), 0.1))
@@ -219,9 +222,9 @@ class ResultsPage:
         badge(pane.hot, row.seat, x + 158, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
-            icon(pane.hot, "ai", x + 231, y, 17, MIST, 3)
+            icon(pane.hot, "ai", x + 227, y, 16, MIST, 3)
         score = signed(row.score)
-        size = fitted(score, SUB, 110 if brain != "human" else 150, "hero")
+        size = fitted(score, SUB, 106 if brain != "human" else 150, "hero")
         pane.page.text(score, size, x + COLUMNS[0], y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
         for name, before, right in zip(GAMES[self.setup.game].columns, COLUMNS, COLUMNS[1:], strict=False):
             value = row.facts[name]
@@ -254,14 +257,14 @@ class ResultsPage:
         seats = [sorted(row.seat for row in team) for team in self.teams]
         return [team_curve(team, [series[seat] for seat in team]) for team in seats]
 
-    def _plot_share(self, drawn: float) -> float:
-        """How much of the curves' picture lies left of the moment that is drawn."""
-        x, _ = self.plot.to(drawn * self.plot.seconds, 0)
-        return (x - self.lines.at[0]) / self.lines.image.get_width()
+    def _reach(self, age: float) -> float:
+        """How far the line under the title is coloured, px."""
+        return self.finale.reach if self.finale else SHORT * min(1.0, (age - self.title_at) / WIPE)
 
-    def _line_share(self, age: float) -> float:
-        reach = self.finale.reach if self.finale else 218 * min(1.0, (age - self.title_at) / 0.3)
-        return (reach + LEFT - self.colored.at[0]) / self.colored.image.get_width()
+
+def share_of(lit: Lit, x: float) -> float:
+    """Which share of a piece of light lies left of x on the canvas."""
+    return (x - lit.at[0]) / lit.image.get_width()
 
 
 def line(color: Color, length: float, width: int = LINE) -> Lit:

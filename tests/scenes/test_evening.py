@@ -1,0 +1,69 @@
+"""One whole evening: from the title through lobby, setup and match to the results, a rematch, and back again."""
+
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.initials import Initials
+from pigaming_app.scenes.lobby import Lobby
+from pigaming_app.scenes.match import MatchScene
+from pigaming_app.scenes.press import Device
+from pigaming_app.scenes.reconnect import Reconnect
+from pigaming_app.scenes.results import Results
+from pigaming_app.scenes.setup import SetupPage
+from pigaming_app.scenes.stack import Stack
+from pigaming_app.scenes.title import Title
+from tests.scenes.arcade import Arcade
+from tests.scenes.virtual_pad import VirtualPad
+
+
+def test_two_friends_and_a_loose_cable(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls)
+    arcade.house.settings.minutes = 1
+    arcade.stack = Stack(Title(arcade.house))
+
+    def tap(pad: VirtualPad, *buttons: str) -> None:
+        for button in buttons:
+            pad.tap(button)
+            arcade.wait(0.2, draw=True)
+
+    with ExitStack() as plugged:
+        one, two = (plugged.enter_context(VirtualPad()) for _ in range(2))
+        arcade.wait(0.5, draw=True)
+        tap(one, "a")
+        arcade.shown(Lobby)
+        tap(one, "a")
+        tap(two, "a")
+        tap(one, "a")
+        tap(two, "a")
+        arcade.until(lambda: isinstance(arcade.stack.top, SetupPage), 10.0)
+        arcade.wait(0.5, draw=True)
+        tap(two, "a")
+        match = arcade.shown(MatchScene)
+        assert match.devices[:2] == [Device("pad", one.number), Device("pad", two.number)]
+        arcade.wait(8.0)
+        two.unplug()
+        arcade.wait(1.5, draw=True)
+        arcade.shown(Reconnect)
+        again = plugged.enter_context(VirtualPad())
+        arcade.wait(0.5, draw=True)
+        tap(again, "a")
+        assert arcade.shown(MatchScene) is match
+        one.stick(0.2, -1.0)
+        one.press("a")
+        arcade.until(lambda: match.match.over, 80.0)
+        one.release("a")
+        one.stick(0.0, 0.0)
+        arcade.until(lambda: isinstance(arcade.stack.top, Results))
+        arcade.wait(6.0, draw=True)
+        if isinstance(arcade.stack.top, Initials):
+            tap(one, "start", "start")
+            arcade.until(lambda: isinstance(arcade.stack.top, Results), 60.0)
+        tap(one, "a")
+        tap(again, "a")
+        rematch = arcade.shown(MatchScene)
+        assert rematch is not match
+        assert rematch.devices == [Device("pad", one.number), Device("pad", again.number), None, None]
