@@ -37,7 +37,7 @@ from pigaming_app.scenes.plot import Curve, Plot, dot, team_curve
 from pigaming_app.sim.arena import load
 
 TOP, ROW, PITCH = 280, 120, 136
-COLUMNS = (356, 492, 676, 820)  # right edges: score, and what the game counts
+COLUMNS = (346, 494, 676, 820)  # right edges: score, and what the game counts
 SHORT = 218  # px of the line under a title without a winner
 FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
 
@@ -222,9 +222,9 @@ class ResultsPage:
         badge(pane.hot, row.seat, x + 158, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
-            icon(pane.hot, "ai", x + 227, y, 16, MIST, 3)
+            icon(pane.hot, "ai", x + 225, y, 15, MIST, 3)
         score = signed(row.score)
-        size = fitted(score, SUB, 106 if brain != "human" else 150, "hero")
+        size = fitted(score, SUB, 102 if brain != "human" else 150, "hero")
         pane.page.text(score, size, x + COLUMNS[0], y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
         for name, before, right in zip(GAMES[self.setup.game].columns, COLUMNS, COLUMNS[1:], strict=False):
             value = row.facts[name]
