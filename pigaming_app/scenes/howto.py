@@ -53,7 +53,7 @@ class HowTo:
             frame(i + 1, box.w).draw(screen, *box.topleft)
             said = picture(screen, box.centerx, TOP + 268, self.clock)
             if said:
-                text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 474)
+                text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
         keys(self._keys()).draw(screen)
 

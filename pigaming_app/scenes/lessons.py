@@ -110,7 +110,7 @@ def pickups(screen: pygame.Surface, x: float, y: float, seconds: float) -> str |
     named, since = divmod(seconds, POWER)
     chosen = int(named) % len(POWERS)
     for i, name in enumerate(POWERS):
-        px, py = x - 82 + 164 * (i % 2), y - 150 + 124 * (i // 2)
+        px, py = x - 82 + 164 * (i % 2), y - 168 + 114 * (i // 2)
         lift = round(6 * math.sin(math.pi * min(1.0, since / 0.3))) if i == chosen else 0
         stamp(screen, things.pickup(name), px, py - lift)
         if i == chosen:

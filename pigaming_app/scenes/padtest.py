@@ -1,136 +1,147 @@
-"""Test the controls: every pad and every corner of the keyboard, live. What is pressed lights up."""
+"""Test the controls: every pad, every cluster of keys and the mouse, live. What is pressed lights up.
 
-from functools import lru_cache
+Each keyboard cluster drives a little robot of its own. Escape or the hint leaves the page; on a pad B is held for a
+second, because a short press of it is what one wants to see here.
+"""
+
+import math
 
 import pygame
 
+from pigaming_app.scenes import effects, gadgets
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import (
-    ALARM,
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    STEEL,
-    THIN,
-    cut,
-    icon,
-    panel,
-    text_width,
-)
+from pigaming_app.scenes.ink import ADD, ICE
 from pigaming_app.scenes.keyboard import CLUSTERS
-from pigaming_app.scenes.page import heading
-from pigaming_app.scenes.pane import Lit, Pane, backdrop, span
+from pigaming_app.scenes.page import blacked, heading, stamp
+from pigaming_app.scenes.pane import backdrop, span
 from pigaming_app.scenes.press import Act, Device, Drive, Press
 from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.stack import Pop, Turn
+from pigaming_app.scenes.sprites import HEADINGS, Sprite, step
+from pigaming_app.scenes.stack import Home, Pop, Turn
+from pigaming_app.scenes.tank import tank
 
 PLACES = 4
-HIGH = 340
-ROWS = (212, 588)  # upper edges: pads, keys
-STICK = 84  # px, radius
-HOLD = 1.0  # s for which BACK is held on a pad to leave: its button is tested here too
+PADS_Y, KEYS_Y = 216, 580
+HOLD = 0.8  # seconds
+LIT = 0.25  # seconds for which a short press stays lit
+IDLE = 120.0  # seconds without a press until the title
+TURN = 3.0  # rad/s
+BUTTONS = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT, Act.START)
 
 
 class PadTest:
-    """The page. Escape or a click on the hint leaves it; on a pad, B held for a second does."""
+    """The page. `lit`: seconds for which a button of a device still shows that it was pressed."""
 
     def __init__(self, house: House) -> None:
         self.house = house
         self.holding: Device | None = None
         self.held = 0.0
-        self.prompts = Prompts(house, [(Act.BACK, "padtest.hint_hold")], 1000)
+        self.lit: dict[tuple[Device, Act], float] = {}
+        self.headings = [-math.pi / 2] * PLACES
+        self.clicks: list[tuple[float, float, float]] = []  # x, y, seconds since
 
     def entered(self) -> None:
-        """Nothing to prepare."""
+        """Nothing to begin."""
 
     def on(self, press: Press) -> Turn:
-        """Only leaving means anything."""
-        clicked = press.act is Act.CLICK
-        press = self.prompts.meant(press)
-        if press.act is Act.BACK and press.device.kind == "pad":
-            self.holding, self.held = press.device, 0.0
-        elif press.act is Act.BACK and (clicked or press.device.kind == "keys"):
+        """Light up; Escape, the hint, and B after a while, leave."""
+        meant = self._prompts().meant(press)
+        if meant.act is Act.BACK and meant.device.kind != "pad":
             return self._leave()
+        if meant.act is Act.BACK:
+            self.holding, self.held = meant.device, 0.0
+        if press.act is Act.CLICK and press.at:
+            self.clicks = [*self.clicks[-5:], (*press.at, 0.0)]
+        if press.act is Act.LOST:
+            self.lit = {key: left for key, left in self.lit.items() if key[0] != press.device}
+        self.lit[press.device, press.act] = LIT
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Notice that BACK is held."""
-        if self.holding and self.house.controls.drive(self.holding).turbo:
+        """Turn the robots, let lights go out, notice that B is held."""
+        controls = self.house.controls
+        self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
+        self.clicks = [(x, y, since + seconds) for x, y, since in self.clicks if since < 0.45]
+        for i in range(PLACES):
+            self.headings[i] += TURN * controls.drive(Device("keys", i)).angular * seconds
+        if self.holding and controls.drive(self.holding).turbo:
             self.held += seconds
             if self.held > HOLD:
                 return self._leave()
         else:
             self.holding = None
-        return None
+        return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Every device as it is held now."""
-        words, controls = self.house.words, self.house.controls
+        """Paint every device as it is held now."""
+        words = self.house.words
         screen.blit(backdrop(), (0, 0))
         heading(words("padtest.title"), words("padtest.line")).draw(screen)
-        pads = controls.pads()[:PLACES]
+        pads = self.house.controls.pads()[:PLACES]
         for i in range(PLACES):
-            x, _ = span(3 * i, 3)
+            x = span(3 * i, 3)[0]
+            blacked(screen, *(pygame.Rect(x, y, gadgets.W, gadgets.H) for y in (PADS_Y, KEYS_Y)))
             if i < len(pads):
-                frame(controls.name(pads[i]), "A", "B", True).draw(screen, x, ROWS[0])
-                self._live(screen, x, ROWS[0], controls.drive(pads[i]))
+                self._pad(screen, x, PADS_Y, pads[i])
             else:
-                frame(words("padtest.none"), "", "", False).draw(screen, x, ROWS[0])
-            printed = CLUSTERS[i].printed
-            frame(CLUSTERS[i].moves, printed[Act.FIRE], printed[Act.LEAVE], True).draw(screen, x, ROWS[1])
-            self._live(screen, x, ROWS[1], controls.drive(Device("keys", i)))
-        self.prompts.draw(screen)
+                gadgets.no_pad(words("padtest.none"), words("padtest.plug")).draw(screen, x, PADS_Y)
+            self._cluster(screen, x, KEYS_Y, i)
+        for x_, y_, since in self.clicks:
+            wave = effects.wave(ICE, min(effects.WAVE_STEPS - 1, int(since / 0.45 * effects.WAVE_STEPS)))
+            screen.blit(wave.image, (round(x_ + wave.dx), round(y_ + wave.dy)), special_flags=ADD)
+        self._prompts().draw(screen)
+
+    # ---- inside
+
+    def _prompts(self) -> Prompts:
+        pad = self.house.controls.last.kind == "pad"
+        return Prompts(self.house, [(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
     def _leave(self) -> Turn:
         self.house.sounds.play("back")
         return Pop()
 
-    def _live(self, screen: pygame.Surface, x: int, y: int, drive: Drive) -> None:
-        """The stick's dot, and the two lamps."""
-        dot().draw(screen, x + 130 + STICK * drive.angular, y + 200 - STICK * drive.linear)
-        if drive.fire:
-            lamp(0).draw(screen, x + 316, y + 150)
+    def _pad(self, screen: pygame.Surface, x: int, y: int, device: Device) -> None:
+        controls, words = self.house.controls, self.house.words
+        labels = tuple(controls.label(device, act) for act in BUTTONS)
+        gadgets.pad(words(f"devices.{controls.name(device)}"), labels).draw(screen, x, y)
+        drive = controls.drive(device)
+        sx, sy = gadgets.STICK
+        gadgets.knob().draw(screen, x + sx + gadgets.REACH * drive.angular, y + sy - gadgets.REACH * drive.linear)
+        now = {Act.FIRE: drive.fire, Act.BACK: drive.turbo}
+        for act, label in zip(BUTTONS, labels, strict=True):
+            if now.get(act) or (device, act) in self.lit:
+                gadgets.pad_light(act, label).draw(screen, x, y)
+
+    def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
+        device = Device("keys", number)
+        drive, printed = self.house.controls.drive(device), CLUSTERS[number].printed
+        for act, box in gadgets.KEYS.items():
+            label = self.house.words.printed(printed[act])
+            gadgets.cap(label, *box.size, _down(drive, act)).draw(screen, x + box.x, y + box.y)
+        heading = self.headings[number]
+        ahead = 10 * drive.linear
+        rx = x + gadgets.ROBOT[0] + ahead * math.cos(heading)
+        ry = y + gadgets.ROBOT[1] + ahead * math.sin(heading)
         if drive.turbo:
-            lamp(1).draw(screen, x + 316, y + 266)
+            _add(screen, effects.flame(number, step(heading, effects.TURNS), pygame.time.get_ticks() // 60 % 2), rx, ry)
+        stamp(screen, tank(number, step(heading, HEADINGS)), rx, ry)
+        if drive.fire or (device, Act.FIRE) in self.lit:
+            muzzle = rx + 70 * math.cos(heading), ry + 70 * math.sin(heading)
+            _add(screen, effects.flash(number, step(heading, effects.TURNS)), *muzzle)
 
 
-@lru_cache(maxsize=16)
-def frame(name: str, fire: str, turbo: str, there: bool) -> Lit:
-    """The still part of one device; upper left at (0, 0)."""
-    w = span(0, 3)[1]
-    pane = Pane(0, 0, w, HIGH)
-    if not there:
-        pane.hot.dashes(cut(0, 0, w, HIGH, 20), STEEL, THIN, 22, 16)
-        pane.page.body(name, w / 2, HIGH / 2, MIST, "c")
-        return pane.done()
-    panel(pane.hot, 0, 0, w, HIGH, STEEL)
-    if "←" in name:
-        for i, sign in enumerate(("left", "up", "down", "right")):
-            icon(pane.hot, sign, 44 + 52 * i, 52, 20, ICE, LINE)
-    else:
-        pane.page.text(name, LABEL, 28, 52, ICE)
-    pane.hot.ring(130, 200, STICK + 16, STEEL, LINE)
-    for label, y in ((fire, 150), (turbo, 266)):
-        pane.hot.ring(316, y, 34, STEEL, LINE)
-        size = BODY if text_width(label, BODY) < 60 else 30
-        pane.page.cold.text(label, size, 316, y - 54, MIST, "head", "c")
-    return pane.done()
+def _down(drive: Drive, act: Act) -> bool:
+    """Whether the key of a cluster that means `act` is held."""
+    return {
+        Act.UP: drive.linear > 0,
+        Act.DOWN: drive.linear < 0,
+        Act.LEFT: drive.angular < 0,
+        Act.RIGHT: drive.angular > 0,
+        Act.FIRE: drive.fire,
+        Act.LEAVE: drive.turbo,
+    }[act]
 
 
-@lru_cache(maxsize=1)
-def dot() -> Lit:
-    """Where the stick is; round (0, 0)."""
-    pane = Pane(-20, -20, 40, 40)
-    pane.hot.disc(0, 0, 18, FOCUS)
-    return pane.done()
-
-
-@lru_cache(maxsize=2)
-def lamp(which: int) -> Lit:
-    """A pressed button: 0 fire, 1 turbo; round (0, 0)."""
-    pane = Pane(-30, -30, 60, 60)
-    pane.hot.disc(0, 0, 27, (FOCUS, ALARM)[which])
-    return pane.done()
+def _add(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
+    screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=ADD)
