@@ -1,12 +1,14 @@
 """The arcade itself: open everything, then events, presses, scenes, pictures, until somebody closes it.
 
-A mistake in a scene is written to the log and the title comes back: a child never sees a traceback.
+A mistake in a scene is written to the log and the title comes back with one sentence: a child never sees a traceback.
 """
 
 import faulthandler
 import logging
+import signal
+import sys
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from time import perf_counter
@@ -18,7 +20,7 @@ from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.notices import Gauge, Notices
 from pigaming_app.scenes.press import Act
 from pigaming_app.scenes.sounds import Sounds
 from pigaming_app.scenes.stack import Push, Scene, Stack
@@ -28,9 +30,8 @@ from pigaming_app.settings import Settings, folders
 
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
-SAID = 4.0  # s for which a notice stays
 SETTLING = 1.0  # s after the start in which a pointer that merely lies there does not take the focus
-TROUBLES = 5  # in a row, after which the arcade gives up
+TROUBLES, QUIET = 5, 10.0  # so many failures, each within so many s of the one before: the arcade gives up
 
 log = logging.getLogger("pigaming")
 
@@ -50,23 +51,6 @@ class Options:
     step: float | None = None  # s of made-up time for each frame, instead of real time
 
 
-@dataclass
-class App:
-    """A running arcade."""
-
-    options: Options
-    house: House
-    stack: Stack
-    notices: list[str] = field(default_factory=list)
-    said_for: float = 0.0
-    troubles: int = 0
-    frames: int = 0
-    seconds: float = 0.0
-    overlay: bool = False
-    tick_ms: float = 0.0
-    fps: float = 0.0
-
-
 def run(options: Options) -> int:
     """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
     where = folders()
@@ -75,139 +59,156 @@ def run(options: Options) -> int:
     canvas = Canvas.open(settings, options.display, False if options.headless else None, options.headless)
     crash_file = _keep_log(where.data)
     pygame.font.init()
-    pygame.display.set_caption("PiGaming")
     house = House(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
     house.sounds.volume(settings.music, settings.sounds)
-    app = App(options, house, Stack(_first(house, options)), [*said, *more])
-    if options.first and not options.alone:
-        app.stack.turn(Push(options.first(house)))
-    for line in app.notices:
-        log.warning(line)
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
-        _loop(app)
+        return App(options, house, [*said, *more]).loop()
+    except KeyboardInterrupt:
+        return 0
     finally:
+        signal.signal(signal.SIGTERM, before)
+        house.stand_still()
         house.sounds.close()
-        try:
-            settings.save(where.config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        _keep(settings, where.config)
         canvas.close()
-        for handler in log.handlers:
-            handler.close()
-        log.handlers.clear()
-        if crash_file:
-            faulthandler.disable()
-            crash_file.close()
-    return 0
+        _close_log(crash_file)
 
 
-def _first(house: House, options: Options) -> Scene:
-    if options.first and options.alone:
-        return options.first(house)
-    from pigaming_app.scenes.title import Title
+class App:
+    """A running arcade; `troubles` are sentences about what was wrong with its files."""
+
+    def __init__(self, options: Options, house: House, troubles: list[str]) -> None:
+        self.options, self.house = options, house
+        self.notices, self.gauge = Notices(), Gauge()
+        for line in troubles:
+            log.warning(line)
+            print(f"PiGaming: {line}", file=sys.stderr)
+        if troubles:
+            self.notices.say(house.words("app.settings"))
+        self.frames, self.seconds = 0, 0.0
+        self.failures, self.failed_at = 0, -QUIET
+        self.stack = self._begin()
+
+    def loop(self) -> int:
+        """Frame after frame, until no scene is left; the exit code."""
+        clock, last = pygame.time.Clock(), perf_counter()
+        while self.stack.scenes:
+            now = perf_counter()
+            seconds = self.options.step or min(now - last, SLOWEST)
+            last = now
+            try:
+                self._frame(seconds)
+            except Exception:
+                if not self._recovered():
+                    return 1
+            self.frames += 1
+            self.seconds += seconds
+            if self.frames == 1 and not self.options.headless:
+                self.house.sounds.open()
+            if self.frames == self.options.frames:
+                break
+            if self.options.step is None:
+                clock.tick(FRAMES)
+                self.gauge.fps = clock.get_fps()
+        return 0
+
+    def _begin(self) -> Stack:
+        if self.options.first and self.options.alone:
+            return Stack(self.options.first(self.house))
+        stack = Stack(_title(self.house))
+        if self.options.first:
+            stack.turn(Push(self.options.first(self.house)))
+        return stack
+
+    def _frame(self, seconds: float) -> None:
+        """One picture: hear, move, paint."""
+        events = pygame.event.get()
+        if any(event.type == pygame.QUIT for event in events) and not self.house.kiosk:
+            self.stack.scenes.clear()
+            return
+        for event in events:
+            if event.type == pygame.KEYDOWN:
+                self._function_key(event.key)
+        began = perf_counter()
+        self._play(events, seconds)
+        played = perf_counter()
+        if not self.stack.scenes:
+            return
+        screen = self.house.canvas.screen
+        self.stack.top.draw(screen)
+        self._say(screen, seconds)
+        self.gauge.note(seconds, played - began, perf_counter() - played)
+        if self.options.shot and self.seconds >= self.options.shot_at:
+            self.house.canvas.screenshot(self.options.shot)
+            self.stack.scenes.clear()
+            return
+        self.house.canvas.flip()
+
+    def _play(self, events: list[pygame.Event], seconds: float) -> None:
+        """Let the scenes hear what was pressed, and let time pass for the top one."""
+        controls, stack = self.house.controls, self.stack
+        presses = [*controls.presses(events), *controls.repeats(seconds)]
+        if self.seconds < SETTLING:
+            presses = [press for press in presses if press.act is not Act.POINT]
+        self.house.idle = 0.0 if presses else self.house.idle + seconds
+        for press in presses:
+            if stack.scenes:
+                stack.turn(stack.top.on(press))
+        if stack.scenes:
+            stack.turn(stack.top.update(seconds))
+
+    def _recovered(self) -> bool:
+        """A scene has failed: write it down, say so, begin again at the title; false: it is hopeless."""
+        log.exception("a scene failed")
+        self.house.stand_still()
+        self.failures = self.failures + 1 if self.seconds - self.failed_at < QUIET else 1
+        self.failed_at = self.seconds
+        if self.failures >= TROUBLES or self.options.alone or not self.stack.scenes:
+            print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
+            return False
+        self.stack = Stack(_title(self.house))
+        self.notices.say(self.house.words("app.error"))
+        return True
+
+    def _function_key(self, key: int) -> None:
+        """F3 shows numbers; F11 and F12 change the window and take a picture, but not in a kiosk."""
+        house = self.house
+        if key == pygame.K_F3:
+            self.gauge.shown = not self.gauge.shown
+        elif key == pygame.K_F11 and not house.kiosk:
+            house.settings.fullscreen = house.canvas.toggle_fullscreen()
+        elif key == pygame.K_F12 and not house.kiosk:
+            path = folders().data / "pictures" / f"pigaming-{datetime.now():%Y%m%d-%H%M%S}.png"
+            try:
+                house.canvas.screenshot(path)
+                self.notices.say(f"{house.words('app.picture')}: {path.name}")
+            except OSError as trouble:
+                log.warning("%s", trouble)
+                self.notices.say(house.words("app.unsaved"))
+
+    def _say(self, screen: pygame.Surface, seconds: float) -> None:
+        """Paint what has to be said over any scene."""
+        if self.house.canvas.notices:
+            for line in self.house.canvas.notices:
+                log.warning(line)
+            self.house.canvas.notices.clear()
+            self.notices.say(self.house.words("app.display"))
+        self.notices.draw(screen, seconds)
+        self.gauge.draw(screen)
+
+
+def _title(house: House) -> Scene:
+    from pigaming_app.scenes.title import Title  # what `play` and `replay` show first need not wait for it
 
     return Title(house)
 
 
-def _loop(app: App) -> None:
-    clock = pygame.time.Clock()
-    last = perf_counter()
-    while app.stack.scenes:
-        now = perf_counter()
-        seconds = app.options.step or min(now - last, SLOWEST)
-        last = now
-        try:
-            _frame(app, seconds)
-            app.troubles = 0
-        except Exception:
-            _recover(app)
-        app.frames += 1
-        app.seconds += seconds
-        if app.frames == 1 and not app.options.headless:
-            app.house.sounds.open()
-        if app.options.frames is not None and app.frames >= app.options.frames:
-            return
-        app.fps = clock.get_fps()
-        if app.options.step is None:
-            clock.tick(FRAMES)
-
-
-def _frame(app: App, seconds: float) -> None:
-    """One picture: hear, move, paint."""
-    house, stack = app.house, app.stack
-    events = pygame.event.get()
-    if any(event.type == pygame.QUIT for event in events) and not house.kiosk:
-        stack.scenes.clear()
-        return
-    presses = [*house.controls.presses(events), *house.controls.repeats(seconds)]
-    if app.seconds < SETTLING:
-        presses = [press for press in presses if press.act is not Act.POINT]
-    for event in events:
-        if event.type == pygame.KEYDOWN:
-            _function_key(app, event.key)
-    house.idle = 0.0 if presses else house.idle + seconds
-    began = perf_counter()
-    for press in presses:
-        if stack.scenes:
-            stack.turn(stack.top.on(press))
-    if stack.scenes:
-        stack.turn(stack.top.update(seconds))
-    if not stack.scenes:
-        return
-    app.tick_ms = 1000.0 * (perf_counter() - began)
-    stack.top.draw(house.canvas.screen)
-    _say(app, seconds)
-    shot = app.options.shot
-    if shot and app.seconds >= app.options.shot_at:
-        house.canvas.screenshot(shot)
-        stack.scenes.clear()
-        return
-    house.canvas.flip()
-
-
-def _recover(app: App) -> None:
-    """A scene has failed: write it down, say so in one sentence, begin again at the title."""
-    log.exception("a scene failed")
-    app.troubles += 1
-    if app.troubles >= TROUBLES or app.options.alone or not app.stack.scenes:
-        raise RuntimeError("the arcade cannot go on; the log says why")
-    from pigaming_app.scenes.title import Title
-
-    app.stack = Stack(Title(app.house))
-    app.notices.append(app.house.words("app.error"))
-
-
-def _function_key(app: App, key: int) -> None:
-    house = app.house
-    if key == pygame.K_F3:
-        app.overlay = not app.overlay
-    elif key == pygame.K_F11:
-        house.settings.fullscreen = house.canvas.toggle_fullscreen()
-    elif key == pygame.K_F12:
-        name = f"pigaming-{datetime.now():%Y%m%d-%H%M%S}.png"
-        try:
-            house.canvas.screenshot(folders().data / "pictures" / name)
-            app.notices.append(house.words("app.picture") + f": {name}")
-        except OSError as trouble:
-            log.warning("%s", trouble)
-            app.notices.append(house.words("app.unsaved"))
-
-
-def _say(app: App, seconds: float) -> None:
-    """One notice after the other at the top edge, and the overlay of F3."""
-    screen = app.house.canvas.screen
-    app.notices += app.house.canvas.notices
-    app.house.canvas.notices.clear()
-    if app.notices:
-        plate(app.notices[0][:90], size=30).draw(screen, 960, 40)
-        app.said_for += seconds
-        if app.said_for > SAID:
-            app.said_for = 0.0
-            app.notices.pop(0)
-    if app.overlay:
-        text = f"{app.fps:5.1f} fps   scene {app.tick_ms:4.1f} ms"
-        font = pygame.font.Font(None, 32)
-        screen.blit(font.render(text, True, (226, 238, 255), (0, 0, 0)), (12, 1048))
+def _keep(settings: Settings, folder: Path) -> None:
+    try:
+        settings.save(folder)
+    except NotSaved as trouble:
+        log.warning("%s", trouble)
 
 
 def _keep_log(data: Path) -> "IO[Any] | None":
@@ -225,3 +226,13 @@ def _keep_log(data: Path) -> "IO[Any] | None":
         return None
     faulthandler.enable(crash_file)
     return crash_file
+
+
+def _close_log(crash_file: "IO[Any] | None") -> None:
+    for handler in log.handlers:
+        handler.close()
+    log.handlers.clear()
+    log.propagate = True
+    if crash_file:
+        faulthandler.disable()
+        crash_file.close()

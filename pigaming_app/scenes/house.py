@@ -1,6 +1,8 @@
 """What every scene may use: settings, scores, words, devices, sounds and the window."""
 
-from dataclasses import dataclass
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
@@ -22,3 +24,12 @@ class House:
     canvas: Canvas
     kiosk: bool = False
     idle: float = 0.0  # seconds since anyone pressed anything
+    stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
+
+    def stand_still(self) -> None:
+        """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""
+        for stop in self.stops:
+            try:
+                stop()
+            except Exception:
+                logging.getLogger("pigaming").exception("robots could not be stopped")

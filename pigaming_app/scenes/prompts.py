@@ -44,14 +44,14 @@ class Prompts:
     @property
     def said(self) -> tuple[tuple[str, str], ...]:
         """The labels and texts of the moment; an act without a button is left out."""
-        words, label = self.house.words, self.house.controls.label
-        return tuple((words.printed(label(None, act)), words(key)) for act, key in self.items if label(None, act))
+        words = self.house.words
+        return tuple((words.printed(self._label(act)), words(key)) for act, key in self.items if self._label(act))
 
     def meant(self, press: Press) -> Press:
         """A click on one of the hints as the press that it stands for; any other press as it is."""
         if press.act is not Act.CLICK or press.at is None or abs(press.at[1] - self.y) > HIGH:
             return press
-        acts = [act for act, _ in self.items if self.house.controls.label(None, act)]
+        acts = [act for act, _ in self.items if self._label(act)]
         for act, (left, right) in zip(acts, places(self.said, self.room), strict=True):
             if left <= press.at[0] <= right:
                 return replace(press, act=act)
@@ -65,6 +65,10 @@ class Prompts:
             pygame.draw.polygon(screen, BLACK, outline)
             pygame.draw.polygon(screen, STEEL, outline, THIN)
         row(self.said, self.y, self.room).draw(screen)
+
+    def _label(self, act: Act) -> str:
+        """What is printed on the button; RIGHT stands for left and right."""
+        return "<>" if act is Act.RIGHT else self.house.controls.label(None, act)
 
 
 def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
