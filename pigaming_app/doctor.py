@@ -149,8 +149,8 @@ def _probed() -> dict[str, tuple[str, str]]:
 
 def _engine() -> Line:
     try:
+        from pigaming_app.ai import seated
         from pigaming_app.games.choices import choose
-        from pigaming_app.playing import seated
 
         match = seated(choose("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
         for _ in range(50):

@@ -9,7 +9,7 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
-from pigaming_app.ai import BRAINS, make
+from pigaming_app.ai import BRAINS, seated
 from pigaming_app.games.choices import choose
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
@@ -51,15 +51,6 @@ def _speed(text: str, wrong: type[Exception]) -> float:
     if not speed > 0.0:
         raise wrong(f"--speed: {text!r}; a number above 0, or max, is needed")
     return speed
-
-
-def seated(setup: Setup) -> Match:
-    """A match with an AI on every seat that names one; people's seats stand still."""
-    match = Match(setup)
-    for i, seat in enumerate(setup.seats):
-        if seat.brain in BRAINS[setup.game]:
-            match.sit(i, make(setup.game, seat.brain, setup.seed * ROBOTS + i))
-    return match
 
 
 def _headless(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type[Exception]) -> int:

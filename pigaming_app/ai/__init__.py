@@ -2,6 +2,9 @@
 
 from pigaming_app.ai import fsm, simple
 from pigaming_app.ai.brain import Kind, Thinker
+from pigaming_app.games.game import Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.world import ROBOTS
 
 BRAINS: dict[str, dict[str, Kind]] = {
     "pitanks": {
@@ -20,3 +23,12 @@ STRENGTHS = ("easy", "normal", "hard")
 def make(game: str, name: str, seed: int) -> Thinker:
     """A brain of a game by its name. Raises KeyError where there is none."""
     return Thinker(BRAINS[game][name], seed)
+
+
+def seated(setup: Setup) -> Match:
+    """A match with an AI on every seat that names one; people's seats stand still."""
+    match = Match(setup)
+    for i, seat in enumerate(setup.seats):
+        if seat.brain in BRAINS[setup.game]:
+            match.sit(i, make(setup.game, seat.brain, setup.seed * ROBOTS + i))
+    return match

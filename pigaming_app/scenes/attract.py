@@ -6,10 +6,9 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ai import STRENGTHS
+from pigaming_app.ai import STRENGTHS, seated
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.playing import seated
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, FOCUS, LABEL, dim

@@ -10,10 +10,9 @@ from dataclasses import replace
 
 import pygame
 
-from pigaming_app.ai import make
+from pigaming_app.ai import make, seated
 from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
-from pigaming_app.playing import seated
 from pigaming_app.scenes.countdown import Countdown, popped, show, signs
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, PLAYERS

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai import seated
 from pigaming_app.games.replay import load, save
-from pigaming_app.playing import seated
 from pigaming_app.scenes.attract import PAGE, Attract, Demonstration, Page
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.press import Act, Device

@@ -1,0 +1,106 @@
+"""PiTanks: what lies on the floor, pick-ups and mines."""
+
+from typing import Any
+
+from pigaming_app.games.pitanks.score import score
+from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS
+from pigaming_app.sim.chance import chance
+from pigaming_app.sim.grid import BLOCKED
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.world import CELL, COLUMNS, ROBOTS, ROWS
+
+KINDS = len(POWERS)
+
+
+@kernel
+def lay_mine(match: Any, k: int) -> int:
+    """Lay a mine of robot k behind it; 0 if two lie already."""
+    robot = match.robots[k]
+    for i in range(k * OWN_MINES, (k + 1) * OWN_MINES):
+        mine = match.mines[i]
+        if not mine.alive:
+            mine.alive, mine.age = match.rules.mine_life, 0
+            mine.x, mine.y = robot.x, robot.y
+            return 1
+    return 0
+
+
+@kernel
+def mind_mines(match: Any) -> None:
+    """Mines arm, go off under an opponent, and vanish in the end."""
+    rules = match.rules
+    reach = RADIUS + rules.mine_radius
+    for i in range(MINES):
+        mine = match.mines[i]
+        if not mine.alive:
+            continue
+        mine.alive -= 1
+        mine.age += 1
+        if mine.age < rules.mine_arming:
+            continue
+        owner = i // OWN_MINES
+        for j in range(ROBOTS):
+            robot = match.robots[j]
+            if not robot.present or robot.team == match.robots[owner].team or match.tanks[j].protected:
+                continue
+            dx, dy = robot.x - mine.x, robot.y - mine.y
+            if mine.alive and dx * dx + dy * dy < reach * reach:
+                mine.alive = 0
+                score(match, owner, j)
+
+
+@kernel
+def mind_pickups(match: Any) -> None:
+    """Pick-ups appear, are taken by whoever touches them, and vanish in the end."""
+    rules = match.rules
+    reach = RADIUS + rules.pickup_reach
+    match.next_pickup -= 1
+    if match.next_pickup <= 0:
+        match.next_pickup = rules.pickup_every
+        drop_pickup(match)
+    for pickup in match.pickups:
+        if not pickup.alive:
+            continue
+        pickup.alive -= 1
+        for j in range(ROBOTS):
+            robot = match.robots[j]
+            dx, dy = robot.x - pickup.x, robot.y - pickup.y
+            if robot.present and pickup.alive and dx * dx + dy * dy < reach * reach:
+                pickup.alive = 0
+                match.tanks[j].powers[pickup.kind] = rules.power_life
+
+
+@kernel
+def drop_pickup(match: Any) -> None:
+    """Put a pick-up of any kind on a free node, away from robots and other pick-ups; not if three lie already."""
+    free = -1
+    for i in range(PICKUPS):
+        if not match.pickups[i].alive:
+            free = i
+    if free < 0:
+        return
+    for _ in range(8):
+        column = 2 + int(chance(match) * (COLUMNS - 4))
+        row = 2 + int(chance(match) * (ROWS - 4))
+        x, y = column * CELL, row * CELL
+        if not match.grid[row * COLUMNS + column] & BLOCKED and lonely(match, x, y):
+            pickup = match.pickups[free]
+            pickup.kind = int(chance(match) * KINDS)
+            pickup.alive = match.rules.pickup_life
+            pickup.x, pickup.y = x, y
+            return
+
+
+@kernel
+def lonely(match: Any, x: float, y: float) -> int:
+    """1 if no robot is within 200 px and no pick-up within 300 px."""
+    for robot in match.robots:
+        dx, dy = robot.x - x, robot.y - y
+        if robot.present and dx * dx + dy * dy < 200.0 * 200.0:
+            return 0
+    for pickup in match.pickups:
+        dx, dy = pickup.x - x, pickup.y - y
+        if pickup.alive and dx * dx + dy * dy < 300.0 * 300.0:
+            return 0
+    return 1
