@@ -114,7 +114,7 @@ def test_a_disk_that_is_nearly_full_is_said(monkeypatch):
 
 
 def test_a_broken_engine_is_a_problem(monkeypatch):
-    monkeypatch.setitem(sys.modules, "pigaming_app.playing", None)
+    monkeypatch.setitem(sys.modules, "pigaming_app.games.choices", None)
     assert line("engine").state == "problem"
 
 

@@ -19,7 +19,7 @@ MAY = {
     "keeping": set(),
     "start": {"install", "cli"},
     "install": {"start"},
-    "doctor": {"settings", "start", "games", "sim", "playing"},
+    "doctor": {"settings", "start", "games", "sim", "ai"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))
