@@ -13,7 +13,7 @@ MAY = {
     "games": {"games", "sim"},
     "ai": {"ai", "games", "sim"},
     "hardware": {"hardware", "sim"},
-    "scenes": {"scenes", "games", "ai", "hardware", "sim", "playing", "settings", "scores", "keeping"},
+    "scenes": {"scenes", "games", "ai", "hardware", "sim", "settings", "scores", "keeping"},
     "settings": {"keeping"},
     "scores": {"keeping"},
     "keeping": set(),
