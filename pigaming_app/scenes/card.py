@@ -7,6 +7,7 @@ import math
 from functools import lru_cache
 
 from pigaming_app.scenes.ink import (
+    ARROWS,
     BODY,
     FOCUS,
     ICE,
@@ -19,6 +20,8 @@ from pigaming_app.scenes.ink import (
     Color,
     Ink,
     badge,
+    button,
+    button_width,
     cut,
     dim,
     icon,
@@ -27,7 +30,7 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.logo import seat_robot
-from pigaming_app.scenes.page import ARROWS, LEVELS, dimmed, key, key_width
+from pigaming_app.scenes.page import LEVELS, dimmed
 from pigaming_app.scenes.pane import Lit, Pane, fitted, span
 from pigaming_app.scenes.sprites import HEADINGS, Sprite
 
@@ -106,11 +109,11 @@ def asked(label: str, said: str, level: int) -> Lit:
     """The bar of somebody who has to press a button to be ready."""
     if level < LEVELS:
         return dimmed(asked(label, said, LEVELS), level / LEVELS)
-    wide = key_width(label)
+    wide = button_width(label)
     size = fitted(said, BODY, W - 40 - wide - 18, "body")
     x = MIDDLE - (wide + 18 + text_width(said, size, "body")) / 2
     pane = Pane(*BAR)
-    pane.page.body(said, x + key(pane.page, x, BAR_Y, label, FOCUS) + 18, BAR_Y, ICE, "l", size)
+    pane.page.body(said, x + button(pane.page, x, BAR_Y, label, FOCUS) + 18, BAR_Y, ICE, "l", size)
     return pane.done()
 
 

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, icon, panel
+from pigaming_app.scenes.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted
 from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.prompts import Prompts, key
+from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
 
 TOP, PITCH, HIGH = 236, 164, 140
@@ -65,7 +65,7 @@ class DeviceTable:
         pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 290, "body"))
         self._moves(pane, device, y)
         for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
-            wide = key(pane.page, x, y, words.printed(controls.label(device, act)))
+            wide = button(pane.page, x, y, words.printed(controls.label(device, act)))
             pane.page.body(words(name), x + wide + 18, y, MIST)
         return pane.done()
 
@@ -75,6 +75,6 @@ class DeviceTable:
             pane.hot.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
             x += 78
         for mark in self.house.controls.moves(device).replace(" ", ""):
-            key(pane.page, x, y, mark)
+            button(pane.page, x, y, mark)
             x += 66
         pane.page.body(self.house.words("pause.moves"), x + 12, y, MIST)

@@ -8,11 +8,13 @@ from functools import lru_cache
 import pygame
 
 from pigaming_app.scenes.ink import (
+    ARROWS,
     BODY,
     FOCUS,
     ICE,
     LINE,
     MIST,
+    SIGNS,
     STEEL,
     THIN,
     Color,
@@ -21,10 +23,8 @@ from pigaming_app.scenes.ink import (
     dim,
     icon,
     panel,
-    regular,
     text_width,
 )
-from pigaming_app.scenes.page import ARROWS
 from pigaming_app.scenes.pane import Lit, Pane, fitted, span
 from pigaming_app.scenes.press import Act
 
@@ -52,7 +52,7 @@ def no_pad(said: str, line: str) -> Lit:
     pane.hot.dashes(cut(0, 0, W, H, 20), STEEL, THIN, 22, 16)
     icon(pane.hot, "pad", W / 2, 118, 62, STEEL, THIN)
     pane.page.body(said, W / 2, 222, MIST, "c", fitted(said, BODY, W - 40, "body"))
-    pane.page.body(line, W / 2, 276, STEEL, "c", fitted(line, BODY, W - 40, "body"))
+    pane.page.body(line, W / 2, 276, dim(MIST, 0.7), "c", fitted(line, BODY, W - 40, "body"))
     return pane.done()
 
 
@@ -112,14 +112,8 @@ def cap(label: str, w: int, h: int, down: bool) -> Lit:
 
 def _printed(ink: Ink, label: str, x: float, y: float, color: Color) -> None:
     """A letter, or the shape that stands for one."""
-    if label == "Cross":
-        icon(ink, "cross", x, y, 16, color, THIN)
-    elif label == "Circle":
-        ink.ring(x, y, 13, color, THIN)
-    elif label == "Square":
-        ink.line(regular(4, 17, 0.785, x, y), color, THIN, True)
-    elif label == "Triangle":
-        ink.line(regular(3, 16, -1.571, x, y + 3), color, THIN, True)
+    if label in SIGNS:
+        icon(ink, SIGNS[label], x, y, 17, color, THIN)
     else:
         size = BODY if text_width(label, BODY) < 40 else 30
         ink.text(label, size, x, y, color, "head", "c")

@@ -6,9 +6,21 @@ from functools import lru_cache
 import pygame
 
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import BLACK, BODY, ICE, LABEL, MIST, STEEL, panel, regular, text_width
+from pigaming_app.scenes.ink import (
+    BLACK,
+    BODY,
+    ICE,
+    LABEL,
+    MIST,
+    STEEL,
+    button,
+    button_width,
+    panel,
+    regular,
+    text_width,
+)
 from pigaming_app.scenes.lessons import LESSONS
-from pigaming_app.scenes.page import blacked, heading, key, key_width, text
+from pigaming_app.scenes.page import blacked, heading, text
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, lines_of, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Home, Pop, Turn
@@ -109,11 +121,11 @@ def keys(items: Sequence[tuple[str, str]]) -> Lit:
         if i == len(items) - 1:
             x = RIGHT - _width(label) - 10 - text_width(what, BODY, "body")
         for part in label.split():
-            x += key(pane.page, x, FOOT_Y, part) + 8
+            x += button(pane.page, x, FOOT_Y, part) + 8
         pane.page.body(what, x + 10, FOOT_Y, MIST)
         x += 10 + text_width(what, BODY, "body") + 56
     return pane.done()
 
 
 def _width(label: str) -> float:
-    return sum(key_width(part) + 8 for part in label.split())
+    return sum(button_width(part) + 8 for part in label.split())

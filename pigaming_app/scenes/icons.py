@@ -136,6 +136,18 @@ def _cross(pen: Pen) -> None:
     pen.line((-0.6, 0.6), (0.6, -0.6))
 
 
+def _circle(pen: Pen) -> None:
+    pen.ring(0.62)
+
+
+def _square(pen: Pen) -> None:
+    pen.line((-0.56, -0.56), (0.56, -0.56), (0.56, 0.56), (-0.56, 0.56), closed=True)
+
+
+def _triangle(pen: Pen) -> None:
+    pen.line((0, -0.76), (0.7, 0.46), (-0.7, 0.46), closed=True)
+
+
 def _clock(pen: Pen) -> None:
     pen.ring(0.88)
     pen.line((0, -0.5), (0, 0), (0.38, 0.22))
@@ -159,5 +171,8 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "down": _down,
     "plus": _plus,
     "cross": _cross,
+    "circle": _circle,
+    "square": _square,
+    "triangle": _triangle,
     "clock": _clock,
 }

@@ -39,12 +39,13 @@ from pigaming_app.scenes.palette import (
     shape_points,
     text_width,
 )
-from pigaming_app.scenes.parts import badge, brackets, button, button_width, hints, panel
+from pigaming_app.scenes.parts import ARROWS, SIGNS, badge, brackets, button, button_width, hints, panel
 from pigaming_app.scenes.sheet import ADD, MULT, NEAR, PRE, WIDE, Halos, Ink, Page
 
 __all__ = [
-    "ADD", "ALARM", "BLACK", "BLUE", "BODY", "BOLD", "FOCUS", "GREEN", "GREY", "HAIR", "HERO", "ICE", "ICONS", "LABEL",
-    "LINE", "MIST", "MULT", "NEAR", "ORANGE", "PLAYERS", "PRE", "PURPLE", "STEEL", "SUB", "THIN", "TITLE", "WALL",
-    "WHITE", "WIDE", "Color", "Halos", "Ink", "Page", "Point", "Points", "badge", "brackets", "button", "button_width",
-    "cut", "dim", "font", "hints", "icon", "mix", "panel", "regular", "shape_points", "text_width",
+    "ADD", "ALARM", "ARROWS", "BLACK", "BLUE", "BODY", "BOLD", "FOCUS", "GREEN", "GREY", "HAIR", "HERO", "ICE",
+    "ICONS", "LABEL", "LINE", "MIST", "MULT", "NEAR", "ORANGE", "PLAYERS", "PRE", "PURPLE", "SIGNS", "STEEL", "SUB",
+    "THIN", "TITLE", "WALL", "WHITE", "WIDE", "Color", "Halos", "Ink", "Page", "Point", "Points", "badge", "brackets",
+    "button", "button_width", "cut", "dim", "font", "hints", "icon", "mix", "panel", "regular", "shape_points",
+    "text_width",
 ]  # fmt: skip

@@ -114,7 +114,7 @@ class LobbyPage:
         coming = max(0.0, 1.0 - self.now.since[seat] / ROLL_IN) ** 2
         hop = 8 * abs(math.sin(self.now.clock * 7 + seat)) if place.ready else 0.0
         look = 0.0 if place.ready else glance(self.now.clock, seat)
-        sprite = card.robot(seat, step(card.UP + look + 3 * coming, HEADINGS), scale)
+        sprite = card.robot(seat, step(card.UP + look, HEADINGS), scale)
         stamp(screen, sprite, x + card.MIDDLE, y + middle_y + 120 * coming - hop)
 
     def _message(self, screen: pygame.Surface) -> None:

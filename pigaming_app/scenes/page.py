@@ -20,7 +20,6 @@ from pigaming_app.scenes.ink import (
     TITLE,
     Color,
     Ink,
-    Page,
     button,
     button_width,
     cut,
@@ -32,7 +31,6 @@ from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, fitted
 from pigaming_app.scenes.sprites import Sprite
 
 LEVELS = 8  # brightnesses kept of what pulses
-ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # labels that are drawn: no font of ours has them
 
 
 def pulse(seconds: float, low: int = 4) -> int:
@@ -83,34 +81,20 @@ def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> Lit:
     return pane.done()
 
 
-def key_width(label: str) -> float:
-    """Width of a button with a label, px."""
-    return 60 if label in ARROWS else button_width(label)
-
-
-def key(page: Page, x: float, y: float, label: str, color: Color = ICE) -> float:
-    """A button as it is printed on the device, x its left edge; arrows are drawn. Answers its width."""
-    if label not in ARROWS:
-        return button(page, x, y, label, color)
-    page.hot.line(cut(x, y - 28, 60, 56, 10), color, THIN, True)
-    icon(page.cold, ARROWS[label], x + 30, y, 16, color, 5)
-    return 60
-
-
 @lru_cache(maxsize=16)
 def calling(said: str, label: str, size: int, level: int = LEVELS) -> Lit:
     """A yellow line that asks for a press; {button} in it is the button. Round (0, 0)."""
     if level < LEVELS:
         return dimmed(calling(said, label, size), level / LEVELS)
     before, hole, after = said.partition("{button}")
-    wide = key_width(label) + 36 if hole else 0
+    wide = button_width(label) + 36 if hole else 0
     size = fitted(before.strip() + after.strip(), size, 1500 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]
     x = -(sum(ends) + wide) / 2
     pane = Pane(x, -size, -2 * x, 2 * size)
     pane.page.text(before.strip(), size, x, 0, FOCUS)
     if hole:
-        key(pane.page, x + ends[0] + 18, 0, label, FOCUS)
+        button(pane.page, x + ends[0] + 18, 0, label, FOCUS)
     pane.page.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
     return pane.done()
 

@@ -22,6 +22,9 @@ from pigaming_app.scenes.palette import (
 )
 from pigaming_app.scenes.sheet import Ink, Page
 
+ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # no font of ours has them
+SIGNS = {**ARROWS, "Cross": "cross", "Circle": "circle", "Square": "square", "Triangle": "triangle"}  # PlayStation's
+
 
 def badge(ink: Ink, player: int, x: float, y: float, r: float = 32, color: Color | None = None) -> None:
     """Shape and number of seat 0..3, always together and upright."""
@@ -33,8 +36,8 @@ def badge(ink: Ink, player: int, x: float, y: float, r: float = 32, color: Color
 
 
 def button_width(label: str) -> float:
-    """Width of a button, px. "<>" is drawn as two arrows."""
-    if len(label) == 1:
+    """Width of a button, px. "<>" is drawn as two arrows; what stands in SIGNS as an icon."""
+    if len(label) == 1 or label in SIGNS:
         return 60
     return 104 if label == "<>" else max(60, text_width(label, BODY) + 36)
 
@@ -42,13 +45,15 @@ def button_width(label: str) -> float:
 def button(page: Page, x: float, y: float, label: str, color: Color = ICE, r: float = 30) -> float:
     """A pad's button or a key, as it is printed on the device; x is its left edge. Returns its width."""
     w = button_width(label)
-    if len(label) == 1:
-        page.hot.ring(x + r, y, r - 2, color, THIN)
-    else:
+    if label in ARROWS or w != 60:
         page.hot.line(cut(x, y - r + 2, w, 2 * r - 4, 10), color, THIN, True)
+    else:
+        page.hot.ring(x + r, y, r - 2, color, THIN)
     if label == "<>":
         icon(page.cold, "left", x + 30, y, 15, color, 5)
         icon(page.cold, "right", x + w - 30, y, 15, color, 5)
+    elif label in SIGNS:
+        icon(page.cold, SIGNS[label], x + w / 2, y, 16, color, 5)
     else:
         page.cold.text(label, BODY, x + w / 2, y, color, "head", "c")
     return w

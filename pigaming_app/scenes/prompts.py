@@ -10,15 +10,12 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BLACK,
     BODY,
-    ICE,
     MIST,
     STEEL,
     THIN,
-    Page,
     button,
     button_width,
     cut,
-    icon,
     text_width,
 )
 from pigaming_app.scenes.pane import Lit, Pane
@@ -26,7 +23,6 @@ from pigaming_app.scenes.press import Act, Press
 
 ROOM = 1760  # px for the whole row
 GAPS = (56, 44, 32, 24)
-ARROWS = {"←": "left", "→": "right", "↑": "up", "↓": "down"}  # our fonts have none
 HIGH = 34  # px from the middle of the row to the edge of what can be clicked
 
 
@@ -73,7 +69,7 @@ class Prompts:
 
 def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
     """The left and right end of each hint, px."""
-    widths = [key_width(label) + 18 + text_width(text, BODY, "body") for label, text in said]
+    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in said]
     fitting = [gap for gap in GAPS if sum(widths) + gap * (len(widths) - 1) <= room]
     gap = fitting[0] if fitting else GAPS[-1]
     x, out = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
@@ -89,19 +85,5 @@ def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> Lit:
     ends = places(said, room)
     pane = Pane(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
     for (label, text), (left, _) in zip(said, ends, strict=True):
-        pane.page.body(text, left + key(pane.page, left, y, label) + 18, y, MIST)
+        pane.page.body(text, left + button(pane.page, left, y, label) + 18, y, MIST)
     return pane.done()
-
-
-def key(page: Page, x: float, y: float, label: str) -> float:
-    """A button as it is printed on the device, its left edge at x; answers its width, px. Arrows are drawn."""
-    if label not in ARROWS:
-        return button(page, x, y, label)
-    page.hot.line(cut(x, y - 28, 60, 56, 10), ICE, THIN, True)
-    icon(page.cold, ARROWS[label], x + 30, y, 14, ICE, 5)
-    return key_width(label)
-
-
-def key_width(label: str) -> float:
-    """Width of such a button, px."""
-    return 60 if label in ARROWS else button_width(label)

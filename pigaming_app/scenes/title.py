@@ -20,6 +20,8 @@ from pigaming_app.scenes.ink import (
     MIST,
     STEEL,
     SUB,
+    button,
+    button_width,
     dim,
     panel,
     text_width,
@@ -27,15 +29,12 @@ from pigaming_app.scenes.ink import (
 from pigaming_app.scenes.logo import dot_of, logo, vignette
 from pigaming_app.scenes.operator import Combination
 from pigaming_app.scenes.page import (
-    ARROWS,
     blacked,
     calling,
     calling_width,
     chip,
     chip_width,
     dimmed,
-    key,
-    key_width,
     pulse,
     sign,
     stamp,
@@ -194,8 +193,8 @@ class Title:
             said, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
             chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
         label = self.house.controls.label(None, Act.ALT)
-        if label and label not in ARROWS:
-            button_light(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - key_width(label), FOOT_Y)
+        if label:
+            button_light(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
 
 
 def tile_rect(i: int) -> pygame.Rect:
@@ -249,6 +248,6 @@ def dimmed_line(said: str) -> Lit:
 @lru_cache(maxsize=16)
 def button_light(label: str) -> Lit:
     """A button as it is printed on the device, its left edge at x = 0."""
-    pane = Pane(0, -32, key_width(label), 64)
-    key(pane.page, 0, 0, label)
+    pane = Pane(0, -32, button_width(label), 64)
+    button(pane.page, 0, 0, label)
     return pane.done()
