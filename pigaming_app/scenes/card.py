@@ -4,7 +4,8 @@ All of it is made of small pieces that are kept; a card's upper left is at (0, 0
 """
 
 import math
-from functools import lru_cache
+from collections.abc import Callable, Iterator
+from functools import lru_cache, partial
 
 from pigaming_app.scenes.ink import (
     ARROWS,
@@ -42,6 +43,7 @@ TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
 BAR = (24, 500, W - 48, 76)
 SPOKES, TURNS = 5, 12  # arcs of a turntable, and how many positions are kept between two of them
 UP = -math.pi / 2
+UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and how far it looks to either side
 
 
 @lru_cache(maxsize=32)
@@ -159,3 +161,18 @@ def turntable(player: int, turn: int, lit: bool, r: int) -> Lit:
 def robot(player: int, turn: int, scale: float) -> Sprite:
     """A seat's robot at heading `turn` of HEADINGS."""
     return seat_robot(player, turn * math.tau / HEADINGS, scale)
+
+
+def ahead() -> Iterator[Callable[[], object]]:
+    """The larger pieces that joining and waiting will need, in the order in which they are likely to be wanted."""
+    for player in range(4):
+        yield partial(robot, player, UPRIGHT, ROBOT[1])
+        for turn in range(TURNS):
+            yield partial(turntable, player, turn, False, ROBOT[2])
+    for off in range(1, GLANCE + 1):
+        for player in range(4):
+            yield partial(robot, player, UPRIGHT + off, ROBOT[1])
+            yield partial(robot, player, UPRIGHT - off, ROBOT[1])
+    for player in range(4):
+        for turn in range(TURNS):
+            yield partial(turntable, player, turn, True, ROBOT[2])

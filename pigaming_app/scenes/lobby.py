@@ -6,13 +6,17 @@ anybody may still join. Every device acts for its own seat; the mouse acts on wh
 
 import pygame
 
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.scenes import card
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.lobby_page import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, Seats
-from pigaming_app.scenes.setup import SetupPage, summary
+from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, PLACES, Seats
+from pigaming_app.scenes.setup import SetupPage, chosen_arena, chosen_rules, summary
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.stage import Stage
 
 IDLE = 60.0  # seconds without a press until the title
 ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
@@ -29,6 +33,8 @@ class Lobby:
         self.now = Moment()
         self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
         self.focus = Focus(spots(self.seats))
+        self.ahead = card.ahead()
+        self.rehearsal: Stage | None = None
 
     def entered(self) -> None:
         """Shown, or come back to from the choice of the arena: everyone says again that they are ready."""
@@ -77,6 +83,7 @@ class Lobby:
             self.now.starting -= seconds
             if self.now.starting <= 0.0:
                 return self._go()
+        self._make_ahead()
         return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -84,6 +91,18 @@ class Lobby:
         self.page.draw(screen)
         if self.now.pointed > 0.0:
             self.focus.draw(screen)
+
+    def _make_ahead(self) -> None:
+        """While people think: first what this page will need, then the sprites of the match."""
+        if piece := next(self.ahead, None):
+            piece()
+        elif self.rehearsal is None:
+            one, two, three, four = (Seat("idle", i) for i in range(PLACES))
+            minutes, variant = chosen_rules(self.house, self.game)
+            setup = Setup(self.game, chosen_arena(self.house, self.game), (one, two, three, four), minutes, 1, variant)
+            self.rehearsal = Stage(self.house, Match(setup), loud=False)
+        else:
+            self.rehearsal.warm(3.0)
 
     # ---- what presses do
 

@@ -13,6 +13,7 @@ from pigaming_app.sim.robots import RADIUS
 from pigaming_app.sim.sweep import clear
 from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_KEPT, ROWS
 
+SLACK = 2  # nodes that a goal may move before the field is grown anew
 LOOK = 7  # nodes that a robot looks ahead down the field
 
 
@@ -150,9 +151,9 @@ def find_way(world: Any, errand: Any, x: float, y: float) -> None:
 
 @kernel
 def near_root(errand: Any, root: int) -> int:
-    """1 if the field still leads near enough to `root`: at most one node away."""
+    """1 if the field still leads near enough to `root`: at most SLACK nodes away."""
     if errand.root == 0:
         return 0
     rows = errand.root // COLUMNS - root // COLUMNS
     columns = errand.root % COLUMNS - root % COLUMNS
-    return 1 if -1 <= rows <= 1 and -1 <= columns <= 1 else 0
+    return 1 if -SLACK <= rows <= SLACK and -SLACK <= columns <= SLACK else 0

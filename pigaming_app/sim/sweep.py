@@ -8,6 +8,7 @@ from math import sqrt
 from typing import Any
 
 from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robots import RADIUS
 
 FAR = 2.0
 
@@ -101,13 +102,15 @@ def meets_bounds(x: float, y: float, dx: float, dy: float, width: float, height:
 
 @kernel
 def clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: float) -> int:
-    """1 if a circle can go from one point to the other without touching an inner wall; radius 0: whether one sees
-    the other.
-
-    """
+    """1 if a circle can go from one point to the other without touching an inner wall; 0 px: whether one sees it."""
     dx, dy = to_x - x, to_y - y
     left, right = (x, to_x) if dx > 0.0 else (to_x, x)
     top, bottom = (y, to_y) if dy > 0.0 else (to_y, y)
+    slack = RADIUS - radius  # the boxes of walls are as wide as a robot needs
+    left += slack
+    right -= slack
+    top += slack
+    bottom -= slack
     for i in range(world.wall_count):
         wall = world.walls[i]
         if (

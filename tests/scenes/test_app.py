@@ -3,8 +3,7 @@
 import pygame
 import pytest
 
-from pigaming_app.scenes import app
-from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.app import App, Options, run
 from pigaming_app.scenes.title import Title
 
 
@@ -45,14 +44,15 @@ def test_a_picture_of_the_title(home):
 def test_a_scene_that_fails_gives_way_to_the_title(home):
     shown = []
     options = Options(headless=True, first=lambda house: Broken(), frames=6, step=1 / 60)
-    recover = app._recover
+    recovered = App._recovered
 
     def seen(running):
-        recover(running)
+        went_on = recovered(running)
         shown.append(running.stack.top)
+        return went_on
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(app, "_recover", seen)
+        patch.setattr(App, "_recovered", seen)
         assert run(options) == 0
     assert [type(scene) for scene in shown] == [Title]
     assert "on purpose" in (home / "home" / "data" / "pigaming.log").read_text()
