@@ -24,9 +24,6 @@ class ReplayScene:
         self.house, self.replay = house, replay
         self.length = len(replay.ticks) // BYTES * DT
         self.speed, self.shown, self.playing = 0, SHOWN, True
-        hints = [(Act.FIRE, "replay.hint_pause"), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, "replay.hint_again"),
-                 (Act.BACK, "replay.hint_back")]  # fmt: skip
-        self.prompts = Prompts(house, hints, 984, 1500, solid=True)
         self.stage, self.warm = Stage(house, play(replay)), False
 
     def entered(self) -> None:
@@ -81,6 +78,15 @@ class ReplayScene:
             plate(f"{said}  {SPEEDS[self.speed]}×", FOCUS, FOCUS, face="head").draw(screen, 960, 206)
         if self.shown > 0.0 or not self.playing or self.ended:
             self.prompts.draw(screen)
+
+    @property
+    def prompts(self) -> Prompts:
+        """What the buttons do now; at the end there is nothing to hold and nothing to hurry."""
+        hints = [(Act.FIRE, "replay.hint_again"), (Act.BACK, "replay.hint_back")]
+        if not self.ended:
+            fire = "replay.hint_pause" if self.playing else "replay.hint_play"
+            hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
+        return Prompts(self.house, hints, 984, 1500, solid=True)
 
     @property
     def ended(self) -> bool:

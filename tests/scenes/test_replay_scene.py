@@ -82,3 +82,16 @@ def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple
     assert not scene.ended
     arcade.press(Act.BACK)
     assert arcade.stack.top is arcade.setup
+
+
+def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:
+    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arcade.open(scene)
+    assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]
+    arcade.press(Act.FIRE)
+    arcade.shown(ReplayScene)
+    assert scene.prompts.said[0][1] == "Play"
+    arcade.press(Act.FIRE)
+    arcade.until(lambda: scene.ended)
+    arcade.shown(ReplayScene)
+    assert [text for _, text in scene.prompts.said] == ["From the start", "Back"]
