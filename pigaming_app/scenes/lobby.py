@@ -21,6 +21,7 @@ from pigaming_app.scenes.stage import Stage
 IDLE = 60.0  # seconds without a press until the title
 ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
 SAID = 4.0  # seconds for which a message stays
+PAUSE = 1.0  # seconds without a press in which a slow piece of work may be done
 POINTED = 4.0  # seconds after the mouse moved in which its focus shows
 
 
@@ -96,12 +97,12 @@ class Lobby:
         """While people think: first what this page will need, then the sprites of the match."""
         if piece := next(self.ahead, None):
             piece()
-        elif self.rehearsal is None:
+        elif self.rehearsal is None and self.house.idle > PAUSE:
             one, two, three, four = (Seat("idle", i) for i in range(PLACES))
             minutes, variant = chosen_rules(self.house, self.game)
             setup = Setup(self.game, chosen_arena(self.house, self.game), (one, two, three, four), minutes, 1, variant)
             self.rehearsal = Stage(self.house, Match(setup), loud=False)
-        else:
+        elif self.rehearsal:
             self.rehearsal.warm(3.0)
 
     # ---- what presses do

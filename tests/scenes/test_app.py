@@ -1,70 +1,174 @@
-"""The arcade's loop: it starts, it survives a scene that fails, it takes a picture, it leaves a settings file."""
+"""The arcade's loop: it starts, survives a scene that fails, says what was wrong, and ends with everything in order."""
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
 
 import pygame
 import pytest
 
 from pigaming_app.scenes.app import App, Options, run
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.press import Press
+from pigaming_app.scenes.stack import Scene, Turn
 from pigaming_app.scenes.title import Title
+
+STEP = 1 / 60
 
 
 @pytest.fixture(autouse=True)
-def home(tmp_path, monkeypatch):
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     yield tmp_path
     pygame.display.quit()
 
 
-class Broken:
-    """A scene that fails when it moves."""
+class Quiet:
+    """A scene on which nothing happens; what it does in each frame can be said."""
 
-    def entered(self):
+    def __init__(self, house: House) -> None:
+        self.house, self.frames = house, 0
+
+    def entered(self) -> None:
         pass
 
-    def on(self, press):
+    def on(self, press: Press) -> Turn:
         return None
 
-    def update(self, seconds):
+    def update(self, seconds: float) -> Turn:
+        self.frames += 1
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        screen.fill("black")
+
+
+class Broken(Quiet):
+    """A scene that fails when it moves."""
+
+    def update(self, seconds: float) -> Turn:
         raise ValueError("on purpose")
 
-    def draw(self, screen):
-        pass
+
+def test_it_starts_with_the_title_and_keeps_its_settings(home: Path) -> None:
+    assert run(Options(headless=True, frames=3, step=STEP)) == 0
+    assert (home / "config" / "settings.toml").is_file()
 
 
-def test_it_starts_and_keeps_its_settings(home):
-    assert run(Options(headless=True, frames=3, step=1 / 60)) == 0
-    assert (home / "home" / "config" / "settings.toml").is_file()
-
-
-def test_a_picture_of_the_title(home):
+def test_a_picture_of_the_title(home: Path) -> None:
     picture = home / "title.png"
-    assert run(Options(headless=True, shot=picture, shot_at=0.1, step=1 / 60)) == 0
+    assert run(Options(headless=True, shot=picture, shot_at=0.1, step=STEP)) == 0
     assert picture.stat().st_size > 20_000
 
 
-def test_a_scene_that_fails_gives_way_to_the_title(home):
-    shown = []
-    options = Options(headless=True, first=lambda house: Broken(), frames=6, step=1 / 60)
-    recovered = App._recovered
+def test_a_scene_that_fails_gives_way_to_the_title_and_one_sentence(
+    home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tops: list[type] = []
+    said: list[str] = []
+    frame = App._frame
 
-    def seen(running):
-        went_on = recovered(running)
-        shown.append(running.stack.top)
-        return went_on
+    def watched(app: App, seconds: float) -> None:
+        frame(app, seconds)
+        tops.append(type(app.stack.top))
+        said.extend(app.notices.waiting)
 
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(App, "_recovered", seen)
-        assert run(options) == 0
-    assert [type(scene) for scene in shown] == [Title]
-    assert "on purpose" in (home / "home" / "data" / "pigaming.log").read_text()
+    monkeypatch.setattr(App, "_frame", watched)
+    assert run(Options(headless=True, first=Broken, frames=4, step=STEP)) == 0
+    assert tops == [Title, Title, Title]
+    assert set(said) == {"Something broke. Let us start again from here."}
+    assert "on purpose" in (home / "data" / "pigaming.log").read_text()
+    assert "Traceback" not in capsys.readouterr().err
 
 
-def test_a_pointer_that_lies_there_does_not_take_the_focus(home):
-    titles = []
+def test_a_title_that_fails_for_ever_ends_the_arcade_in_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(Title, "draw", Broken.update)
+    assert run(Options(headless=True, frames=100, step=STEP)) == 1
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "pigaming.log" in error
 
-    def title(house):
+
+def test_robots_stand_still_when_a_scene_fails_and_when_the_arcade_ends() -> None:
+    stopped: list[int] = []
+
+    def first(house: House) -> Scene:
+        house.stops += [lambda: stopped.append(1), lambda: 1 / 0, lambda: stopped.append(2)]
+        return Broken(house)
+
+    assert run(Options(headless=True, first=first, frames=3, step=STEP)) == 0
+    assert stopped == [1, 2, 1, 2]
+
+
+def test_a_supervisor_ends_it_and_the_settings_are_kept(home: Path) -> None:
+    class Ended(Quiet):
+        def update(self, seconds: float) -> Turn:
+            os.kill(os.getpid(), signal.SIGTERM)
+            return None
+
+    before = signal.getsignal(signal.SIGTERM)
+    assert run(Options(headless=True, first=Ended, frames=50, step=STEP)) == 0
+    assert signal.getsignal(signal.SIGTERM) == before
+    assert (home / "config" / "settings.toml").is_file()
+
+
+def test_settings_that_cannot_be_read_are_told_of_on_the_screen_and_in_full_beside_it(
+    home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (home / "config").mkdir()
+    (home / "config" / "settings.toml").write_text('language = "pt"\nmusic = 99\n')
+    said: list[str] = []
+    frame = App._frame
+
+    def watched(app: App, seconds: float) -> None:
+        frame(app, seconds)
+        said.extend(app.notices.waiting)
+
+    monkeypatch.setattr(App, "_frame", watched)
+    run(Options(headless=True, frames=1, step=STEP))
+    assert said == ["Não foi possível ler algumas opções. Usam-se as habituais."]
+    assert "music = 99 is not between 0 and 10" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("kiosk", "frames"), [(False, 1), (True, 10)])
+def test_closing_the_window_ends_it_but_not_in_a_kiosk(kiosk: bool, frames: int) -> None:
+    scenes: list[Quiet] = []
+
+    class Closing(Quiet):
+        def update(self, seconds: float) -> Turn:
+            pygame.event.post(pygame.Event(pygame.QUIT))
+            return super().update(seconds)
+
+    def closing(house: House) -> Scene:
+        scenes.append(Closing(house))
+        return scenes[0]
+
+    assert run(Options(headless=True, first=closing, frames=10, step=STEP, kiosk=kiosk)) == 0
+    assert scenes[0].frames == frames
+
+
+@pytest.mark.parametrize("kiosk", [False, True])
+def test_f12_takes_a_picture_but_not_in_a_kiosk(home: Path, kiosk: bool) -> None:
+    class Pressing(Quiet):
+        def update(self, seconds: float) -> Turn:
+            for key in (pygame.K_F3, pygame.K_F12):
+                pygame.event.post(pygame.Event(pygame.KEYDOWN, key=key, scancode=0, mod=0))
+            return None
+
+    run(Options(headless=True, first=Pressing, frames=30, step=STEP, kiosk=kiosk))
+    assert bool(list((home / "data").glob("pictures/*.png"))) != kiosk
+
+
+def test_a_pointer_that_lies_there_does_not_take_the_focus() -> None:
+    titles: list[Title] = []
+
+    def title(house: House) -> Scene:
         titles.append(Title(house))
-        pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=(960, 600), rel=(0, 0), buttons=(0, 0, 0)))
+        pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=(960, 600), rel=(0, 0), buttons=(0, 0, 0)))
         return titles[0]
 
-    run(Options(headless=True, first=title, frames=3, step=1 / 60))
+    run(Options(headless=True, first=title, frames=3, step=STEP))
     assert titles[0].focus.name == "pitanks"

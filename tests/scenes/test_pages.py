@@ -1,0 +1,176 @@
+"""The pages outside a match: each opens in both languages, bears every press, and every text fits where it stands."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.scenes import card, choice, dials, gadgets, howto, page, pane, title
+from pigaming_app.scenes.canvas import Canvas
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.howto import HowTo
+from pigaming_app.scenes.lobby import Lobby
+from pigaming_app.scenes.options import OptionsPage
+from pigaming_app.scenes.padtest import PadTest
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.prompts import Prompts, places
+from pigaming_app.scenes.seats import Seats
+from pigaming_app.scenes.setup import SetupPage
+from pigaming_app.scenes.stack import Scene, Stack
+from pigaming_app.scenes.title import Title
+from pigaming_app.settings import Settings
+from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
+
+SMALLEST = 0.8  # no text may be shrunk further than this
+MOUSE = Device("mouse")
+PLACES = [(x, y) for x in range(60, 1900, 115) for y in range(40, 1060, 85)]
+
+
+def filled() -> Seats:
+    """Two people, two AIs, two teams."""
+    seats = Seats(teams=True)
+    for device in KEYS[:2]:
+        seats.join(device)
+    seats.add()
+    seats.add()
+    return seats
+
+
+PAGES: dict[str, Callable[[Arcade], Scene]] = {
+    "title": lambda arcade: Title(arcade.house),
+    "lobby": lambda arcade: Lobby(arcade.house, "pitanks"),
+    "setup": lambda arcade: SetupPage(arcade.house, "pitanks", filled()),
+    "options": lambda arcade: OptionsPage(arcade.house),
+    "operator": lambda arcade: OptionsPage(arcade.house, operator=True),
+    "padtest": lambda arcade: PadTest(arcade.house),
+    "howto": lambda arcade: HowTo(arcade.house),
+}
+
+
+@pytest.fixture(params=["en", "pt"])
+def arcade(
+    request: pytest.FixtureRequest, controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls, request.param)
+    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    return arcade
+
+
+def top(arcade: Arcade, name: str) -> Scene:
+    """Put a page on a stack of its own."""
+    arcade.house.kiosk = name == "operator"
+    arcade.stack = Stack(PAGES[name](arcade))
+    return arcade.stack.top
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None:
+    with VirtualPad() as pad:
+        arcade.frame()
+        for act in Act:
+            for device in (*KEYS, Device("pad", pad.number), MOUSE, Device("pad", 99)):
+                scene = top(arcade, name)
+                at = (960.0, 540.0) if device == MOUSE else None
+                scene.on(Press(act, device, at=at))
+                scene.update(1 / 60)
+        top(arcade, name).draw(arcade.screen)
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_mouse_may_click_anywhere(arcade: Arcade, name: str) -> None:
+    for at in PLACES:
+        scene = top(arcade, name)
+        scene.on(Press(Act.POINT, MOUSE, at=at))
+        scene.on(Press(Act.CLICK, MOUSE, at=at))
+        scene.update(1 / 60)
+    scene.draw(arcade.screen)
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    shrunk: dict[str, float] = {}
+
+    def measured(text: str, size: int, width: float, face: str = "head") -> int:
+        fits = true_size(text, size, width, face)
+        shrunk[text] = min(shrunk.get(text, 1.0), fits / size)
+        return fits
+
+    true_size = pane.fitted
+    for module in (card, choice, dials, gadgets, howto, page, title):
+        monkeypatch.setattr(module, "fitted", measured)
+        forget(module)
+    scene = top(arcade, name)
+    walk(arcade, scene)
+    assert {text: share for text, share in shrunk.items() if share < SMALLEST} == {}
+    assert shrunk or name == "padtest"
+
+
+def forget(module: object) -> None:
+    """Empty what a module keeps, so that it measures again."""
+    for thing in vars(module).values():
+        if hasattr(thing, "cache_clear"):
+            thing.cache_clear()
+
+
+def walk(arcade: Arcade, scene: Scene) -> None:
+    """Show every row of a page, and everything that seats can be."""
+    for act in (Act.EXTRA, Act.ALT, *[Act.FIRE] * 2, *[Act.ALT] * 2, *[Act.DOWN, Act.RIGHT] * 11):
+        if not isinstance(scene, Lobby) and act in (Act.FIRE, Act.ALT):
+            continue
+        scene.on(Press(act, KEYS[0]))
+        scene.update(1 / 60)
+        scene.draw(arcade.screen)
+
+
+@pytest.mark.parametrize("name", ["lobby", "setup", "options", "padtest"])
+@pytest.mark.parametrize("kind", ["keys 0", "keys 1", "keys 3", "Xbox", "PlayStation", "Nintendo", "Joystick"])
+def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: str, kind: str) -> None:
+    with ExitStack() as plugged:
+        if kind.startswith("keys"):
+            device = KEYS[int(kind[-1])]
+        else:
+            usb = {"PlayStation": PLAYSTATION, "Nintendo": NINTENDO}.get(kind, (0x045E, 0x028E))
+            pad = plugged.enter_context(VirtualPad(f"{kind} pad", usb, plain=kind == "Joystick"))
+            arcade.frame()
+            device = Device("pad", pad.number)
+        arcade.house.controls.last = device
+        scene = top(arcade, name)
+        for prompts in hints(scene, device):
+            ends = places(prompts.said, prompts.room)
+            assert ends[0][0] >= 72, prompts.said
+            assert ends[-1][1] <= 1848, prompts.said
+
+
+def hints(scene: Scene, device: Device) -> Iterator[Prompts]:
+    """The rows of hints that a page can show."""
+    if isinstance(scene, Lobby):
+        yield scene.page.prompts
+        scene.on(Press(Act.EXTRA, device))
+        scene.on(Press(Act.FIRE, device))
+        yield scene.page.prompts
+        for _ in range(3):
+            scene.on(Press(Act.ALT, device))
+        yield scene.page.prompts
+    elif isinstance(scene, PadTest):
+        yield scene._prompts()
+    elif isinstance(scene, SetupPage | OptionsPage):
+        yield scene.prompts
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_in_motion_is_painted_all_over_in_every_frame(arcade: Arcade, name: str) -> None:
+    scene = top(arcade, name)
+    for _ in range(3):
+        scene.update(0.3)
+    arcade.screen.fill((200, 0, 0))
+    scene.draw(arcade.screen)
+    corners = [(0, 0), (1919, 0), (0, 1079), (1919, 1079)]
+    assert all(arcade.screen.get_at(at)[:3] != (200, 0, 0) for at in corners)
+    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
+    lit.invert()
+    box = lit.get_bounding_rects()
+    assert sum(one.w * one.h for one in box) > 20_000

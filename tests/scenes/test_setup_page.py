@@ -1,0 +1,109 @@
+"""The choice before a match: arena, minutes, rules."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from pigaming_app import ASSETS
+from pigaming_app.games import GAMES
+from pigaming_app.scenes import setup
+from pigaming_app.scenes.choice import APART, CHIP, PAD
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.match import MatchScene
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.seats import Seats
+from pigaming_app.scenes.setup import ROWS, SetupPage, playable
+from pigaming_app.sim.arena import arenas
+from tests.scenes.arcade import KEYS, Arcade
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls)
+    seats = Seats()
+    seats.join(KEYS[0])
+    seats.add()
+    arcade.open(SetupPage(arcade.house, "pitanks", seats))
+    return arcade
+
+
+def page(arcade: Arcade) -> SetupPage:
+    return arcade.shown(SetupPage)
+
+
+def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
+    seen = []
+    for _ in arenas("pitanks"):
+        seen.append(page(arcade).arena)
+        arcade.press(Act.RIGHT)
+    assert sorted(seen) == sorted(arenas("pitanks"))
+    assert page(arcade).arena == seen[0]
+
+
+def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
+    for act in (Act.RIGHT, Act.DOWN, Act.RIGHT, Act.DOWN, Act.RIGHT):
+        arcade.press(act)
+    arena, minutes, variant = page(arcade).arena, page(arcade).minutes, page(arcade).variant
+    assert (minutes, variant) == (3, GAMES["pitanks"].variants[1])
+    arcade.press(Act.FIRE, KEYS[2])
+    match = arcade.shown(MatchScene)
+    assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
+    assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
+    assert match.devices == [KEYS[0], None, None, None]
+    kept = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
+    assert (kept["arena"], kept["minutes"], kept["variant"]) == (arena, 3, variant)
+
+
+def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
+    arcade.press(Act.DOWN)
+    for act, last in ((Act.RIGHT, max(GAMES["pitanks"].minutes)), (Act.LEFT, min(GAMES["pitanks"].minutes))):
+        for _ in range(6):
+            arcade.press(act)
+        assert page(arcade).minutes == last
+
+
+def test_a_mouse_chooses_minutes_rules_and_the_arena_and_begins(arcade: Arcade) -> None:
+    row = ROWS["minutes"]
+    arcade.click(row.x + PAD + 3 * (CHIP + APART) + 20, row.centery)
+    assert page(arcade).minutes == GAMES["pitanks"].minutes[3]
+    before = page(arcade).variant
+    arcade.click(ROWS["rules"].right - 40, ROWS["rules"].centery)
+    arcade.click(ROWS["rules"].left + 40, ROWS["rules"].centery)
+    assert page(arcade).variant == before
+    arena = page(arcade).arena
+    arcade.click(*setup.FRAME.center)
+    assert page(arcade).arena != arena
+    arcade.click(*ROWS["go"].center)
+    arcade.shown(MatchScene)
+
+
+def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
+    arcade.stack.turn(arcade.stack.top.on(Press(Act.LOST, Device("pad", 5))))
+    page(arcade)
+    arcade.stack.turn(arcade.stack.top.on(Press(Act.LOST, KEYS[0])))
+    assert arcade.stack.top is arcade.setup
+
+
+def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
+    settings = arcade.house.settings
+    settings.arena, settings.minutes, settings.variant = "atlantis", 47, "nonsense"
+    fresh = SetupPage(arcade.house, "pitanks", Seats())
+    rules = GAMES["pitanks"]
+    assert (fresh.arena, fresh.minutes, fresh.variant) == ("classic", rules.default_minutes, rules.variants[0])
+
+
+def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "arenas" / "pitanks"
+    folder.mkdir(parents=True)
+    (folder / "classic.toml").write_text((ASSETS / "arenas" / "pitanks" / "classic.toml").read_text())
+    (folder / "broken.toml").write_text("title = 3")
+    monkeypatch.setattr("pigaming_app.sim.arena.ASSETS", tmp_path)
+    setup.playable.cache_clear()
+    setup.load_kept.cache_clear()
+    try:
+        assert playable("pitanks") == ("classic",)
+    finally:
+        setup.playable.cache_clear()
+        setup.load_kept.cache_clear()
