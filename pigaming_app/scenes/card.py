@@ -41,7 +41,7 @@ ROBOT = (268, 2.1, 130)  # middle, scale, radius of the turntable
 ROBOT_IN_TEAM = (236, 1.7, 106)
 TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
 BAR = (24, 500, W - 48, 76)
-SPOKES, TURNS = 5, 12  # arcs of a turntable, and how many positions are kept between two of them
+SPOKES, TURNS = 5, 8  # arcs of a turntable, and how many positions are kept between two of them
 UP = -math.pi / 2
 UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and how far it looks to either side
 
@@ -146,15 +146,16 @@ def team(said: str, number: int, arrows: bool) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=192)
+@lru_cache(maxsize=128)
 def turntable(player: int, turn: int, lit: bool, r: int) -> Lit:
     """Arcs round a robot at (0, 0), `turn` of TURNS on their way to the next, on a circle of `r` px."""
-    ink = Ink(320, 320)
+    half = r + 30
+    ink = Ink(2 * half, 2 * half)
     color: Color = dim(PLAYERS[player], 0.8 if lit else 0.35)
     for i in range(SPOKES):
         start = 0.25 + (i + turn / TURNS) * math.tau / SPOKES
-        ink.arc(160, 160, r, start, start + 0.7, color, THIN)
-    return Lit(ink.lit(1.0), (-160, -160))
+        ink.arc(half, half, r, start, start + 0.7, color, THIN)
+    return Lit(ink.lit(1.0), (-half, -half))
 
 
 @lru_cache(maxsize=160)

@@ -45,7 +45,7 @@ class Lobby:
         for seat in self.seats.like(HUMAN):
             device = self.seats.places[seat].device
             if device and not self.house.controls.connected(device):
-                self.seats.leave(seat)
+                self._unplugged(device)
 
     def on(self, press: Press) -> Turn:
         """Join, be ready, leave, call AIs, choose teams, begin."""

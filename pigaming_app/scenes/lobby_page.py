@@ -108,7 +108,7 @@ class LobbyPage:
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
         place, (x, y) = self.seats.places[seat], card_rect(seat).topleft
         middle_y, scale, r = card.ROBOT_IN_TEAM if self.seats.teams else card.ROBOT
-        speed = 20 if place.ready else 4
+        speed = 14 if place.ready else 3
         turn = int(self.now.clock * speed) % card.TURNS
         card.turntable(seat, turn, place.ready, r).draw(screen, round(x + card.MIDDLE), y + middle_y)
         coming = max(0.0, 1.0 - self.now.since[seat] / ROLL_IN) ** 2

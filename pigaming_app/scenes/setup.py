@@ -27,6 +27,7 @@ from pigaming_app.sim.arena import Arena, ArenaError, arenas, load
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 IDLE = 60.0  # seconds without a press until the title
+DEAF = 0.35  # seconds in which nobody can begin: the press that said "ready" may be hammered
 SLIDE = 0.18  # seconds in which another arena comes in
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
@@ -54,6 +55,7 @@ class SetupPage:
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
+        self.clock = 0.0
         self.house.sounds.music(True)
 
     def on(self, press: Press) -> Turn:
@@ -63,12 +65,10 @@ class SetupPage:
             case Act.LEFT | Act.RIGHT:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
             case Act.FIRE | Act.START:
-                return self._go()
+                return self._go() if self.clock > DEAF else None
             case Act.BACK:
                 self.house.sounds.play("back")
                 return Pop()
-            case Act.LOST:
-                return Pop() if self.seats.of(press.device) is not None else None
             case Act.CLICK:
                 self.focus.on(press)
                 return self._click(press)
@@ -78,8 +78,10 @@ class SetupPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the picture slide in; leave when nobody is there."""
+        """Let the picture slide in; go back when a seat has lost its device, and leave when nobody is there."""
         self.clock += seconds
+        if any(device and not self.house.controls.connected(device) for device in self.seats.devices()):
+            return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
         self.focus.update(seconds)
         return Home() if self.house.idle > IDLE else None

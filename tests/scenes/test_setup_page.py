@@ -11,11 +11,12 @@ from pigaming_app.scenes import setup
 from pigaming_app.scenes.choice import APART, CHIP, PAD
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.match import MatchScene
-from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.seats import Seats
 from pigaming_app.scenes.setup import ROWS, SetupPage, playable
 from pigaming_app.sim.arena import arenas
 from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.virtual_pad import VirtualPad
 
 
 @pytest.fixture
@@ -47,6 +48,9 @@ def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp
         arcade.press(act)
     arena, minutes, variant = page(arcade).arena, page(arcade).minutes, page(arcade).variant
     assert (minutes, variant) == (3, GAMES["pitanks"].variants[1])
+    arcade.press(Act.FIRE, KEYS[2])
+    assert page(arcade).variant == variant, "whoever still hammers on fire does not begin"
+    arcade.wait(0.5)
     arcade.press(Act.FIRE, KEYS[2])
     match = arcade.shown(MatchScene)
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
@@ -80,9 +84,13 @@ def test_a_mouse_chooses_minutes_rules_and_the_arena_and_begins(arcade: Arcade) 
 
 
 def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
-    arcade.stack.turn(arcade.stack.top.on(Press(Act.LOST, Device("pad", 5))))
+    pad = VirtualPad()
+    arcade.wait(0.1)
+    page(arcade).seats.join(Device("pad", pad.number))
+    arcade.wait(0.1)
     page(arcade)
-    arcade.stack.turn(arcade.stack.top.on(Press(Act.LOST, KEYS[0])))
+    pad.unplug()
+    arcade.wait(0.1)
     assert arcade.stack.top is arcade.setup
 
 
