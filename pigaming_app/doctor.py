@@ -104,7 +104,8 @@ def _folders() -> Iterator[Line]:
 
 def _assets() -> Iterator[Line]:
     from pigaming_app.games import GAMES
-    from pigaming_app.sim.arena import ArenaError, arenas, load
+    from pigaming_app.games.arenas import arenas, load
+    from pigaming_app.sim.arena import ArenaError
 
     for game in GAMES:
         names = arenas(game)

@@ -14,9 +14,9 @@ from pathlib import Path
 
 from pigaming_app.ai import make
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.arena import arenas
 from pigaming_app.sim.record import to_bytes
 
 FILE = Path(__file__).with_name("golden.json")

@@ -119,7 +119,7 @@ def test_a_broken_engine_is_a_problem(monkeypatch):
 
 
 def test_a_broken_arena_is_named(monkeypatch):
-    import pigaming_app.sim.arena as arena
+    import pigaming_app.games.arenas as arena
 
     def broken(_game, name):
         raise arena.ArenaError(f"{name}.toml: walls[0].ax: not a number")

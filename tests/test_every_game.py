@@ -12,9 +12,9 @@ import pytest
 from pigaming_app.ai import BRAINS, make
 from pigaming_app.ai.rollout import Batch
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.arena import arenas
 from pigaming_app.sim.record import digest, numbers
 
 EVERY_ARENA = [(game, arena) for game in GAMES for arena in arenas(game)]

@@ -10,9 +10,9 @@ from functools import cache
 from typing import Any
 
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Setup
 from pigaming_app.sim.action import press
-from pigaming_app.sim.arena import load
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import dtype, packed

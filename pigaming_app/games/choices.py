@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from pigaming_app.games import GAMES
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import ALONE, PAIRS, Game, Seat, Setup
 from pigaming_app.sim.world import ROBOTS
 
 PEOPLE = ("human", "off")
@@ -17,14 +18,15 @@ class ChoiceError(ValueError):
 def choose(
     game: str,
     brains: Sequence[str],
-    arena: str,
+    arena: str | None,
     minutes: float | None,
     seed: int,
     variant: str | None,
     teams: Sequence[int] | None,
     known: Sequence[str],
+    goal: int | None = None,
 ) -> Setup:
-    """A setup of what was asked for; `known` are the names of the game's brains. Raises ChoiceError."""
+    """A setup of what was asked for; what is None is the game's own. `known`: its brains. Raises ChoiceError."""
     one_of("game", game, list(GAMES))
     rules = GAMES[game]
     for brain in brains:
@@ -32,21 +34,33 @@ def choose(
     if len(brains) > ROBOTS:
         raise ChoiceError(f"--seats names {len(brains)} seats, but there are {ROBOTS}")
     brains = [*brains, *["off"] * (ROBOTS - len(brains))]
-    teams = list(range(ROBOTS)) if teams is None else list(teams)
+    teams = list(rules.teams if teams is None else teams)
     if len(teams) != ROBOTS:
         raise ChoiceError(f"--teams needs {ROBOTS} numbers, one for each seat")
-    playing = [team for brain, team in zip(brains, teams, strict=True) if brain != "off"]
-    if len(playing) < 2:
-        raise ChoiceError("at least two seats must be taken")
-    if len(set(playing)) < 2:
-        raise ChoiceError("there must be at least two teams")
+    check_teams(rules, [team for brain, team in zip(brains, teams, strict=True) if brain != "off"])
     minutes = float(rules.default_minutes if minutes is None else minutes)
     if not LEAST_MINUTES <= minutes <= MOST_MINUTES:
         raise ChoiceError(f"{minutes:g} minutes; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
     variant = rules.variants[0] if variant is None else variant
     one_of("variant", variant, rules.variants)
+    goal = rules.default_goal if goal is None else goal
+    if goal != rules.default_goal and goal not in rules.goals:
+        possible = f"{rules.goals[0]} to {rules.goals[-1]} are possible" if rules.goals else f"{game} has none"
+        raise ChoiceError(f"a goal of {goal} laps or pallets; {possible}")
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
-    return Setup(game, arena, (one, two, three, four), minutes, seed, variant)
+    return Setup(game, arena or arenas(game)[0], (one, two, three, four), minutes, seed, variant, goal)
+
+
+def check_teams(rules: Game, playing: Sequence[int]) -> None:
+    """Whether these teams of the robots that play can play. Raises ChoiceError."""
+    if len(playing) < 2:
+        raise ChoiceError("at least two seats must be taken")
+    if len(set(playing)) < 2:
+        raise ChoiceError("there must be at least two teams")
+    if rules.sides == ALONE and len(set(playing)) < len(playing):
+        raise ChoiceError(f"{rules.name} knows no teams")
+    if rules.sides == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
+        raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
 
 
 def one_of(what: str, name: str, there: Sequence[str]) -> None:

@@ -4,7 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.arena import Arena, Layout
+from pigaming_app.sim.table import Table
+
+FREE, ALONE, PAIRS = "free", "alone", "pairs"  # teams: as people wish; none; two teams of at most two robots
 
 
 @dataclass(frozen=True)
@@ -25,6 +28,7 @@ class Setup:
     minutes: float
     seed: int
     variant: str  # one of the game's variants
+    goal: int = 0  # laps to drive, pallets to deliver; 0 in a game without a goal
 
 
 @dataclass(frozen=True)
@@ -33,9 +37,11 @@ class Row:
 
     seat: int
     team: int
-    place: int  # 1 is best; equal scores share a place
+    place: int  # 1 is best; equals share a place
     score: int
     facts: Mapping[str, float]  # what the game counts, in the order of its columns
+    feats: Mapping[str, int]  # what may enter the tables of the best: points, or milliseconds
+    times: tuple[float, ...]  # s for each part of the way to the goal, such as a lap
 
 
 @dataclass(frozen=True)
@@ -49,8 +55,16 @@ class Outcome:
 
 
 @dataclass(frozen=True)
+class Feat:
+    """A table of the best: its name, and whether it holds milliseconds (less is better) or points (more is)."""
+
+    name: str
+    timed: bool = False
+
+
+@dataclass(frozen=True)
 class Game:
-    """The functions and words of one game. All of them but `facts` work in both bodies."""
+    """The functions and words of one game. `judge` and `see` work in both bodies."""
 
     name: str
     state: type
@@ -59,8 +73,17 @@ class Game:
     variants: tuple[str, ...]  # the first is the default
     minutes: tuple[int, ...]
     default_minutes: int
+    goals: tuple[int, ...]  # what may be chosen; empty: the game has no goal, only time
+    default_goal: int
+    sides: str  # FREE, ALONE or PAIRS
+    teams: tuple[int, int, int, int]  # of the seats, if nobody says otherwise
     columns: tuple[str, ...]  # keys of `facts`, as the table of results shows them
+    feats: tuple[Feat, ...]
+    read: Callable[[Table], Layout]  # what an arena file of this game holds besides its title; raises Wrong
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
     judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, ask for speeds
     see: Callable[[Any, int, Any, Any], None]  # see(match, seat, eyes, view)
+    standing: Callable[[Any, int], float]  # of a seat, with its team: more is better, and what the order goes by
     facts: Callable[[Any, int], Mapping[str, float]]
+    feat: Callable[[Any, int], Mapping[str, int]]  # by the names of `feats`; only those that were achieved
+    times: Callable[[Any, int], tuple[float, ...]]

@@ -7,8 +7,9 @@ plant drives. A game never moves a robot, and a seat can change hands between an
 from typing import Any, Protocol
 
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
-from pigaming_app.sim.arena import Arena, load
+from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS, Action
 
@@ -76,21 +77,27 @@ class Match:
 
     def outcome(self) -> Outcome:
         """How it stands, or how it ended."""
-        state = self.state
+        state, game = self.state, self.game
         seats = [i for i in range(ROBOTS) if state.robots[i].present]
-        teams = {state.robots[i].team for i in seats}
-        totals = {team: sum(state.robots[i].score for i in seats if state.robots[i].team == team) for team in teams}
-        best = max(totals.values())
-        leaders = [team for team in teams if totals[team] == best]
-        winners = tuple(i for i in seats if state.robots[i].team == leaders[0]) if len(leaders) == 1 else ()
-        order = sorted(
-            seats, key=lambda i: (-totals[state.robots[i].team], state.robots[i].team, -state.robots[i].score)
-        )
-        scores = [totals[state.robots[i].team] for i in order]
+        standing = {i: game.standing(state, i) for i in seats}
+        best = max(standing.values())
+        leaders = [i for i in seats if standing[i] == best]
+        one_team = len({state.robots[i].team for i in leaders}) == 1
+        order = sorted(seats, key=lambda i: (-standing[i], state.robots[i].team, -state.robots[i].score))
+        ranks = [standing[i] for i in order]
         rows = tuple(
-            Row(i, state.robots[i].team, 1 + scores.index(score), state.robots[i].score, self.game.facts(state, i))
-            for i, score in zip(order, scores, strict=True)
+            Row(
+                seat=i,
+                team=state.robots[i].team,
+                place=1 + ranks.index(standing[i]),
+                score=state.robots[i].score,
+                facts=game.facts(state, i),
+                feats=game.feat(state, i),
+                times=game.times(state, i),
+            )
+            for i in order
         )
+        winners = tuple(leaders) if one_team else ()
         return Outcome(rows, winners, tuple(tuple(line) for line in self.series), state.tick * DT)
 
 

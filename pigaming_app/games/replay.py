@@ -14,10 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import STEPS, press
-from pigaming_app.sim.arena import ArenaError, parse
+from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ, ROBOTS
@@ -73,7 +74,7 @@ def load(path: Path) -> Replay:
 
 def play(replay: Replay) -> Match:
     """The match that a replay holds, before its first tick; its seats do what the file says."""
-    match = Match(replay.setup, arena=parse(replay.source, replay.setup.arena))
+    match = Match(replay.setup, arena=parse(replay.setup.game, replay.source, replay.setup.arena))
     for seat in range(ROBOTS):
         match.sit(seat, Player(replay.ticks))
     return match
@@ -123,7 +124,7 @@ def _read(raw: bytes) -> Replay:
     try:
         setup = _setup(head["setup"])
         count, source, last = int(head["ticks"]), str(head["arena"]), str(head["digest"])
-        parse(source, setup.arena)
+        parse(setup.game, source, setup.arena)
         if not 0 <= count <= MOST_TICKS:
             raise ValueError("ticks")
         columns = zlib.decompressobj().decompress(packed, BYTES * MOST_TICKS)

@@ -8,6 +8,7 @@ import pygame
 
 from pigaming_app.ai import STRENGTHS, seated
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.house import House
@@ -17,7 +18,6 @@ from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Home, Scene, Turn
 from pigaming_app.scenes.stage import Stage
-from pigaming_app.sim.arena import arenas
 
 MINUTES = 1.0  # of a match
 AFTER = 2.5  # seconds for which its end is shown

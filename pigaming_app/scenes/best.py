@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import pygame
 
+from pigaming_app.games.arenas import load
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, TITLE, icon, panel
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
@@ -11,7 +12,6 @@ from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
 from pigaming_app.scores import Score
-from pigaming_app.sim.arena import load
 
 ROWS = 8
 TOP, PITCH = 316, 72

@@ -8,6 +8,7 @@ from time import perf_counter
 import pygame
 
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.scenes.finale import Finale
 from pigaming_app.scenes.house import House
@@ -34,7 +35,6 @@ from pigaming_app.scenes.ink import (
 )
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
 from pigaming_app.scenes.plot import Curve, Plot, dot, team_curve
-from pigaming_app.sim.arena import load
 
 TOP, ROW, PITCH = 280, 120, 136
 COLUMNS = (346, 494, 676, 820)  # right edges: score, and what the game counts

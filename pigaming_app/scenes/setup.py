@@ -9,6 +9,7 @@ from functools import lru_cache
 import pygame
 
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
@@ -23,7 +24,7 @@ from pigaming_app.scenes.seats import EMPTY, Seats
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.settings import folders
-from pigaming_app.sim.arena import Arena, ArenaError, arenas, load
+from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 IDLE = 60.0  # seconds without a press until the title

@@ -1,4 +1,7 @@
-"""Arenas: TOML files under assets/arenas/GAME/, checked at the door.
+"""Arenas: what the TOML files under assets/arenas/GAME/ say, checked at the door.
+
+Every file has a title; what else it holds is the game's to read, with the pieces here: walls, starts. What only one
+game has lies in the arena's `plan`.
 
 [title]
 en = "Courtyard"
@@ -17,18 +20,17 @@ solid = true             # instead of health: it takes any number
 """
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import pi, radians, sqrt
-from pathlib import Path
 from typing import Any
 
-from pigaming_app import ASSETS
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.navigate import Errand, free_node, grow
 from pigaming_app.sim.robots import GAIN, RADIUS
-from pigaming_app.sim.world import HEIGHT, ROBOTS, SOLID, WALLS, WIDTH, World
+from pigaming_app.sim.table import Table, Wrong
+from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
 
 LANGUAGES = ("en", "pt")
 HEALTH = 5
@@ -60,6 +62,15 @@ class Start:
 
 
 @dataclass(frozen=True)
+class Layout:
+    """What a game has read from a file: walls, four starts, and a plan of what only this game has."""
+
+    walls: tuple[WallSpec, ...]
+    starts: tuple[Start, ...]
+    plan: Any = None
+
+
+@dataclass(frozen=True)
 class Arena:
     """A checked arena. `source` is the text of its file."""
 
@@ -68,37 +79,21 @@ class Arena:
     walls: tuple[WallSpec, ...]
     starts: tuple[Start, ...]
     source: str
+    plan: Any = None
 
 
-def arenas(game: str) -> list[str]:
-    """The names of a game's arenas, `classic` first."""
-    names = sorted(path.stem for path in (ASSETS / "arenas" / game).glob("*.toml"))
-    return sorted(names, key=lambda name: name != "classic")
-
-
-def load(game: str, name: str) -> Arena:
-    """An arena of a game by its name, or by the path of a file that ends in .toml. Raises ArenaError."""
-    path = Path(name) if name.endswith(".toml") else ASSETS / "arenas" / game / f"{name}.toml"
-    if not path.is_file():
-        there = ", ".join(arenas(game))
-        raise ArenaError(f"{name}: no such arena for {game}; there are {there}")
+def parse(source: str, file: str, read: Callable[[Table], Layout]) -> Arena:
+    """Check the text of an arena file; `read` is the game's. Raises ArenaError, which names `file`, key and reason."""
     try:
-        source = path.read_bytes().decode("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ArenaError(f"{path.name}: file: cannot be read ({error})") from None
-    return parse(source, path.name)
-
-
-def parse(source: str, file: str) -> Arena:
-    """Check the text of an arena file. Raises ArenaError, which names `file`, the key and the reason."""
-    try:
-        table = tomllib.loads(source)
+        table = Table(tomllib.loads(source))
     except tomllib.TOMLDecodeError as error:
         raise ArenaError(f"{file}: syntax: {error}") from None
     try:
-        arena = _read(table, file.removesuffix(".toml"), source)
+        title = _title(table)
+        layout = read(table)
+        arena = Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan)
         _check_ways(arena)
-    except _Wrong as wrong:
+    except Wrong as wrong:
         raise ArenaError(f"{file}: {wrong.key}: {wrong.reason}") from None
     return arena
 
@@ -119,85 +114,54 @@ def build(world: World, arena: Arena) -> None:
         robot.gain, robot.turbo = GAIN, 1.0
 
 
-class _Wrong(Exception):
-    def __init__(self, key: str, reason: str) -> None:
-        self.key, self.reason = key, reason
-
-
-def _read(table: Mapping[str, Any], name: str, source: str) -> Arena:
-    _only(table, "", "title", "start", "wall")
-    title = table.get("title")
-    if not isinstance(title, dict):
-        raise _Wrong("title", "a table with a text for each language is missing")
-    _only(title, "title.", *LANGUAGES)
-    for language in LANGUAGES:
-        if not isinstance(title.get(language), str) or not title[language].strip():
-            raise _Wrong(f"title.{language}", "a text is missing")
-    walls = tuple(_wall(entry, key) for entry, key in _entries(table, "wall"))
+def read_walls(table: Table) -> tuple[WallSpec, ...]:
+    """The tables [[wall]]. Raises Wrong."""
+    walls = tuple(_wall(entry) for entry in table.tables("wall"))
     if len(walls) > WALLS:
-        raise _Wrong("wall", f"{len(walls)} walls, but at most {WALLS} are possible")
-    starts = tuple(_start(entry, key) for entry, key in _entries(table, "start"))
+        raise table.wrong("wall", f"{len(walls)} walls, but at most {WALLS} are possible")
+    return walls
+
+
+def read_starts(table: Table) -> tuple[Start, ...]:
+    """The tables [[start]]. Raises Wrong."""
+    starts = tuple(_start(entry) for entry in table.tables("start"))
     if len(starts) != ROBOTS:
-        raise _Wrong("start", f"{len(starts)} starts, but there must be {ROBOTS}")
-    return Arena(name, title, walls, starts, source)
+        raise table.wrong("start", f"{len(starts)} starts, but there must be {ROBOTS}")
+    return starts
 
 
-def _entries(table: Mapping[str, Any], key: str) -> Iterator[tuple[Mapping[str, Any], str]]:
-    entries = table.get(key, [])
-    if not isinstance(entries, list):
-        raise _Wrong(key, f"must be written as [[{key}]]")
-    for i, entry in enumerate(entries):
-        if not isinstance(entry, dict):
-            raise _Wrong(f"{key}[{i + 1}]", "must be a table")
-        yield entry, f"{key}[{i + 1}]"
+def _title(table: Table) -> Mapping[str, str]:
+    title = table.table("title", "a table with a text for each language is missing")
+    title.only(*LANGUAGES)
+    for language in LANGUAGES:
+        text = title.entries.get(language)
+        if not isinstance(text, str) or not text.strip():
+            raise title.wrong(language, "a text is missing")
+    return title.entries
 
 
-def _wall(entry: Mapping[str, Any], key: str) -> WallSpec:
-    _only(entry, key + ".", "from", "to", "thick", "health", "solid")
-    (ax, ay), (bx, by) = _point(entry, key, "from"), _point(entry, key, "to")
-    thick = _number(entry.get("thick", 30), f"{key}.thick")
-    if not 10 <= thick <= 200:
-        raise _Wrong(f"{key}.thick", f"{thick:g} px, but 10 to 200 are possible")
-    solid = entry.get("solid", False)
+def _wall(entry: Table) -> WallSpec:
+    entry.only("from", "to", "thick", "health", "solid")
+    (ax, ay), (bx, by) = entry.point("from"), entry.point("to")
+    thick = entry.number("thick", 30, 10, 200, " px")
+    solid = entry.entries.get("solid", False)
     if not isinstance(solid, bool):
-        raise _Wrong(f"{key}.solid", "must be true or false")
+        raise entry.wrong("solid", "must be true or false")
     if solid and "health" in entry:
-        raise _Wrong(f"{key}.health", "goes without solid = true")
-    health = entry.get("health", HEALTH)
+        raise entry.wrong("health", "goes without solid = true")
+    health = entry.entries.get("health", HEALTH)
     if isinstance(health, bool) or not isinstance(health, int) or not 1 <= health <= HEALTH:
-        raise _Wrong(f"{key}.health", f"{health!r}, but a whole number from 1 to {HEALTH} is needed")
+        raise entry.wrong("health", f"{health!r}, but a whole number from 1 to {HEALTH} is needed")
     return WallSpec(ax, ay, bx, by, thick / 2, SOLID if solid else health)
 
 
-def _start(entry: Mapping[str, Any], key: str) -> Start:
-    _only(entry, key + ".", "at", "heading")
-    x, y = _point(entry, key, "at")
-    heading = radians(_number(entry.get("heading", 0), f"{key}.heading"))
+def _start(entry: Table) -> Start:
+    entry.only("at", "heading")
+    x, y = entry.point("at")
+    heading = radians(entry.number("heading", 0))
     if not 0 <= heading < 2 * pi:
-        raise _Wrong(f"{key}.heading", "must be from 0 to below 360 degrees")
+        raise entry.wrong("heading", "must be from 0 to below 360 degrees")
     return Start(x, y, heading)
-
-
-def _point(entry: Mapping[str, Any], key: str, name: str) -> tuple[float, float]:
-    point = entry.get(name)
-    if not isinstance(point, list) or len(point) != 2:
-        raise _Wrong(f"{key}.{name}", "a point [x, y] is needed")
-    x, y = (_number(value, f"{key}.{name}") for value in point)
-    if not (0 <= x <= WIDTH and 0 <= y <= HEIGHT):
-        raise _Wrong(f"{key}.{name}", f"({x:g}, {y:g}) lies outside the arena, 0..{WIDTH:g} x 0..{HEIGHT:g}")
-    return x, y
-
-
-def _number(value: Any, key: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e6:
-        raise _Wrong(key, f"{value!r} is not a number that makes sense here")
-    return float(value)
-
-
-def _only(table: Mapping[str, Any], path: str, *known: str) -> None:
-    for key in table:
-        if key not in known:
-            raise _Wrong(path + key, f"unknown key; possible are {', '.join(known)}")
 
 
 def _check_ways(arena: Arena) -> None:
@@ -208,13 +172,13 @@ def _check_ways(arena: Arena) -> None:
     for i, start in enumerate(arena.starts):
         key = f"start[{i + 1}]"
         if in_wall(world, start.x, start.y):
-            raise _Wrong(key, f"a robot at ({start.x:g}, {start.y:g}) would stand inside a wall")
+            raise Wrong(key, f"a robot at ({start.x:g}, {start.y:g}) would stand inside a wall")
         for j, other in enumerate(arena.starts[:i]):
             if sqrt((start.x - other.x) ** 2 + (start.y - other.y) ** 2) < 2 * RADIUS:
-                raise _Wrong(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide")
+                raise Wrong(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide")
         nodes.append(free_node(world, start.x, start.y))
     field = Errand()
     grow(world, field, nodes[0], -1)
     for i, node in enumerate(nodes):
         if not field.reach[node] or not nodes[0]:
-            raise _Wrong(f"start[{i + 1}]", "there is no way to it from start[1]")
+            raise Wrong(f"start[{i + 1}]", "there is no way to it from start[1]")

@@ -7,9 +7,9 @@ import pytest
 
 from pigaming_app.ai import make
 from pigaming_app.ai.league import duel, wilson
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.arena import arenas
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.rollout import Batch
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.pitanks.state import OWN_BULLETS, PiTanks
-from pigaming_app.sim.arena import arenas
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.record import unpack
 from pigaming_app.sim.world import HZ, ROBOTS

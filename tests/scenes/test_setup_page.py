@@ -7,6 +7,7 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
 from pigaming_app.scenes import setup
 from pigaming_app.scenes.choice import APART, CHIP, PAD
 from pigaming_app.scenes.controls import Controls
@@ -14,7 +15,6 @@ from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.seats import Seats
 from pigaming_app.scenes.setup import ROWS, SetupPage, playable
-from pigaming_app.sim.arena import arenas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.virtual_pad import VirtualPad
 
@@ -107,7 +107,7 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
     folder.mkdir(parents=True)
     (folder / "classic.toml").write_text((ASSETS / "arenas" / "pitanks" / "classic.toml").read_text())
     (folder / "broken.toml").write_text("title = 3")
-    monkeypatch.setattr("pigaming_app.sim.arena.ASSETS", tmp_path)
+    monkeypatch.setattr("pigaming_app.games.arenas.ASSETS", tmp_path)
     setup.playable.cache_clear()
     setup.load_kept.cache_clear()
     try:

@@ -1,10 +1,13 @@
 """Arena files: those that ship are good, and a broken one is refused in one line that says what and where."""
 
+from functools import partial
 from math import pi
 
 import pytest
 
-from pigaming_app.sim.arena import ArenaError, arenas, build, load, parse
+from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.arenas import parse as parse_of
+from pigaming_app.sim.arena import ArenaError, build
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.world import SOLID, World
 
@@ -22,6 +25,7 @@ at = [1490, 110]
 TITLE = '[title]\nen = "Test"\npt = "Teste"\n'
 WALL = "[[wall]]\nfrom = [300, 200]\nto = [300, 420]\n"
 GOOD = TITLE + STARTS + WALL
+parse = partial(parse_of, "pitanks")
 SPLIT = "[[wall]]\nfrom = [800, 0]\nto = [800, 900]\n"
 
 

@@ -4,8 +4,9 @@ from math import atan2, cos, hypot
 
 import pytest
 
+from pigaming_app.games.arenas import arenas, load
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.arena import arenas, build, load
+from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import drive, in_wall
 from pigaming_app.sim.grid import BLOCKED, wall_on_grid
 from pigaming_app.sim.navigate import Errand, find_way, free_node

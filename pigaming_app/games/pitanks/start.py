@@ -4,11 +4,18 @@ from collections.abc import Mapping
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.pitanks.state import PiTanks, Rules
-from pigaming_app.sim.arena import Arena, build
+from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
 from pigaming_app.sim.chance import seeded
+from pigaming_app.sim.table import Table
 from pigaming_app.sim.world import HZ
 
 VARIANTS = ("pickups", "plain", "classic")
+
+
+def read(table: Table) -> Layout:
+    """An arena is walls and starts. Raises Wrong."""
+    table.only("title", "start", "wall")
+    return Layout(read_walls(table), read_starts(table))
 
 
 def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
@@ -48,3 +55,19 @@ def facts(match: PiTanks, seat: int) -> Mapping[str, float]:
         "taken": tank.taken,
         "aim": tank.landed / tank.shots if tank.shots else 0.0,
     }
+
+
+def standing(match: PiTanks, seat: int) -> float:
+    """The points of a seat's team."""
+    team = match.robots[seat].team
+    return float(sum(robot.score for robot in match.robots if robot.present and robot.team == team))
+
+
+def feat(match: PiTanks, seat: int) -> Mapping[str, int]:
+    """The own points."""
+    return {"points": match.robots[seat].score}
+
+
+def times(match: PiTanks, seat: int) -> tuple[float, ...]:
+    """There is no way to a goal."""
+    return ()

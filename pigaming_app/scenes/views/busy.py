@@ -10,9 +10,10 @@ from time import perf_counter
 
 import pygame
 
+from pigaming_app.games.arenas import load
 from pigaming_app.games.pitanks.state import OWN_BULLETS, PICKUPS, PiTanks
 from pigaming_app.scenes.views.pitanks import PiTanksView
-from pigaming_app.sim.arena import Arena, build, load
+from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.world import DT, HZ
 
 BULLETS = 30
