@@ -1,5 +1,12 @@
 """How each game looks while it is played."""
 
-from pigaming_app.scenes.views.pitanks import PiTanksView
+from collections.abc import Callable
+from typing import Any
 
-VIEWS: dict[str, type[PiTanksView]] = {"pitanks": PiTanksView}
+from pigaming_app.scenes.views.picture import Picture, Taste, Words
+from pigaming_app.scenes.views.pitanks import PiTanksView
+from pigaming_app.sim.arena import Arena
+
+View = Callable[[Arena, Any, list[str], Taste, Words | None], Picture]
+
+VIEWS: dict[str, View] = {"pitanks": PiTanksView}

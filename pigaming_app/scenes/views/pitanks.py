@@ -1,73 +1,51 @@
-"""A match of PiTanks on the screen, between any two of its ticks: one opaque ground, then four batches of sprites.
-
-It looks at the match and never touches it; what happened it finds by comparing, and it has its own random generator.
-"""
+"""A match of PiTanks on the screen: walls, robots, bullets, what lies on the floor, and what happens to them."""
 
 import math
-from collections.abc import Callable
-from itertools import chain
-from time import perf_counter
-from typing import Protocol
 
 import pygame
 
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
 from pigaming_app.scenes import effects, tank, things
-from pigaming_app.scenes.ink import ADD, FOCUS, PRE, THIN
+from pigaming_app.scenes.ink import FOCUS, THIN
 from pigaming_app.scenes.sprites import HEADINGS, Batch, put, step
-from pigaming_app.scenes.views.ground import LEFT, TOP, Ground
+from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.scenes.views.happenings import Watcher
 from pigaming_app.scenes.views.hud import Hud, pulse
 from pigaming_app.scenes.views.hud import Y as TOP_OF_PANELS
-from pigaming_app.scenes.views.moments import Moments
-from pigaming_app.scenes.views.reactions import Heard, react
-from pigaming_app.scenes.views.treads import Treads
-from pigaming_app.scenes.views.warming import jobs
+from pigaming_app.scenes.views.picture import Heard, Picture, Pose, Taste, Words
+from pigaming_app.scenes.views.reactions import react
+from pigaming_app.scenes.views.shooting import jobs
+from pigaming_app.scenes.views.walled import Walled
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
+from pigaming_app.sim.world import DT, HZ
 
-JUMP = 100.0  # px in a tick: a robot that was placed, not driven
 FLASH = 0.06  # seconds
 ENDING = 2 * HZ  # ticks before its end at which a shield begins to blink
 MUZZLE = 70.0  # px from a robot to the middle of its muzzle flash
-Pose = tuple[float, float, float]
 
 
-class Taste(Protocol):
-    """What of the settings a view wants to know."""
-
-    flashes: str  # off, soft (no shake, no light on the ground), full
-    shake: bool
-
-
-class PiTanksView:
-    """The view of one match. `players`: for each seat "human" or the name of the AI that drives; may be changed."""
+class PiTanksView(Picture):
+    """The view of one match of PiTanks."""
 
     def __init__(
-        self, arena: Arena, state: PiTanks, players: list[str], taste: Taste, words: Callable[..., str] | None = None
+        self, arena: Arena, state: PiTanks, players: list[str], taste: Taste, words: Words | None = None
     ) -> None:
-        self.players, self.taste = players, taste
-        self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        starts = tuple((i, arena.starts[i].x, arena.starts[i].y) for i in self.seats)
-        self.ground = Ground(state, starts)
+        seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.walls = Walled(state, tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats))
+        super().__init__(state, players, taste, words, self.walls)
         self.hud = Hud(self.ground, state, players)
         self.watcher = Watcher(state)
-        self.moments = Moments()
-        self.treads = [Treads(i) for i in range(len(state.robots))]
         self.flashed = [-1.0] * len(state.robots)
-        self.before = self.now = _poses(state)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
-        self.jobs = chain(self.hud.jobs(state), jobs(state, self.seats))
+        self.ahead(self.hud.jobs(state))
+        self.ahead(jobs(state, self.seats))
         self.marked = [slot.seat for one in self.hud.sums for slot in one.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 
     def watch(self, state: PiTanks) -> list[Heard]:
         """See what the last tick did; answers what is to be heard: (sound, player or None, x in arena px)."""
-        self.before, self.now = self.now, _poses(state)
-        for i, (new, old) in enumerate(zip(self.now, self.before, strict=True)):
-            if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
-                self.before = [*self.before[:i], new, *self.before[i + 1 :]]
+        self.follow(state)
         for i, bullet in enumerate(state.bullets):
             was = self.watcher.shots[i]
             fresh = not was.alive
@@ -82,7 +60,7 @@ class PiTanksView:
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.moments.advance(seconds)
-        self.ground.show_walls(state)
+        self.walls.show_walls(state)
         for slot in self.hud.show(state):
             if self.taste.flashes != "off":
                 self.moments.bloom(slot.x, TOP_OF_PANELS, 0.4, pulse(slot.seat, slot.w))
@@ -96,36 +74,7 @@ class PiTanksView:
         self._bullets(light, state, blend)
         self.moments.draw_light(light)
         self.moments.draw_scores(top)
-        self._paint(screen, under, over, light, top)
-
-    def pose(self, seat: int, blend: float) -> Pose:
-        """Where a robot is on the canvas, px, px, rad, `blend` of the way between two ticks; it turns the short way."""
-        old, new = self.before[seat], self.now[seat]
-        turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
-        return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
-
-    def warm(self, milliseconds: float) -> bool:
-        """Make sprites ahead for so long; true when all are there."""
-        end = perf_counter() + milliseconds / 1000.0
-        for job in self.jobs:
-            job()
-            if perf_counter() >= end:
-                return False
-        return True
-
-    def _paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
-        shaken = self.moments.offset
-        if shaken == (0, 0):
-            screen.blit(self.ground.surface, (0, 0))
-        else:
-            screen.fill((0, 0, 0))
-            screen.blit(self.ground.surface, shaken)
-        screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
-        screen.fblits(under, ADD)
-        screen.set_clip(None)
-        screen.fblits(over, PRE)
-        screen.fblits(light, ADD)
-        screen.fblits(top, PRE)
+        self.paint(screen, under, over, light, top)
 
     def _things(self, over: Batch, light: Batch, state: PiTanks) -> None:
         rules = state.rules
@@ -143,12 +92,7 @@ class PiTanksView:
         x, y, heading = pose
         now, driven, held = self.moments.clock, state.robots[seat], state.tanks[seat]
         coarse, fine = step(heading, effects.TURNS), step(heading, HEADINGS)
-        marks = self.treads[seat]
-        marks.roll(x, y, heading, now)
-        marks.draw(under, now)
-        put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
-        if driven.boosting or (held.powers[SPEED] and abs(driven.linear) > 40.0):
-            put(under, effects.flame(seat, coarse, int(now * 30) % 2), x, y)
+        self.light_up(under, seat, pose, bool(driven.boosting or (held.powers[SPEED] and abs(driven.linear) > 40.0)))
         if seat in self.marked:
             put(under, tank.team_mark(int(driven.team != self.first_team), coarse), x, y)
         here = not held.protected or held.protected // 4 % 2 == 0 or self.taste.flashes == "off"
@@ -174,8 +118,3 @@ class PiTanksView:
                 bullet, (x, y) = state.bullets[i], self.shots[i]
                 sprite = effects.bullet(i // OWN_BULLETS, step(math.atan2(bullet.vy, bullet.vx), HEADINGS))
                 put(light, sprite, LEFT + x + (bullet.x - x) * blend, TOP + y + (bullet.y - y) * blend)
-
-
-def _poses(state: PiTanks) -> list[Pose]:
-    """Where robots are on the canvas."""
-    return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]

@@ -1,24 +1,16 @@
 """What a happening of PiTanks looks and sounds like."""
 
 from collections.abc import Iterable
-from typing import Protocol
 
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, PLAYERS, WALL
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.scenes.views.happenings import Happening
 from pigaming_app.scenes.views.moments import Moments
+from pigaming_app.scenes.views.picture import Heard, Taste
 from pigaming_app.sim.world import WIDTH
 
-Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
 BESIDE = 46.0  # px from a robot to where its scores rise
-
-
-class Flashes(Protocol):
-    """How much light and shake is wanted."""
-
-    flashes: str
-    shake: bool
 
 
 SOUNDS = {
@@ -35,7 +27,7 @@ SOUNDS = {
 }
 
 
-def react(happenings: Iterable[Happening], state: PiTanks, moments: Moments, taste: Flashes) -> list[Heard]:
+def react(happenings: Iterable[Happening], state: PiTanks, moments: Moments, taste: Taste) -> list[Heard]:
     """Put what happened into the air; answers what is heard of it."""
     heard: list[Heard] = []
     for one in happenings:
@@ -45,7 +37,7 @@ def react(happenings: Iterable[Happening], state: PiTanks, moments: Moments, tas
     return heard
 
 
-def _show(one: Happening, state: PiTanks, moments: Moments, taste: Flashes) -> None:
+def _show(one: Happening, state: PiTanks, moments: Moments, taste: Taste) -> None:
     x, y, player = LEFT + one.x, TOP + one.y, one.player
     color = ICE if player is None else PLAYERS[player]
     match one.kind:
@@ -71,7 +63,7 @@ def _show(one: Happening, state: PiTanks, moments: Moments, taste: Flashes) -> N
             _blast(x, y, color, moments, taste)
 
 
-def _blast(x: float, y: float, color: tuple[int, int, int], moments: Moments, taste: Flashes) -> None:
+def _blast(x: float, y: float, color: tuple[int, int, int], moments: Moments, taste: Taste) -> None:
     if taste.flashes != "off":
         moments.shock(x, y, color)
     if taste.flashes == "full":

@@ -1,0 +1,114 @@
+"""What the view of every game does: one opaque ground, then four batches of sprites, between any two ticks of a match.
+
+A view looks at the match and never touches it; what happened it finds by comparing; its random generator is its own.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
+from time import perf_counter
+from typing import Any, Protocol
+
+import pygame
+
+from pigaming_app.scenes import effects
+from pigaming_app.scenes.ink import ADD, PRE
+from pigaming_app.scenes.sprites import Batch, put, step
+from pigaming_app.scenes.views.ground import LEFT, TOP, Ground
+from pigaming_app.scenes.views.moments import Moments
+from pigaming_app.scenes.views.treads import Treads
+from pigaming_app.scenes.views.warming import Job, driving
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+JUMP = 100.0  # px in a tick: a robot that was placed, not driven
+Pose = tuple[float, float, float]  # px and px on the canvas, rad
+Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
+Words = Callable[..., str]
+
+
+class Taste(Protocol):
+    """What of the settings a view wants to know."""
+
+    flashes: str  # off, soft (no shake, no light on the ground), full
+    shake: bool
+
+
+class Picture:
+    """The view of one match. `players`: for each seat "human" or the name of the AI that drives; may be changed.
+
+    A game's view is made of arena, state, players, taste and words; it fills `watch` and `draw`.
+    """
+
+    def __init__(self, state: Any, players: list[str], taste: Taste, words: Words | None, ground: Ground) -> None:
+        self.players, self.taste, self.words, self.ground = players, taste, words, ground
+        self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.moments = Moments()
+        self.treads = [Treads(i) for i in range(len(state.robots))]
+        self.before = self.now = _poses(state)
+        self.jobs: Iterator[Job] = driving(self.seats)
+
+    def watch(self, state: Any) -> list[Heard]:
+        """See what the last tick did; answers what is to be heard."""
+        raise NotImplementedError
+
+    def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
+        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
+        raise NotImplementedError
+
+    def pose(self, seat: int, blend: float) -> Pose:
+        """Where a robot is on the canvas, `blend` of the way between two ticks; it turns the short way."""
+        old, new = self.before[seat], self.now[seat]
+        turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
+        return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
+
+    def warm(self, milliseconds: float) -> bool:
+        """Make sprites ahead for so long; true when all are there."""
+        end = perf_counter() + milliseconds / 1000.0
+        for job in self.jobs:
+            job()
+            if perf_counter() >= end:
+                return False
+        return True
+
+    # ---- for the views of games
+
+    def ahead(self, jobs: Iterator[Job]) -> None:
+        """More sprites to make ahead, after those of driving robots."""
+        self.jobs = chain(self.jobs, jobs)
+
+    def follow(self, state: Any) -> None:
+        """Note where robots are after this tick."""
+        self.before, self.now = self.now, _poses(state)
+        for i, (new, old) in enumerate(zip(self.now, self.before, strict=True)):
+            if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
+                self.before = [*self.before[:i], new, *self.before[i + 1 :]]
+
+    def light_up(self, under: Batch, seat: int, pose: Pose, fast: bool) -> None:
+        """Treads, headlights and, if it is `fast`, the flame of a robot."""
+        x, y, heading = pose
+        now, marks = self.moments.clock, self.treads[seat]
+        marks.roll(x, y, heading, now)
+        marks.draw(under, now)
+        put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
+        if fast:
+            put(under, effects.flame(seat, step(heading, effects.TURNS), int(now * 30) % 2), x, y)
+
+    def paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
+        """The ground and the batches: light below robots (within the arena), what hides, light, what hides all."""
+        shaken = self.moments.offset
+        if shaken == (0, 0):
+            screen.blit(self.ground.surface, (0, 0))
+        else:
+            screen.fill((0, 0, 0))
+            screen.blit(self.ground.surface, shaken)
+        screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
+        screen.fblits(under, ADD)
+        screen.set_clip(None)
+        screen.fblits(over, PRE)
+        screen.fblits(light, ADD)
+        screen.fblits(top, PRE)
+
+
+def _poses(state: Any) -> Sequence[Pose]:
+    """Where robots are on the canvas."""
+    return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]
