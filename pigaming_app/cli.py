@@ -66,8 +66,9 @@ def parser() -> argparse.ArgumentParser:
     duel.add_argument("--matches", type=number, default=100)
     duel.add_argument("--seed", type=int, default=1)
     duel.add_argument("--minutes", type=float)
-    duel.add_argument("--arena", default="classic")
+    duel.add_argument("--arena", help="left out: the game's first")
     duel.add_argument("--variant")
+    _goals(duel)
     duel.add_argument("--json", action="store_true")
     bench = jobs.add_parser("bench", help="how fast it all is here")
     bench.add_argument("game", nargs="?", default="pitanks")
@@ -80,11 +81,12 @@ def parser() -> argparse.ArgumentParser:
 
 def _play_options(play: argparse.ArgumentParser) -> None:
     play.add_argument("--game", default="pitanks")
-    play.add_argument("--seats", default="human,fsm,off,off", help="who sits where: human, off, or an AI")
+    play.add_argument("--seats", help="who sits where: human, off, or an AI; left out: human,normal")
     play.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; left out: everybody for themselves")
-    play.add_argument("--arena", default="classic", help="a name, or the path of a .toml file")
+    play.add_argument("--arena", help="a name, or the path of a .toml file; left out: the game's first")
     play.add_argument("--minutes", type=float)
     play.add_argument("--variant")
+    _goals(play)
     play.add_argument("--seed", type=int, default=1)
     play.add_argument("--headless", action="store_true", help="no window, no sound")
     play.add_argument("--speed", default="1", help="how many times as fast, or max")
@@ -94,6 +96,24 @@ def _play_options(play: argparse.ArgumentParser) -> None:
     play.add_argument("--kiosk", action="store_true")
     play.add_argument("--display", type=number)
     play.add_argument("--json", action="store_true", help="print the result as one JSON object")
+
+
+def _goals(job: argparse.ArgumentParser) -> None:
+    for word in ("laps", "pallets"):
+        job.add_argument(f"--{word}", type=number, help=f"how many {word}, in the game that is played for them")
+
+
+def goal(arguments: argparse.Namespace) -> int | None:
+    """The goal that was asked for; None: the game's own. Raises Wrong for the goal of another game."""
+    from pigaming_app.games import GAMES
+
+    for word in ("laps", "pallets"):
+        wished: int | None = getattr(arguments, word)
+        if wished is not None:
+            if arguments.game in GAMES and GAMES[arguments.game].goal != word:
+                raise Wrong(f"--{word}: {arguments.game} is not played for {word}")
+            return wished
+    return None
 
 
 def number(text: str) -> int:
@@ -115,7 +135,7 @@ def play(arguments: argparse.Namespace) -> int:
     """A match at once, on the screen or without one."""
     from pigaming_app import playing
 
-    return playing.play(arguments, _open, Wrong)
+    return playing.play(arguments, goal(arguments), _open, Wrong)
 
 
 def replay(arguments: argparse.Namespace) -> int:
@@ -151,6 +171,7 @@ def duel(arguments: argparse.Namespace) -> int:
         arguments.minutes,
         arguments.arena,
         arguments.variant,
+        goal=goal(arguments),
     )
     if arguments.json:
         print(json.dumps(asdict(result)))

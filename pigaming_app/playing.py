@@ -20,7 +20,7 @@ FASTEST = 64.0  # times real time that a window shows
 WATCHED = 150  # ticks before a picture in which shots, sparks and treads of it begin
 
 
-def play(arguments: argparse.Namespace, show: Callable[[Any], int], wrong: type[Exception]) -> int:
+def play(arguments: argparse.Namespace, goal: int | None, show: Callable[[Any], int], wrong: type[Exception]) -> int:
     """Play what the command line asked for; `show` opens the arcade, `wrong` is raised for a bad value."""
     teams = None
     if arguments.teams is not None:
@@ -28,11 +28,10 @@ def play(arguments: argparse.Namespace, show: Callable[[Any], int], wrong: type[
             teams = [int(team) for team in arguments.teams.split(",")]
         except ValueError:
             raise wrong(f"--teams: {arguments.teams!r}; numbers such as 0,0,1,1 are needed") from None
-    seats = [seat.strip() for seat in arguments.seats.split(",")]
+    seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
     names = list(BRAINS.get(arguments.game, {}))
-    setup = choose(
-        arguments.game, seats, arguments.arena, arguments.minutes, arguments.seed, arguments.variant, teams, names
-    )
+    arena, minutes, seed, variant = arguments.arena, arguments.minutes, arguments.seed, arguments.variant
+    setup = choose(arguments.game, seats, arena, minutes, seed, variant, teams, names, goal)
     speed = _speed(arguments.speed, wrong)
     for path in (arguments.record, arguments.screenshot):
         if path is not None and not path.absolute().parent.is_dir():

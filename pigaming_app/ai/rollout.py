@@ -15,7 +15,7 @@ from pigaming_app.games.batch import started
 from pigaming_app.games.game import Setup
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
-from pigaming_app.sim.record import packed
+from pigaming_app.sim.record import packed, unpack
 from pigaming_app.sim.world import ROBOTS
 
 Loop = Callable[[Any, Any, Any, Any, Any, int], None]
@@ -58,9 +58,9 @@ class Batch:
     """Many matches of one game, all with the same kinds of brains, in either body."""
 
     def __init__(self, setups: Sequence[Setup], kinds: Sequence[Kind | None], fast: bool) -> None:
-        """One match for each setup; kinds of the four seats, None for an empty one; `fast`: compiled."""
+        """One match for each setup; kinds of the seats, None (or nothing more) for an empty one; `fast`: compiled."""
         self.fast = fast
-        self.kinds = tuple(kind or IDLE for kind in kinds)
+        self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
         minds = [[awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
         columns = [list(column) for column in zip(*minds, strict=True)]
         states = started(setups)
@@ -69,6 +69,7 @@ class Batch:
         one, two, three, four = (kind.think for kind in self.kinds)
         think = one, two, three, four
         game = setups[0].game
+        self.state = GAMES[game].state
         self.loop: Loop = compiled_rollout(game, think) if fast else plain_rollout(game, think)
 
     def play(self, ticks: int) -> None:
@@ -81,6 +82,14 @@ class Batch:
         if self.fast:
             return self.matches["robots"]["score"].tolist()  # type: ignore[no-any-return]
         return [[robot.score for robot in match.robots] for match in self.matches]
+
+    def ticks(self) -> int:
+        """How many have been played, of all matches together."""
+        return sum(self.matches["tick"].tolist() if self.fast else [match.tick for match in self.matches])
+
+    def ended(self) -> list[Any]:
+        """Every match as a plain record."""
+        return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
 
 
 def awake(kind: Kind, seed: int, seat: int) -> Any:

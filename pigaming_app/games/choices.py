@@ -45,8 +45,8 @@ def choose(
     one_of("variant", variant, rules.variants)
     goal = rules.default_goal if goal is None else goal
     if goal != rules.default_goal and goal not in rules.goals:
-        possible = f"{rules.goals[0]} to {rules.goals[-1]} are possible" if rules.goals else f"{game} has none"
-        raise ChoiceError(f"a goal of {goal} laps or pallets; {possible}")
+        possible = f"{rules.goals[0]} to {rules.goals[-1]} {rules.goal}" if rules.goals else "time alone"
+        raise ChoiceError(f"a goal of {goal}; {game} is played for {possible}")
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
     return Setup(game, arena or arenas(game)[0], (one, two, three, four), minutes, seed, variant, goal)
 

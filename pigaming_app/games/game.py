@@ -87,3 +87,4 @@ class Game:
     facts: Callable[[Any, int], Mapping[str, float]]
     feat: Callable[[Any, int], Mapping[str, int]]  # by the names of `feats`; only those that were achieved
     times: Callable[[Any, int], tuple[float, ...]]
+    goal: str = ""  # what `goals` count: laps, pallets

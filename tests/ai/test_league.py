@@ -6,6 +6,7 @@ import pytest
 
 from pigaming_app.ai import league
 from pigaming_app.ai.league import duel, wilson
+from pigaming_app.games import GAMES
 from pigaming_app.games.choices import ChoiceError
 
 
@@ -43,17 +44,37 @@ def test_a_duel_with_oneself_is_even(brain):
     assert result.wins + result.ties + result.losses == 8
 
 
+class Rigged:
+    """A batch in which whoever sits on the first seat wins by 3 to 1."""
+
+    seen: list[tuple[list[str], list[int]]]
+
+    def __init__(self, setups, kinds, fast):
+        self.setups = setups
+        self.seen.append(([kind.name for kind in kinds], [setup.seed for setup in setups]))
+
+    def play(self, ticks):
+        assert ticks == 2 * 60 * 50
+
+    def ticks(self):
+        return 1
+
+    def ended(self):
+        states = []
+        for setup in self.setups:
+            state = GAMES[setup.game].state()
+            for robot, seat, score in zip(state.robots, setup.seats, (3, 1, 0, 0), strict=True):
+                robot.present, robot.team, robot.score = int(seat.brain != "off"), seat.team, score
+            states.append(state)
+        return states
+
+
 def test_each_seed_is_played_from_both_sides(monkeypatch):
-    seen = []
-
-    def play(setups, one, other, fast, ticks):
-        seen.append((one, other, [setup.seed for setup in setups]))
-        return [(3, 1)] * len(setups)
-
-    monkeypatch.setattr(league, "_play", play)
+    monkeypatch.setattr(league, "Batch", Rigged)
+    Rigged.seen = []
     result = duel("pitanks", "easy", "hard", matches=6, seed=7, fast=False)
-    assert seen == [("easy", "hard", [7, 8, 9]), ("hard", "easy", [7, 8, 9])]
-    assert (result.wins, result.losses, result.ties) == (3, 3, 0)  # whoever sits on the first seat wins here
+    assert Rigged.seen == [(["easy", "hard"], [7, 8, 9]), (["hard", "easy"], [7, 8, 9])]
+    assert (result.wins, result.losses, result.ties) == (3, 3, 0)
     assert result.mean_score_left == result.mean_score_right == 2.0
 
 
