@@ -1,7 +1,8 @@
 """The job `bench`: how fast the engine, the pictures and the start are on this machine.
 
 Each figure of speed is the best of several runs: other programs can only make a run slower, so the best is nearest to
-what the code itself needs. The scene is a full match: classic arena, all rules and pick-ups, four FSM seats.
+what the code itself needs. The scene is a full match: the game's first arena, all its rules, four normal AIs, and the
+longest way to the goal, so that it does not end while it is measured.
 """
 
 import os
@@ -17,6 +18,8 @@ from typing import Any
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.rollout import Batch
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
@@ -54,8 +57,12 @@ def measure(game: str) -> dict[str, Any]:
 
 def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
     """The scene that is measured, in so many matches."""
-    one, two, three, four = (Seat("normal", i) for i in range(4))
-    setups = [Setup(game, "classic", (one, two, three, four), 2.0, seed + i, _full(game)) for i in range(matches)]
+    rules = GAMES[game]
+    one, two, three, four = (Seat("normal", team) for team in rules.teams)
+    arena, goal = arenas(game)[0], max(rules.goals, default=0)
+    setups = [
+        Setup(game, arena, (one, two, three, four), 5.0, seed + i, rules.variants[0], goal) for i in range(matches)
+    ]
     return Batch(setups, [BRAINS[game]["normal"]] * 4, fast)
 
 
@@ -67,18 +74,18 @@ def compiled_ticks(game: str, seed: int) -> float:
         return 0.0
     began = perf_counter()
     matches.play(TICKS)
-    return MATCHES * TICKS / (perf_counter() - began)
+    return matches.ticks() / (perf_counter() - began)
 
 
-def work(game: str, seed: int, start_at: float) -> tuple[float, float]:
-    """Play in a process of its own from the moment `start_at` on: when it began and when it ended."""
+def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
+    """Play in a process of its own from the moment `start_at` on: when it began, when it ended, ticks played."""
     matches = batch(game, 1000 * seed + 1, 2 * MATCHES, True)
     matches.play(0)
     while time() < start_at:
         pass
     began = time()
     matches.play(TICKS)
-    return began, time()
+    return began, time(), matches.ticks()
 
 
 def machine() -> str:
@@ -87,17 +94,11 @@ def machine() -> str:
     return f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores, {python}"
 
 
-def _full(game: str) -> str:
-    from pigaming_app.games import GAMES
-
-    return GAMES[game].variants[0]
-
-
 def _plain_run(game: str, seed: int) -> float:
     matches = batch(game, seed, 1, False)
     began = perf_counter()
     matches.play(PLAIN_TICKS)
-    return (perf_counter() - began) / PLAIN_TICKS
+    return (perf_counter() - began) / matches.ticks()
 
 
 def _two_processes(game: str) -> float:
@@ -105,7 +106,8 @@ def _two_processes(game: str) -> float:
     with ProcessPoolExecutor(2, get_context("spawn")) as pool:
         start_at = time() + 4.0
         spans = [job.result() for job in [pool.submit(work, game, seed, start_at) for seed in (1, 2)]]
-    return 2 * 2 * MATCHES * TICKS / (max(end for _, end in spans) - min(begin for begin, _ in spans))
+    ticks = sum(ticks for _, _, ticks in spans)
+    return ticks / (max(end for _, end, _ in spans) - min(begin for begin, _, _ in spans))
 
 
 def _frames() -> list[float]:

@@ -133,7 +133,14 @@ def _tell(match: Match, as_json: bool, seconds: float) -> None:
     outcome = match.outcome()
     if as_json:
         rows = [
-            {"seat": row.seat + 1, "place": row.place, "team": row.team, "score": row.score, **row.facts}
+            {
+                "seat": row.seat + 1,
+                "place": row.place,
+                "team": row.team,
+                "score": row.score,
+                **row.facts,
+                "times": row.times,
+            }
             for row in outcome.rows
         ]
         told = {"game": match.setup.game, "arena": match.setup.arena, "winners": [seat + 1 for seat in outcome.winners]}
@@ -142,6 +149,7 @@ def _tell(match: Match, as_json: bool, seconds: float) -> None:
     for row in outcome.rows:
         brain = match.setup.seats[row.seat].brain
         facts = "  ".join(
-            f"{name} {value:.0%}" if name == "aim" else f"{name} {value:g}" for name, value in row.facts.items()
+            f"{name} {value:.0%}" if name == "aim" else f"{name} {round(value, 2):g}"
+            for name, value in row.facts.items()
         )
         print(f"{row.place}.  P{row.seat + 1} {brain:8} {row.score:+4d}   {facts}")

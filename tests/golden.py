@@ -54,14 +54,14 @@ def played(key: str) -> str:
     Random brains, since the hand-written ones may be tuned without any change of the engine.
     """
     game, arena, variant = key.split("/")
-    one, two, three, four = (Seat("random", team) for team in range(4))
-    match = Match(Setup(game, arena, (one, two, three, four), 1.0, SEED, variant))
+    rules = GAMES[game]
+    one, two, three, four = (Seat("random", team) for team in rules.teams)
+    match = Match(Setup(game, arena, (one, two, three, four), 1.0, SEED, variant, rules.default_goal))
     for seat in range(4):
         match.sit(seat, make(game, "random", SEED + seat))
     for _ in range(TICKS):
         match.tick()
     sha = hashlib.sha256(to_bytes(match.state))
-    rules = GAMES[game]
     for seat in range(4):
         view = rules.view()
         rules.see(match.state, seat, rules.eyes(), view)

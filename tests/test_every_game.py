@@ -13,7 +13,7 @@ from pigaming_app.ai import BRAINS, make
 from pigaming_app.ai.rollout import Batch
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.record import digest, numbers
 
@@ -21,9 +21,22 @@ EVERY_ARENA = [(game, arena) for game in GAMES for arena in arenas(game)]
 TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
 
 
-def setup(game, arena="classic", seed=1, variant=None, minutes=0.2, teams=(0, 1, 2, 3)):
-    one, two, three, four = (Seat("random", team) for team in teams)
-    return Setup(game, arena, (one, two, three, four), minutes, seed, variant or GAMES[game].variants[0])
+def setup(game, arena=None, seed=1, variant=None, minutes=0.2, teams=None):
+    """The longest way to the goal, so that time alone ends it."""
+    rules = GAMES[game]
+    one, two, three, four = (Seat("random", team) for team in teams or rules.teams)
+    goal = max(rules.goals, default=0)
+    return Setup(
+        game, arena or arenas(game)[0], (one, two, three, four), minutes, seed, variant or rules.variants[0], goal
+    )
+
+
+def companies():
+    """Every arena, in the teams that its game knows."""
+    for game, arena in EVERY_ARENA:
+        yield game, arena, GAMES[game].teams
+        if GAMES[game].sides != ALONE:
+            yield game, arena, (0, 0, 1, 1)
 
 
 def company(game):
@@ -92,8 +105,7 @@ def test_a_batch_is_the_match_that_people_see(game):
     assert digest(batch.matches[0]) == digest(match.state)
 
 
-@pytest.mark.parametrize("teams", [(0, 1, 2, 3), (0, 0, 1, 1)])
-@pytest.mark.parametrize(("game", "arena"), EVERY_ARENA)
+@pytest.mark.parametrize(("game", "arena", "teams"), companies())
 def test_every_number_of_every_view_is_finite(game, arena, teams):
     match = Match(setup(game, arena, teams=teams))
     for seat in range(4):
