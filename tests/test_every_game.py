@@ -105,7 +105,7 @@ def test_a_batch_is_the_match_that_people_see(game):
     assert digest(batch.matches[0]) == digest(match.state)
 
 
-@pytest.mark.parametrize(("game", "arena", "teams"), companies())
+@pytest.mark.parametrize(("game", "arena", "teams"), list(companies()))
 def test_every_number_of_every_view_is_finite(game, arena, teams):
     match = Match(setup(game, arena, teams=teams))
     for seat in range(4):

@@ -64,14 +64,14 @@ class Countdown:
             show(screen, arcs(self.number))
 
 
-def signs(go: str, end: str) -> Iterator[Sprite]:
+def signs(go: str, *ends: str) -> Iterator[Sprite]:
     """Every sign of a match, made one at a time, in the order in which they are shown."""
     for number in (3, 2, 1):
         yield arcs(number)
         yield from (popped(str(number), ICE, pop) for pop in range(POPS))
     yield from (popped(go, FOCUS, pop) for pop in range(POPS))
     yield from (popped(go, FOCUS, POPS - 1, level) for level in range(LEVELS - 1, 0, -1))
-    yield from (popped(end, ALARM, pop) for pop in range(POPS))
+    yield from (popped(end, ALARM, pop) for end in ends for pop in range(POPS))
 
 
 @lru_cache(maxsize=48)

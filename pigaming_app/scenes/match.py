@@ -42,7 +42,7 @@ class MatchScene:
         self.match = seated(setup)
         self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
-        self.signs = signs(house.words("match.go"), house.words("match.time"))
+        self.signs = signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish")[: 3 if setup.goal else 2]))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
         self.notice: Plate | None = None
@@ -99,7 +99,8 @@ class MatchScene:
         words = self.house.words
         if self.match.over and not self.stopped:
             pop = min(4, int(self.frozen / 0.04))
-            show(screen, popped(words("match.time"), ALARM, pop))
+            ending = "time" if self.match.seconds_left <= 0.0 else "finish"
+            show(screen, popped(words(f"match.{ending}"), ALARM, pop))
         elif self.count.shown:
             if self.count.locked:
                 self.stage.captions(screen, self.devices)
