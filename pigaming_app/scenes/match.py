@@ -42,7 +42,7 @@ class MatchScene:
         self.match = seated(setup)
         self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
-        self.signs = signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish")[: 3 if setup.goal else 2]))
+        self.signs = signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish")))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
         self.notice: Plate | None = None
