@@ -55,6 +55,8 @@ def check_teams(rules: Game, playing: Sequence[int]) -> None:
     """Whether these teams of the robots that play can play. Raises ChoiceError."""
     if len(playing) < 2:
         raise ChoiceError("at least two seats must be taken")
+    if not {*playing} <= {*range(ROBOTS)}:
+        raise ChoiceError(f"teams are numbers from 0 to {ROBOTS - 1}")
     if len(set(playing)) < 2:
         raise ChoiceError("there must be at least two teams")
     if rules.sides == ALONE and len(set(playing)) < len(playing):

@@ -15,6 +15,7 @@ from typing import Any
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import parse
+from pigaming_app.games.choices import check_teams
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import STEPS, press
@@ -144,7 +145,14 @@ def _setup(table: Mapping[str, Any]) -> Setup:
     if len(seats) != ROBOTS:
         raise ValueError("seats")
     one, two, three, four = seats
-    game, minutes, variant = str(table["game"]), float(table["minutes"]), str(table["variant"])
-    if variant not in GAMES[game].variants or not 0 < minutes <= 60:
+    game, minutes, variant, goal = (
+        str(table["game"]),
+        float(table["minutes"]),
+        str(table["variant"]),
+        int(table["goal"]),
+    )
+    rules = GAMES[game]
+    if variant not in rules.variants or not 0 < minutes <= 60 or goal not in (*rules.goals, rules.default_goal):
         raise ValueError("setup")
-    return Setup(game, str(table["arena"]), (one, two, three, four), minutes, int(table["seed"]), variant)
+    check_teams(rules, [seat.team for seat in seats if seat.brain != "off"])
+    return Setup(game, str(table["arena"]), (one, two, three, four), minutes, int(table["seed"]), variant, goal)

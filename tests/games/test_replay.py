@@ -199,6 +199,11 @@ SETUPS = {
     "three seats": {"seats": [{"brain": "random", "team": i} for i in range(3)]},
     "seats are numbers": {"seats": [1, 2, 3, 4]},
     "team is nothing": {"seats": [{"brain": "random", "team": None}] * 4},
+    "team beyond all numbers": {"seats": [{"brain": "random", "team": i * 10**30} for i in range(4)]},
+    "all in one team": {"seats": [{"brain": "random", "team": 1}] * 4},
+    "nobody": {"seats": [{"brain": "off", "team": i} for i in range(4)]},
+    "a goal that the game has not": {"goal": 3},
+    "goal is a text": {"goal": "all"},
 }
 
 
