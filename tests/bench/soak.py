@@ -1,78 +1,112 @@
 """A day in the simulator: `python -m tests.bench.soak [HOURS]`. Exit code 1 where an invariant breaks.
 
-Every simulated second of every match: no number is NaN, nobody stands in a wall, scores sum to zero in free-for-all, no
-robot has more bullets than it may. Then 10,000 plain-record matches are made and played briefly: memory stays flat.
+The hours are shared among the games, and every simulated second of every match is looked at: no number is NaN, nobody
+stands in a wall, and what the game itself promises holds. Then 10,000 plain matches are made and played briefly: memory
+stays flat.
 """
 
 import resource
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.rollout import Batch
+from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
+from pigaming_app.games.factory.state import IN_SLOT
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.pitanks.state import OWN_BULLETS, PiTanks
+from pigaming_app.games.pitanks.state import OWN_BULLETS
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.record import unpack
 from pigaming_app.sim.world import HZ, ROBOTS
 
-GAME = "pitanks"
 BRAIN = ("hard", "random", "normal", "random")
 ABREAST = 24  # matches at once
+SECONDS = 120
 
 
 def main(hours: float) -> int:
     """Run both soaks; the exit code."""
-    wrong = [trouble for seconds in day(hours) for trouble in seconds]
+    wrong = [trouble for game in GAMES for seconds in day(game, hours / len(GAMES)) for trouble in seconds]
     print(f"{hours:g} simulated hours: {len(wrong)} broken invariants", *wrong[:5], sep="\n  ")
     grown = memory()
     print(f"10,000 matches: memory grew by {grown:.1f} MB")
     return int(bool(wrong) or grown > 8.0)
 
 
-def day(hours: float) -> Iterator[list[str]]:
+def setup(game: str, arena: str, seed: int) -> Setup:
+    """The longest way to the goal."""
+    rules = GAMES[game]
+    one, two, three, four = (Seat(name, team) for name, team in zip(BRAIN, rules.teams, strict=True))
+    goal = max(rules.goals, default=0)
+    return Setup(game, arena, (one, two, three, four), 2.0, seed, rules.variants[0], goal)
+
+
+def day(game: str, hours: float) -> Iterator[list[str]]:
     """What is wrong after each simulated second, over all arenas."""
     seed, left = 1, hours * 3600.0
     while left > 0.0:
-        for arena in arenas(GAME):
-            one, two, three, four = (Seat(name, i) for i, name in enumerate(BRAIN))
-            setups = [Setup(GAME, arena, (one, two, three, four), 2.0, seed + i, "pickups") for i in range(ABREAST)]
-            batch = Batch(setups, [BRAINS[GAME][name] for name in BRAIN], True)
-            for _ in range(120):
+        for arena in arenas(game):
+            setups = [setup(game, arena, seed + i) for i in range(ABREAST)]
+            batch = Batch(setups, [BRAINS[game][name] for name in BRAIN], True)
+            for _ in range(SECONDS):
                 batch.play(HZ)
-                yield broken(batch.matches)
+                yield [f"{game}, {arena}: {trouble}" for trouble in broken(game, batch)]
             seed += ABREAST
-            left -= ABREAST * 120.0
+            left -= ABREAST * SECONDS
 
 
-def broken(matches: Any) -> list[str]:
+def broken(game: str, batch: Batch) -> list[str]:
     """The invariants that do not hold now."""
-    robots, bullets = matches["robots"], matches["bullets"]
-    wrong = []
-    for field in ("x", "y", "heading", "linear", "angular", "turbo"):
-        if not np.isfinite(robots[field]).all():
-            wrong.append(f"{field} is not a number")
-    if robots["score"].sum(axis=1).any():
-        wrong.append("scores do not sum to zero")
-    alive = bullets["alive"].reshape(len(matches), ROBOTS, OWN_BULLETS).sum(axis=2)
-    if (alive > matches["rules"]["boosted_alive"][:, None]).any():
-        wrong.append("too many bullets")
-    state = unpack(PiTanks, matches[matches["tick"][0] // HZ % len(matches)])
+    robots = batch.matches["robots"]
+    wrong = [
+        f"{field} is not a number"
+        for field in ("x", "y", "heading", "linear", "angular", "turbo")
+        if not np.isfinite(robots[field]).all()
+    ]
+    state = unpack(batch.state, batch.matches[batch.matches["tick"][0] // HZ % len(batch.matches)])
     wrong += [f"robot {i} stands in a wall" for i, r in enumerate(state.robots) if in_wall(state, r.x, r.y)]
-    return wrong
+    return wrong + PROMISES[game](batch.matches)
+
+
+def pitanks(matches: Any) -> list[str]:
+    """Scores sum to zero; nobody has more bullets than the rules allow."""
+    wrong = ["scores do not sum to zero"] if matches["robots"]["score"].sum(axis=1).any() else []
+    alive = matches["bullets"]["alive"].reshape(len(matches), ROBOTS, OWN_BULLETS).sum(axis=2)
+    return wrong + (["too many bullets"] if (alive > matches["rules"]["boosted_alive"][:, None]).any() else [])
+
+
+def race(matches: Any) -> list[str]:
+    """Every rank is there once; laps counted are lines crossed."""
+    ranks = np.sort(matches["racers"]["rank"], axis=1)
+    wrong = [] if (ranks == np.arange(1, ROBOTS + 1)).all() else ["two robots share a rank"]
+    laps = np.maximum(0, matches["racers"]["passed"] - 1) // ROBOTS
+    return wrong + ([] if (laps == matches["robots"]["score"]).all() else ["a lap without its lines"])
+
+
+def factory(matches: Any) -> list[str]:
+    """No slot holds two pallets; every slot that holds one is where that pallet is."""
+    pallets, slots = matches["pallets"], matches["slots"]
+    lying = (pallets["exists"] > 0) & (pallets["place"] == IN_SLOT)
+    wrong = [] if (lying.sum(axis=1) == (slots["pallet"] > 0).sum(axis=1)).all() else ["a pallet lost or doubled"]
+    rows, which = np.nonzero(lying)
+    there = slots["pallet"][rows, pallets["at"][rows, which]]
+    return wrong + ([] if (there == which + 1).all() else ["a pallet in two places"])
+
+
+PROMISES: dict[str, Callable[[Any], list[str]]] = {"pitanks": pitanks, "race": race, "factory": factory}
 
 
 def memory() -> float:
     """MB by which the process grew while the last 9,000 of 10,000 short plain matches were played."""
-    one, two, three, four = (Seat(name, i) for i, name in enumerate(BRAIN))
-    kinds = [BRAINS[GAME][name] for name in BRAIN]
     first = 0
+    games = list(GAMES)
     for i in range(10_000):
-        Batch([Setup(GAME, "classic", (one, two, three, four), 2.0, i, "pickups")], kinds, False).play(5)
+        game = games[i % len(games)]
+        Batch([setup(game, arenas(game)[0], i)], [BRAINS[game][name] for name in BRAIN], False).play(5)
         if i == 1000:
             first = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - first) / 1024.0
