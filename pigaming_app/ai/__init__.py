@@ -15,6 +15,10 @@ BRAINS: dict[str, dict[str, Kind]] = {
         "hard": fsm.HARD,
         "fsm": fsm.FSM,
     },
+    "race": {
+        "idle": simple.IDLE,
+        "random": simple.RANDOM,
+    },
 }
 
 STRENGTHS = ("easy", "normal", "hard")

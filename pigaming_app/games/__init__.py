@@ -2,5 +2,6 @@
 
 from pigaming_app.games.game import Game
 from pigaming_app.games.pitanks import PITANKS
+from pigaming_app.games.race import RACE
 
-GAMES: dict[str, Game] = {"pitanks": PITANKS}
+GAMES: dict[str, Game] = {"pitanks": PITANKS, "race": RACE}

@@ -2,11 +2,14 @@
 
 The line is a ring of points, equally far apart. For each node of the grid (see `grid`) the course knows which of its
 points is nearest, and which point of another stretch of it is near as well, so that asking where a robot is takes a few
-steps whatever it did before: nothing is remembered, and nothing can slip.
+steps whatever it did before: nothing is remembered, and nothing can slip. How a course is made: see `circuit`.
 """
 
-from typing import Annotated
+from math import sqrt
+from typing import Annotated, Any
 
+from pigaming_app.sim.grid import node_at
+from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import NODES_KEPT
 
@@ -37,3 +40,122 @@ class Place:
     on: int  # 1: its centre is on the course
     tangent_x: float  # the way of the course there, of length 1
     tangent_y: float
+
+
+@kernel
+def locate(course: Any, x: float, y: float, place: Any) -> None:
+    """Find the place of (x, y): on the stretch it is on, else on the one whose edge is nearest."""
+    node = node_at(x, y)
+    k, share, gap = foot(course, x, y, climb(course, x, y, course.near[node]))
+    half = half_at(course, k, share)
+    second = course.other[node]
+    if second >= 0:
+        k2, share2, gap2 = foot(course, x, y, climb(course, x, y, second))
+        half2 = half_at(course, k2, share2)
+        if gap2 - half2 < gap - half:
+            k, share, gap, half = k2, share2, gap2, half2
+    after = k + 1 if k + 1 < course.count else 0
+    ex, ey = course.xs[after] - course.xs[k], course.ys[after] - course.ys[k]
+    way = sqrt(ex * ex + ey * ey)
+    place.tangent_x, place.tangent_y = ex / way, ey / way
+    right = ex * (y - course.ys[k]) - ey * (x - course.xs[k])
+    place.aside = gap if right >= 0.0 else -gap
+    place.along = (k + share) * course.step
+    if place.along >= course.length:
+        place.along = 0.0
+    place.half = half
+    place.on = 1 if gap <= half else 0
+
+
+@kernel
+def climb(course: Any, x: float, y: float, k: int) -> int:
+    """From point k on to the nearest to (x, y) that is reached by coming nearer with every step."""
+    last = course.count - 1
+    dx, dy = course.xs[k] - x, course.ys[k] - y
+    least = dx * dx + dy * dy
+    moved = 0
+    while True:
+        after = k + 1 if k < last else 0
+        dx, dy = course.xs[after] - x, course.ys[after] - y
+        gap = dx * dx + dy * dy
+        if gap >= least:
+            break
+        k, least, moved = after, gap, 1
+    while not moved:
+        before = k - 1 if k > 0 else last
+        dx, dy = course.xs[before] - x, course.ys[before] - y
+        gap = dx * dx + dy * dy
+        if gap >= least:
+            break
+        k, least = before, gap
+    return k
+
+
+@kernel
+def foot(course: Any, x: float, y: float, k: int) -> tuple[int, float, float]:
+    """The nearest point on the two legs that meet at point k: the leg, the share of it, and the distance in px."""
+    last = course.count - 1
+    before, after = k - 1 if k > 0 else last, k + 1 if k < last else 0
+    share, gap = on_leg(course, x, y, k, after)
+    share2, gap2 = on_leg(course, x, y, before, k)
+    if gap2 < gap:
+        return before, share2, sqrt(gap2)
+    return k, share, sqrt(gap)
+
+
+@kernel
+def on_leg(course: Any, x: float, y: float, a: int, b: int) -> tuple[float, float]:
+    """The share of the leg from point a to b that is nearest to (x, y), and the square of the distance."""
+    ax, ay = course.xs[a], course.ys[a]
+    ex, ey = course.xs[b] - ax, course.ys[b] - ay
+    dx, dy = x - ax, y - ay
+    share = (dx * ex + dy * ey) / (ex * ex + ey * ey)
+    if share < 0.0:
+        share = 0.0
+    elif share > 1.0:
+        share = 1.0
+    dx -= share * ex
+    dy -= share * ey
+    return share, dx * dx + dy * dy
+
+
+@kernel
+def half_at(course: Any, k: int, share: float) -> float:
+    """Half the width at a share of the leg from point k."""
+    after = k + 1 if k + 1 < course.count else 0
+    half: float = course.half[k] + share * (course.half[after] - course.half[k])
+    return half
+
+
+@kernel
+def leg(course: Any, along: float) -> tuple[int, float]:
+    """The leg on which a place lies, by its first point, and the share of it; `along` in px, at most a lap out."""
+    if along < 0.0:
+        along += course.length
+    elif along >= course.length:
+        along -= course.length
+    steps = along / course.step
+    k = int(steps)
+    if k >= course.count:
+        return 0, 0.0
+    return k, steps - k
+
+
+@kernel
+def spot(course: Any, along: float, aside: float) -> tuple[float, float]:
+    """The point so many px along the course, and so many to the right of its line."""
+    k, share = leg(course, along)
+    after = k + 1 if k + 1 < course.count else 0
+    ax, ay = course.xs[k], course.ys[k]
+    ex, ey = course.xs[after] - ax, course.ys[after] - ay
+    across = aside / sqrt(ex * ex + ey * ey)
+    return ax + share * ex - across * ey, ay + share * ey + across * ex
+
+
+@kernel
+def way_round(course: Any, start: float, end: float) -> float:
+    """The px from one place along the course to another, forwards, in [0, length)."""
+    way = end - start
+    if way < 0.0:
+        way += course.length
+    return 0.0 if way >= course.length else way

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pigaming_app.sim.course import Course, Place
+from pigaming_app.sim.course import POINTS, Course, Place
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import ROBOTS, World
 
@@ -23,6 +23,7 @@ class Rules:
     turbo_drain: float  # of the meter, per tick
     turbo_refill: float
     patience: int  # for which the others race on after the first has finished
+    roll_on: int  # for which whoever has finished may still drive, so as not to stand in the way
     carried: float  # px in a tick: a robot that moved further was carried, and has crossed nothing
 
 
@@ -45,6 +46,7 @@ class Racer:
     last_x: float  # where it was on the tick before
     last_y: float
     passed: int  # lines crossed in order, its own first; 1 + 4 * laps: finished
+    back: int  # lines that it has gone back over since: crossing these again is no news
     missed: int  # 1 + the line that it must go back to, since it has crossed a later one; 0: none
     void: int  # laps that did not count: its own line crossed while another was missing
     wrong: int  # ticks for which it has been driving the wrong way
@@ -71,5 +73,5 @@ class Race(World):
     lines: Annotated[list[Line], LINES]
     racers: Annotated[list[Racer], ROBOTS]
     first: int  # the tick on which the first finished; 0: nobody has
-    ideal: Annotated[list[float], 320]  # px that the fastest line lies aside of each point of the course
-    pace: Annotated[list[float], 320]  # speed there, as a share of full speed
+    ideal: Annotated[list[float], POINTS]  # px that the fastest line lies aside of each point of the course
+    pace: Annotated[list[float], POINTS]  # speed there, as a share of full speed

@@ -1,0 +1,133 @@
+"""Robot Race: how a race begins, with the numbers of its rules, and what it counts in the end.
+
+What a track's file holds besides its title:
+
+[track]
+lines = [0.2, 0.46, 0.71, 0.97]  # the four lines, in the order of the players, as shares of the way round
+
+[[corner]]               # of the centre line, in driving order; the way round begins where the first one's arc does
+at = [112, 116]          # px
+radius = 215             # px, of the arc that rounds it
+width = 200              # px, of the course
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import atan2, tau
+
+from pigaming_app.games.game import Setup
+from pigaming_app.games.race.state import LINES, MOST_LAPS, Line, Race, Rules
+from pigaming_app.sim.arena import Arena, Layout, Start, build
+from pigaming_app.sim.chance import seeded
+from pigaming_app.sim.circuit import read_course
+from pigaming_app.sim.course import POINTS, Course, half_at, leg, locate, spot
+from pigaming_app.sim.record import copy
+from pigaming_app.sim.table import Table
+from pigaming_app.sim.world import DT, HZ
+
+LAPS = 3  # if nobody says otherwise
+GOALS = tuple(range(1, MOST_LAPS + 1))
+BEHIND = 55.0  # px between a robot's start and its line
+APART = 300.0  # px that must lie between two lines
+
+
+@dataclass(frozen=True)
+class Track:
+    """What a track is besides its title: its course, its lines in px along it, and the fastest line round it."""
+
+    course: Course
+    lines: tuple[float, ...]
+    ideal: tuple[float, ...]  # for each point of the course, px aside of it
+    pace: tuple[float, ...]  # speed there, as a share of full speed
+
+
+def read(table: Table) -> Layout:
+    """A track is a course and four lines. Raises Wrong."""
+    table.only("title", "track", "corner")
+    course = read_course(table)
+    lines = _lines(table.table("track"), course)
+    starts = tuple(_start(course, along) for along in lines)
+    return Layout((), starts, Track(course, lines, (0.0,) * POINTS, (1.0,) * POINTS))
+
+
+def _lines(table: Table, course: Course) -> tuple[float, ...]:
+    """Where along the course the lines lie, in px. Raises Wrong."""
+    table.only("lines")
+    shares = table.numbers("lines", LINES, 0.0, 1.0)
+    gaps = [(shares[(i + 1) % LINES] - shares[i]) % 1.0 for i in range(LINES)]
+    if 1.0 in shares:
+        raise table.wrong("lines", "1 is the same place as 0, write 0")
+    if abs(sum(gaps) - 1.0) > 1e-9:
+        raise table.wrong("lines", "must lie in the order of the way round")
+    for i, gap in enumerate(gaps):
+        if gap * course.length < APART:
+            reason = f"{gap * course.length:.0f} px to the next, but at least {APART:g} px are needed"
+            raise table.wrong(f"lines[{i + 1}]", reason)
+    return tuple(share * course.length for share in shares)
+
+
+def _start(course: Course, line: float) -> Start:
+    """Where the robot of a line begins: behind it, heading along the course."""
+    k, _ = leg(course, line - BEHIND)
+    x, y = spot(course, line - BEHIND, 0.0)
+    after = (k + 1) % POINTS
+    return Start(x, y, atan2(course.ys[after] - course.ys[k], course.xs[after] - course.xs[k]) % tau)
+
+
+def start(match: Race, arena: Arena, setup: Setup) -> None:
+    """Fill a fresh match: course, lines, robots on their starts, rules, chance."""
+    build(match, arena)
+    track: Track = arena.plan
+    match.course = copy(track.course)
+    match.ideal[:], match.pace[:] = track.ideal, track.pace
+    match.random = seeded(setup.seed)
+    set_rules(match.rules, setup)
+    for line, along in zip(match.lines, track.lines, strict=True):
+        _draw(line, match.course, along)
+    for i, (robot, racer, seat) in enumerate(zip(match.robots, match.racers, setup.seats, strict=True)):
+        robot.present, robot.team = int(seat.brain != "off"), seat.team
+        racer.last_x, racer.last_y, racer.rank = robot.x, robot.y, i + 1
+        racer.progress = -BEHIND
+        locate(match.course, robot.x, robot.y, racer.place)
+
+
+def _draw(line: Line, course: Course, along: float) -> None:
+    """A line across the course, from edge to edge."""
+    half = half_at(course, *leg(course, along))
+    line.along = along
+    line.ax, line.ay = spot(course, along, -half)
+    line.bx, line.by = spot(course, along, half)
+
+
+def set_rules(rules: Rules, setup: Setup) -> None:
+    """The numbers of DESIGN.md's rules."""
+    rules.ticks = round(setup.minutes * 60 * HZ)
+    rules.laps = setup.goal or LAPS
+    rules.speed, rules.turn_rate, rules.mud = 325.0, 3.0, 1.0 / 3.0
+    rules.turbo_factor, rules.turbo_drain, rules.turbo_refill = 1.3, 1.0 / (2 * HZ), 1.0 / (4 * HZ)
+    rules.patience, rules.roll_on = 30 * HZ, round(1.5 * HZ)
+    rules.carried = 40.0
+
+
+def standing(match: Race, seat: int) -> float:
+    """Who has finished is before who has not, and earlier is better; else what counts is how far one came."""
+    racer = match.racers[seat]
+    return 1e9 - racer.finish if racer.finished else racer.progress
+
+
+def facts(match: Race, seat: int) -> Mapping[str, float]:
+    """What one seat drove: laps, its best lap and the whole race in s, 0 where there is none."""
+    racer = match.racers[seat]
+    return {"laps": match.robots[seat].score, "best": racer.best_lap * DT, "total": racer.finish * DT}
+
+
+def feat(match: Race, seat: int) -> Mapping[str, int]:
+    """The best lap, and the race if it was finished, in ms."""
+    racer = match.racers[seat]
+    done = {"lap": racer.best_lap, "race": racer.finish}
+    return {name: round(1000 * DT * ticks) for name, ticks in done.items() if ticks > 0.0}
+
+
+def times(match: Race, seat: int) -> tuple[float, ...]:
+    """The laps, in s."""
+    return tuple(lap * DT for lap in match.racers[seat].laps[: match.robots[seat].score])
