@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from math import atan2, tau
 
 from pigaming_app.games.game import Setup
+from pigaming_app.games.race.ideal import fastest
 from pigaming_app.games.race.state import LINES, MOST_LAPS, Line, Race, Rules
 from pigaming_app.sim.arena import Arena, Layout, Start, build
 from pigaming_app.sim.chance import seeded
@@ -33,12 +34,10 @@ APART = 300.0  # px that must lie between two lines
 
 @dataclass(frozen=True)
 class Track:
-    """What a track is besides its title: its course, its lines in px along it, and the fastest line round it."""
+    """What a track is besides its title: its course, and its lines in px along it."""
 
     course: Course
     lines: tuple[float, ...]
-    ideal: tuple[float, ...]  # for each point of the course, px aside of it
-    pace: tuple[float, ...]  # speed there, as a share of full speed
 
 
 def read(table: Table) -> Layout:
@@ -47,7 +46,7 @@ def read(table: Table) -> Layout:
     course = read_course(table)
     lines = _lines(table.table("track"), course)
     starts = tuple(_start(course, along) for along in lines)
-    return Layout((), starts, Track(course, lines, (0.0,) * POINTS, (1.0,) * POINTS))
+    return Layout((), starts, Track(course, lines))
 
 
 def _lines(table: Table, course: Course) -> tuple[float, ...]:
@@ -79,9 +78,9 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     build(match, arena)
     track: Track = arena.plan
     match.course = copy(track.course)
-    match.ideal[:], match.pace[:] = track.ideal, track.pace
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
+    match.ideal[:], match.pace[:] = fastest(track.course, match.rules.speed, match.rules.turn_rate)
     for line, along in zip(match.lines, track.lines, strict=True):
         _draw(line, match.course, along)
     for i, (robot, racer, seat) in enumerate(zip(match.robots, match.racers, setup.seats, strict=True)):

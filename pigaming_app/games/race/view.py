@@ -14,7 +14,8 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.world import ROBOTS
 
 OTHERS = ROBOTS - 1
-MARKS = 4
+BACK = 160.0  # px at a time that lead back to a missed line
+RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 
 @record
@@ -22,16 +23,18 @@ class Eyes:
     """What shapes the view of one seat."""
 
     delay: float  # s by which others are seen late
+    look: float  # px along the course to what it drives for
     place: Place  # for working things out
 
 
 @record
 class Mark:
-    """A point of the fastest line, so many tenths of a second ahead at full speed."""
+    """A point of the fastest line."""
 
-    bearing: float
-    distance: float
-    pace: float  # speed there, as a share of full speed
+    x: float
+    y: float
+    right_x: float  # of length 1, across the course to the right
+    right_y: float
     ideal: float  # px aside of the centre line
     half: float  # px from the centre line to the edges
 
@@ -70,12 +73,16 @@ class View:
     half: float
     on: int
     lean: float  # heading, relative to the way of the course
-    ideal: float  # where the fastest line is, px aside of the centre line
+    ideal: float  # where the fastest line is here, px aside of the centre line
+    pace: float  # least speed of that line from here to what it drives for, as a share of full speed
     left: float  # px to the finish
     overshot: float  # px by which it is past a line that it has not crossed, 0: none
+    return_x: float  # where to drive to get back before that line
+    return_y: float
     rank: int
     finished: int
-    marks: Annotated[list[Mark], MARKS]
+    ahead: Mark  # as far ahead as the eyes look
+    beyond: Mark  # twice as far
     others: Annotated[list[Other], OTHERS]
 
 
@@ -85,34 +92,66 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     course, place = match.course, eyes.place
     locate(course, robot.x, robot.y, place)
+    along = place.along
     view.x, view.y, view.heading = robot.x, robot.y, robot.heading
     view.linear, view.angular = robot.linear, robot.angular
     view.speed, view.turn_rate = rules.speed, rules.turn_rate
     view.turbo, view.boosting = robot.turbo, robot.boosting
-    view.along, view.aside = place.along / course.length, place.aside
+    view.along, view.aside = along / course.length, place.aside
     view.half, view.on = place.half, place.on
     view.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
-    k, _ = leg(course, place.along)
-    view.ideal = match.ideal[k]
     view.left = rules.laps * course.length - racer.progress
-    view.overshot = overshot(match, seat, place.along)
     view.rank, view.finished = racer.rank, racer.finished
-    for i in range(MARKS):
-        see_mark(match, robot, place.along + (i + 1) * 0.1 * rules.speed, view.marks[i])
-    along = place.along
+    see_way(match, along, eyes.look, view)
+    see_overshot(match, seat, along, view)
     for i in range(OTHERS):
         see_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
 
 
 @kernel
-def see_mark(match: Any, robot: Any, along: float, mark: Any) -> None:
-    """A point of the fastest line."""
+def see_way(match: Any, along: float, look: float, view: Any) -> None:
+    """The fastest line from here on."""
     k, _ = leg(match.course, along)
-    mark.pace, mark.ideal, mark.half = match.pace[k], match.ideal[k], match.course.half[k]
-    x, y = spot(match.course, along, mark.ideal)
-    dx, dy = x - robot.x, y - robot.y
-    mark.distance = sqrt(dx * dx + dy * dy)
-    mark.bearing = turn_to(atan2(dy, dx) - robot.heading)
+    view.ideal, view.pace = match.ideal[k], match.pace[k]
+    for i in range(k + 1, k + 1 + int(look / match.course.step)):
+        pace = match.pace[i % match.course.count]
+        if pace < view.pace:
+            view.pace = pace
+    see_mark(match, along + look, view.ahead)
+    see_mark(match, along + 2.0 * look, view.beyond)
+
+
+@kernel
+def see_mark(match: Any, along: float, mark: Any) -> None:
+    """A point of the fastest line."""
+    course = match.course
+    k, share = leg(course, along)
+    after = k + 1 if k + 1 < course.count else 0
+    ax, ay = course.xs[k], course.ys[k]
+    ex, ey = course.xs[after] - ax, course.ys[after] - ay
+    way = sqrt(ex * ex + ey * ey)
+    mark.right_x, mark.right_y = -ey / way, ex / way
+    mark.ideal = match.ideal[k] + share * (match.ideal[after] - match.ideal[k])
+    mark.half = course.half[k]
+    mark.x = ax + share * ex + mark.ideal * mark.right_x
+    mark.y = ay + share * ey + mark.ideal * mark.right_y
+
+
+@kernel
+def see_overshot(match: Any, seat: int, along: float, view: Any) -> None:
+    """Whether the robot is past the line that it must cross next, and where to go then."""
+    racer, course = match.racers[seat], match.course
+    view.overshot, view.return_x, view.return_y = 0.0, 0.0, 0.0
+    if racer.finished:
+        return
+    behind = racer.passed - 1 - racer.back
+    here = match.lines[(seat + behind) % ROBOTS].along
+    ahead = match.lines[(seat + behind + 1) % ROBOTS].along
+    gap, way = way_round(course, here, ahead), way_round(course, here, along)
+    if way > gap and (racer.missed or way - gap < course.length - way):
+        view.overshot = way - gap
+        back = view.overshot + RUN_UP
+        view.return_x, view.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
 
 
 @kernel
@@ -134,18 +173,3 @@ def see_other(match: Any, robot: Any, j: int, along: float, eyes: Any, other: An
     other.speed = vx * place.tangent_x + vy * place.tangent_y
     other.sideways = vy * place.tangent_x - vx * place.tangent_y
     other.finished = match.racers[j].finished
-
-
-@kernel
-def overshot(match: Any, seat: int, along: float) -> float:
-    """The px by which a robot is past the line that it must cross next."""
-    racer = match.racers[seat]
-    if racer.finished:
-        return 0.0
-    behind = racer.passed - 1 - racer.back
-    here = match.lines[(seat + behind) % ROBOTS].along
-    ahead = match.lines[(seat + behind + 1) % ROBOTS].along
-    gap, way = way_round(match.course, here, ahead), way_round(match.course, here, along)
-    if way > gap and (racer.missed or way - gap < match.course.length - way):
-        return way - gap
-    return 0.0
