@@ -1,0 +1,238 @@
+"""The hand-written driver of Robot Race.
+
+It drives for a point ahead on the fastest line (pure pursuit), shifted aside where another robot is in the way, as fast
+as the line allows; turbo goes where the way is straight. Held up it backs out; past a line that it has not crossed it
+goes back to before it.
+
+The strengths differ in speed, in how much of the fastest line they use and how steadily they keep it, in turbo, and in
+how late they see others.
+"""
+
+from math import atan2, pi, sin, sqrt
+from typing import Any
+
+from pigaming_app.ai.brain import Kind
+from pigaming_app.games.race.view import OTHERS, Eyes, View, see
+from pigaming_app.sim.action import press
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.chance import chance, seeded
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.robots import LAG, RADIUS
+
+PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
+LANES = 9  # ways to pass that are thought of, from one edge to the other
+CLEAR = 2.0 * RADIUS + 8.0  # px between the middles of two robots that pass each other
+EDGE = 5.0  # px that a lane keeps from the edge
+NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
+HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
+HELD_UP_TICKS = 40
+FREEING = 20  # ticks of backing out, one way or the other
+
+RACE, BREAK_FREE = range(2)
+
+
+@record
+class RacerMind:
+    """What the driver remembers."""
+
+    eyes: Eyes
+    sight: View  # numba takes no field named view
+    speed: float  # share of full speed that it dares
+    line: float  # share of the way from the middle of the course to the fastest line that it uses
+    spread: float  # px, how far it strays from the line that it means
+    boost: float  # least share of the turbo meter with which it starts turbo; above 1: never
+    random: int
+    state: int
+    since: int  # ticks in this state
+    stray: float  # px, the present error of its line
+    stray_left: int
+    lane: float  # px aside of the middle, where it wants to be
+    anchor_x: float  # where it was when it last got anywhere
+    anchor_y: float
+    held_up: int  # ticks since
+    escape: float  # the stick while it breaks free
+    escape_turn: float
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any) -> None:
+    """Look and decide every PERIOD ticks; in between the stick stays as it is."""
+    if (match.tick + seat) % PERIOD:
+        return
+    see(match, seat, mind.eyes, mind.sight)
+    act(mind.sight, mind, match.actions[seat])
+
+
+@kernel
+def act(view: Any, mind: Any, action: Any) -> None:
+    """Remember, choose the state, let the state act."""
+    mind.since += PERIOD
+    err(mind)
+    feel_held_up(view, mind, action)
+    after = break_free(view, mind, action) if mind.state == BREAK_FREE else race(view, mind, action)
+    if after != mind.state:
+        mind.state, mind.since = after, 0
+
+
+# ------------------------------------------------------------------------------------------------------------- states
+
+
+@kernel
+def race(view: Any, mind: Any, action: Any) -> int:
+    """Drive the line, or back to a line that was missed."""
+    if view.overshot > 0.0:
+        go_back(view, action)
+        return RACE
+    mark = view.ahead
+    choose_lane(view, mind)
+    room = mark.half - EDGE
+    lane = mind.lane + mind.stray
+    lane = room if lane > room else -room if lane < -room else lane
+    x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
+    pursue(view, mind, action, x, y)
+    return RACE
+
+
+@kernel
+def break_free(view: Any, mind: Any, action: Any) -> int:
+    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
+    press(action, mind.escape, mind.escape_turn, 0, 0)
+    if mind.since < FREEING:
+        return BREAK_FREE
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
+        return BREAK_FREE
+    mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+    return RACE
+
+
+# ------------------------------------------------------------------------------------------------------- what they use
+
+
+@kernel
+def err(mind: Any) -> None:
+    """Draw the error of the line anew now and then: the sum of three even draws is near enough to a bell."""
+    mind.stray_left -= PERIOD
+    if mind.stray_left <= 0:
+        mind.stray_left = NEW_ERROR
+        mind.stray = 2.0 * mind.spread * (chance(mind) + chance(mind) + chance(mind) - 1.5)
+
+
+@kernel
+def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+    """Notice that it wants to move and gets nowhere."""
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if mind.state == BREAK_FREE:
+        return
+    if dx * dx + dy * dy > HELD_UP * HELD_UP or (action.linear == 0.0 and action.angular == 0.0):
+        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+        return
+    mind.held_up += PERIOD
+    if mind.held_up > HELD_UP_TICKS:
+        mind.state, mind.since = BREAK_FREE, 0
+        back = -1.0 if action.linear >= 0.0 else 1.0
+        mind.escape = back if chance(mind) < 0.75 else -back  # the way back may be blocked too
+        mind.escape_turn = 2.0 * chance(mind) - 1.0
+
+
+@kernel
+def choose_lane(view: Any, mind: Any) -> None:
+    """The lane nearest to the own line, and to where it is, on which nobody is in the way."""
+    mark = view.ahead
+    wanted = mind.line * mark.ideal
+    best, least = wanted, blocked(view, wanted)
+    if least > 0.0:
+        room = mark.half - EDGE
+        for i in range(LANES):
+            lane = room * (2.0 * i / (LANES - 1) - 1.0)
+            cost = blocked(view, lane) + 0.2 * abs(lane - wanted) + 0.3 * abs(lane - view.aside)
+            if cost < least:
+                best, least = lane, cost
+    mind.lane = best
+
+
+@kernel
+def blocked(view: Any, lane: float) -> float:
+    """How much others are in the way of one who moves over to a lane; 0: not at all."""
+    cost = 0.0
+    for i in range(OTHERS):
+        other = view.others[i]
+        if not other.present or other.ahead < -CLEAR or other.ahead > 300.0:
+            continue
+        pace = view.linear if view.linear > 100.0 else 100.0
+        closing = pace - other.speed
+        if other.ahead > CLEAR:
+            if closing < 5.0 or (other.ahead - CLEAR) / closing > 1.5:
+                continue
+            soon = (other.ahead - CLEAR) / closing
+        else:
+            soon = 0.0
+        gap = abs(other.aside + (soon if soon < 0.5 else 0.5) * other.sideways - lane)
+        if gap < CLEAR:
+            cost += 60.0 + 3.0 * (CLEAR - gap)
+        if other.ahead < CLEAR and (other.aside - view.aside) * (other.aside - lane) < 0.0:
+            cost += 400.0  # through it
+    return cost
+
+
+@kernel
+def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
+    """Drive the arc that leads to a point, as fast as it can be turned along."""
+    dx, dy = x - view.x, y - view.y
+    bearing = bearing_of(view, dx, dy)
+    # the motors are late: by the time they follow, this much will have been turned
+    bearing = turn_to(bearing - LAG * view.angular * 0.5)
+    away = sqrt(dx * dx + dy * dy)
+    speed = mind.speed * view.pace
+    if abs(bearing) > 1.2:
+        press(action, 0.0, 3.0 * bearing, 0, 0)
+        return
+    bend = 2.0 * sin(bearing) / (away + 1.0)  # rad per px
+    most = view.turn_rate / (abs(bend) * view.speed + 1e-9)
+    speed = speed if speed < most else most
+    dash = use_turbo(view, mind, bend)
+    full = view.speed * (1.3 if dash else 1.0)
+    press(action, speed, bend * speed * full / view.turn_rate, 0, dash)
+
+
+@kernel
+def use_turbo(view: Any, mind: Any, bend: float) -> int:
+    """1 where the way is straight enough, and the meter full enough to begin."""
+    if not view.on or abs(bend) * 1.3 * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
+        return 0
+    return 1 if view.boosting or view.turbo > mind.boost else 0
+
+
+@kernel
+def bearing_of(view: Any, dx: float, dy: float) -> float:
+    """A direction, relative to the own heading."""
+    return turn_to(atan2(dy, dx) - view.heading)
+
+
+@kernel
+def go_back(view: Any, action: Any) -> None:
+    """Drive to before a line that was missed, backwards where that saves a long turn."""
+    bearing, ahead = bearing_of(view, view.return_x - view.x, view.return_y - view.y), 1.0
+    if abs(bearing) > 0.6 * pi and view.overshot < 200.0:
+        bearing, ahead = turn_to(bearing + pi), -1.0
+    if abs(bearing) > 0.9:
+        ahead = 0.0
+    press(action, ahead, 2.0 * bearing, 0, 0)
+
+
+def wake(speed: float, line: float, spread: float, boost: float, delay: float) -> Any:
+    """A function that fills a fresh mind: see RacerMind; seeing others `delay` s late."""
+
+    def fill(mind: RacerMind, seed: int) -> None:
+        mind.eyes.delay, mind.eyes.look = delay, 100.0
+        mind.speed, mind.line, mind.spread, mind.boost = speed, line, spread, boost
+        mind.random = seeded(seed)
+
+    return fill
+
+
+EASY = Kind("easy", RacerMind, think, wake(speed=0.88, line=0.5, spread=12.0, boost=0.9, delay=0.35))
+NORMAL = Kind("normal", RacerMind, think, wake(speed=0.96, line=0.85, spread=6.0, boost=0.5, delay=0.2))
+HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))
