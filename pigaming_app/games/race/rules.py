@@ -93,7 +93,7 @@ def forward(match: Any, k: int, i: int, when: float) -> None:
     if racer.back and i == (last + 1 - racer.back) % LINES:
         racer.back -= 1
     elif racer.passed and (i != last or racer.missed):
-        racer.missed = 1 + expected
+        racer.missed, racer.back = 1 + expected, 0
         if i == k:
             racer.void += 1
 

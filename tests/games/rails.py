@@ -1,0 +1,66 @@
+"""A plant that puts robots where a test says, tick by tick: whatever drives, pushes or carries them."""
+
+from math import atan2, tau
+
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.course import spot
+from pigaming_app.sim.plant import Sighting
+
+
+class Rails:
+    """Robots stand where they were put last; nothing else moves them."""
+
+    def __init__(self):
+        self.poses = [(0.0, 0.0, 0.0)] * 4
+
+    def sense(self):
+        return [Sighting(*pose, 0.0) for pose in self.poses]
+
+    def drive(self, twists, dt):
+        pass
+
+    def place(self, poses):
+        self.poses = list(poses)
+
+
+class Ride:
+    """A race on rails, with what a test does with it."""
+
+    def __init__(self, arena="classic", present=(0, 1, 2, 3), laps=3, minutes=10.0):
+        one, two, three, four = (Seat("idle" if i in present else "off", i) for i in range(4))
+        self.rails = Rails()
+        setup = Setup("race", arena, (one, two, three, four), minutes, 1, "standard", laps)
+        self.match = Match(setup, self.rails)
+        self.state = self.match.state
+        self.course, self.lines, self.racers = self.state.course, self.state.lines, self.state.racers
+
+    def put(self, seat, x, y, heading=None):
+        """Robot `seat` stands there on the next tick."""
+        self.rails.poses[seat] = (x, y, self.rails.poses[seat][2] if heading is None else heading)
+
+    def to(self, seat, x, y):
+        """Drive straight to a point, 8 px a tick."""
+        fx, fy, _ = self.rails.poses[seat]
+        way = ((x - fx) ** 2 + (y - fy) ** 2) ** 0.5
+        steps = max(1, int(way / 8.0) + 1)
+        heading = atan2(y - fy, x - fx) % tau
+        for k in range(1, steps + 1):
+            self.put(seat, fx + (x - fx) * k / steps, fy + (y - fy) * k / steps, heading)
+            self.match.tick()
+
+    def along(self, seat, start, end, aside=0.0):
+        """Follow the course from `start` to `end` (px, may be beyond a lap, or backwards), so far aside of it."""
+        steps = max(1, int(abs(end - start) / 8.0) + 1)
+        for k in range(steps + 1):
+            x, y = spot(self.course, (start + (end - start) * k / steps) % self.course.length, aside)
+            self.to(seat, x, y)
+
+    def before(self, seat, line, way=60.0):
+        """Px along the course, so far before a line."""
+        return self.lines[line].along - way
+
+    def lap(self, seat, aside=0.0):
+        """Once round, from before the own line to just past it."""
+        own = self.lines[seat].along
+        self.along(seat, own - 30.0, own + self.course.length + 30.0, aside)
