@@ -16,6 +16,7 @@ from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH
 WIDEST, NARROWEST = 400.0, 150.0  # px; two robots side by side are 144
 EASE = 150.0  # px before and after over which a width becomes the next
 REACH = CELL * 0.7072  # px from a node to whatever belongs to it
+RIDGE = 2.0  # px further away, between two stretches that are near: the middle of an arc has all of it at one distance
 FINE = 4.0  # px between the points of which the ring is chosen
 
 
@@ -184,10 +185,21 @@ def _enter(course: Course) -> None:
     """For each node of the grid, the points to look at from there. Raises Wrong where three stretches meet."""
     for node in range(NODES):
         x, y = node % COLUMNS * CELL, node // COLUMNS * CELL
-        away = [(a - x) * (a - x) + (b - y) * (b - y) for a, b in zip(course.xs, course.ys, strict=True)]
+        away = [sqrt((a - x) * (a - x) + (b - y) * (b - y)) for a, b in zip(course.xs, course.ys, strict=True)]
         least = [i for i in range(POINTS) if away[i] <= away[i - 1] and away[i] < away[(i + 1) % POINTS]]
-        depths = sorted((sqrt(away[i]) - course.half[i], i) for i in least)
-        course.near[node] = depths[0][1]
-        course.other[node] = depths[1][1] if len(depths) > 1 and depths[1][0] < depths[0][0] + 2 * REACH else -1
-        if len(depths) > 2 and depths[2][0] < REACH:
+        near: list[int] = []
+        for i in sorted(least, key=lambda i: away[i] - course.half[i]):
+            if all(_parted(away, i, j) for j in near):
+                near.append(i)
+        depths = [away[i] - course.half[i] for i in near]
+        course.near[node] = near[0]
+        course.other[node] = near[1] if len(near) > 1 and depths[1] < depths[0] + 2 * REACH else -1
+        if len(near) > 2 and depths[2] < REACH:
             raise Wrong("corner", f"three stretches of the course meet near ({x:g}, {y:g})")
+
+
+def _parted(away: list[float], i: int, j: int) -> bool:
+    """Whether i and j are stretches of their own: one gets further away on the way from one to the other, both ways."""
+    low, high = min(i, j), max(i, j)
+    ridge = max(away[i], away[j]) + RIDGE
+    return max(away[low:high]) > ridge and max(away[high:] + away[:low]) > ridge
