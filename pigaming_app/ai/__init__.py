@@ -15,6 +15,10 @@ BRAINS: dict[str, dict[str, Kind]] = {
         "hard": fsm.HARD,
         "fsm": fsm.FSM,
     },
+    "factory": {
+        "idle": simple.IDLE,
+        "random": simple.RANDOM,
+    },
     "race": {
         "idle": simple.IDLE,
         "random": simple.RANDOM,

@@ -1,7 +1,7 @@
 """Robot Factory: the records of a match and the numbers of its rules.
 
-A pallet is one thing from the beginning to the end of a match, and `place` and `at` say where it is: nothing else does.
-`slot.pallet`, `load.pallet` and the like are the same knowledge seen from the other side; only `place.move` writes both.
+A pallet is one thing from the beginning to the end of a match, and its `place` and `at` say where it is. `slot.pallet`,
+`load.pallet` and the like are the same knowledge seen from the other side; only `place.move` writes either.
 """
 
 from typing import Annotated
@@ -24,7 +24,7 @@ ENTRY, EXIT, INPUT, OUTPUT = range(4)  # kinds of slots
 A, B = range(2)  # kinds of machines: A makes raw pallets half done, B finishes them
 RESTING, GOING, WORKING, FETCHING, CARRYING = range(5)  # what a worker does
 
-# Slots: of team t the entry from t * 2 * SHELVES on, then its exit; of machine m INPUT and OUTPUT from MACHINE_SLOTS + 2 m.
+# Slots: of team t the entry from t * 2 * SHELVES, then its exit; of machine m INPUT, OUTPUT from MACHINE_SLOTS + 2 m.
 MACHINE_SLOTS = TEAMS * 2 * SHELVES
 SLOTS = MACHINE_SLOTS + 2 * MACHINES
 

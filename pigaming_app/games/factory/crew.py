@@ -1,0 +1,209 @@
+"""Robot Factory: machines and the people who work at them.
+
+A worker who rests is sent to the machine that has something for it: a fitting pallet in the input while the output is
+free, or a finished pallet that its owner has not collected for too long, which it carries to the owner's entry.
+"""
+
+from typing import Any
+
+from pigaming_app.games.factory.place import free_shelf, move
+from pigaming_app.games.factory.state import (
+    BY_WORKER,
+    CARRYING,
+    DONE,
+    ENTRY,
+    FETCHING,
+    GOING,
+    HALF,
+    IN_MACHINE,
+    IN_SLOT,
+    MACHINE_SLOTS,
+    MACHINES,
+    RAW,
+    RESTING,
+    WORKERS,
+    WORKING,
+    A,
+)
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.walker import look, send, walk
+from pigaming_app.sim.world import WIDTH
+
+BESIDE = 96.0  # px from a slot at which a worker stands to take or put down
+
+
+@kernel
+def fits(kind: int, state: int) -> bool:
+    """Whether a machine of a kind can work on a pallet in a state."""
+    return bool(state == (RAW if kind == A else HALF))
+
+
+@kernel
+def run_crew(match: Any) -> None:
+    """One tick of all machines and people."""
+    for m in range(MACHINES):
+        run_machine(match, m)
+    for m in range(MACHINES):
+        if not match.machines[m].worker:
+            call_worker(match, m)
+    for w in range(WORKERS):
+        run_worker(match, w)
+
+
+@kernel
+def run_machine(match: Any, m: int) -> None:
+    """Process, and put what is done into the output, which has been kept free for it."""
+    machine = match.machines[m]
+    if not machine.pallet:
+        if not match.slots[MACHINE_SLOTS + 2 * m + 1].pallet:
+            machine.keeps = 0
+        return
+    machine.left -= 1
+    if machine.left > 0:
+        return
+    p = machine.pallet - 1
+    pallet = match.pallets[p]
+    pallet.state = HALF if machine.kind == A else DONE
+    pallet.steps += 1
+    move(match, p, IN_SLOT, MACHINE_SLOTS + 2 * m + 1)
+
+
+@kernel
+def has_work(match: Any, m: int) -> bool:
+    """Whether a machine could begin with what lies in its input."""
+    machine = match.machines[m]
+    p, done = match.slots[MACHINE_SLOTS + 2 * m].pallet, match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
+    return bool(p and not done and not machine.pallet and fits(machine.kind, match.pallets[p - 1].state))
+
+
+@kernel
+def is_late(match: Any, m: int) -> bool:
+    """Whether a finished pallet has waited too long in a machine's output, and there is room for it at home."""
+    p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
+    if not p or match.pallets[p - 1].waited < match.rules.collect:
+        return False
+    return bool(free_shelf(match, match.pallets[p - 1].team, ENTRY) >= 0)
+
+
+@kernel
+def call_worker(match: Any, m: int) -> None:
+    """Send the nearest worker who rests to a machine that needs one."""
+    task = GOING if has_work(match, m) else FETCHING if is_late(match, m) else RESTING
+    if task == RESTING:
+        return
+    machine = match.machines[m]
+    best, least = -1, 1e18
+    for w in range(WORKERS):
+        worker = match.workers[w]
+        dx, dy = worker.x - machine.spot_x, worker.y - machine.spot_y
+        away = dx * dx + dy * dy
+        if worker.task == RESTING and away < least:
+            best, least = w, away
+    if best < 0:
+        return
+    worker = match.workers[best]
+    worker.task, worker.machine, machine.worker = task, m, best + 1
+    if task == GOING:
+        send(worker, machine.spot_x, machine.spot_y)
+    else:
+        stand_at(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
+
+
+@kernel
+def stand_at(worker: Any, slot: Any, machine: Any) -> None:
+    """Send a worker to the side of a machine's slot on which its own place is."""
+    dx, dy = machine.spot_x - machine.x, machine.spot_y - machine.y
+    side = BESIDE / 114.0
+    send(worker, slot.x + side * dx, slot.y + side * dy)
+
+
+@kernel
+def run_worker(match: Any, w: int) -> None:
+    """One tick of one person."""
+    worker, rules = match.workers[w], match.rules
+    if worker.task == WORKING:
+        work(match, w)
+        return
+    there = walk(match, worker, rules.walk, rules.worker_radius)
+    if worker.task == GOING:
+        if not has_work(match, worker.machine):
+            go_home(match, worker)
+        elif there:
+            begin(match, w)
+    elif worker.task == FETCHING:
+        fetch(match, w, there)
+    elif worker.task == CARRYING and there:
+        put_down(match, w)
+
+
+@kernel
+def begin(match: Any, w: int) -> None:
+    """Take what lies in the input into the machine."""
+    worker = match.workers[w]
+    m = worker.machine
+    machine, p = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1
+    move(match, p, IN_MACHINE, m)
+    machine.left, machine.keeps = match.rules.process, p + 1
+    worker.task, worker.walking = WORKING, 0
+
+
+@kernel
+def work(match: Any, w: int) -> None:
+    """Stand at the machine, face it, and go on or go home when it is done."""
+    worker = match.workers[w]
+    machine = match.machines[worker.machine]
+    look(worker, machine.x - worker.x, machine.y - worker.y)
+    if machine.pallet:
+        return
+    if has_work(match, worker.machine):
+        begin(match, w)
+    else:
+        go_home(match, worker)
+
+
+@kernel
+def fetch(match: Any, w: int, there: int) -> None:
+    """Take a pallet that waits too long out of the output, unless its owner came after all."""
+    worker = match.workers[w]
+    m = worker.machine
+    if not is_late(match, m):
+        go_home(match, worker)
+        return
+    if not there:
+        return
+    p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet - 1
+    worker.shelf = free_shelf(match, match.pallets[p].team, ENTRY)
+    move(match, p, BY_WORKER, w)
+    match.machines[m].worker, worker.machine, worker.task = 0, -1, CARRYING
+    send_to_shelf(match, worker)
+
+
+@kernel
+def put_down(match: Any, w: int) -> None:
+    """Put a pallet onto the shelf; if somebody was faster, onto another one, or wait for one."""
+    worker = match.workers[w]
+    p = worker.pallet - 1
+    if not match.slots[worker.shelf].pallet:
+        move(match, p, IN_SLOT, worker.shelf)
+        go_home(match, worker)
+        return
+    other = free_shelf(match, match.pallets[p].team, ENTRY)
+    if other >= 0:
+        worker.shelf = other
+        send_to_shelf(match, worker)
+
+
+@kernel
+def send_to_shelf(match: Any, worker: Any) -> None:
+    """Send a worker to the front of the shelf for which it carries something."""
+    slot = match.slots[worker.shelf]
+    send(worker, slot.x + (BESIDE if slot.x < 0.5 * WIDTH else -BESIDE), slot.y)
+
+
+@kernel
+def go_home(match: Any, worker: Any) -> None:
+    """Send a worker to where it rests; the machine it was busy with is free for another."""
+    if worker.machine >= 0:
+        match.machines[worker.machine].worker = 0
+    worker.machine, worker.task = -1, RESTING
+    send(worker, worker.home_x, worker.home_y)

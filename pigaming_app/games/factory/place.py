@@ -1,0 +1,93 @@
+"""Robot Factory: where pallets are. Nothing else moves one, so that none is ever lost, doubled or in two places."""
+
+from typing import Any
+
+from pigaming_app.games.factory.state import (
+    BY_WORKER,
+    DAMAGED,
+    ENTRY,
+    IN_MACHINE,
+    IN_SLOT,
+    MOST_PALLETS,
+    ON_ROBOT,
+    SHELVES,
+    SHIPPED,
+    WAITING,
+    WORKERS,
+)
+from pigaming_app.sim.kernel import kernel
+
+
+@kernel
+def move(match: Any, p: int, place: int, at: int) -> None:
+    """Take pallet p from where it is, and put it into a place that holds nothing."""
+    pallet = match.pallets[p]
+    link(match, pallet.place, pallet.at, 0)
+    pallet.place, pallet.at = place, at
+    if pallet.state != DAMAGED:
+        pallet.waited = 0
+    link(match, place, at, p + 1)
+
+
+@kernel
+def link(match: Any, place: int, at: int, what: int) -> None:
+    """Write what a place holds: 1 + a pallet, or 0."""
+    if place == IN_SLOT:
+        match.slots[at].pallet = what
+    elif place == ON_ROBOT:
+        match.loads[at].pallet = what
+    elif place == IN_MACHINE:
+        match.machines[at].pallet = what
+    elif place == BY_WORKER:
+        match.workers[at].pallet = what
+
+
+@kernel
+def first_slot(team: int, kind: int) -> int:
+    """The first of the slots of a team's entry or exit."""
+    return team * 2 * SHELVES + (0 if kind == ENTRY else SHELVES)
+
+
+@kernel
+def free_shelf(match: Any, team: int, kind: int) -> int:
+    """A free slot of a team's entry or exit to which no worker is carrying anything, -1 if there is none."""
+    first = first_slot(team, kind)
+    for s in range(first, first + SHELVES):
+        if not match.slots[s].pallet and not bound_for(match, s):
+            return s
+    return -1
+
+
+@kernel
+def bound_for(match: Any, s: int) -> bool:
+    """Whether a worker is carrying a pallet to slot s."""
+    coming = False
+    for w in range(WORKERS):
+        if match.workers[w].pallet and match.workers[w].shelf == s:
+            coming = True
+    return coming
+
+
+@kernel
+def stock_up(match: Any, team: int) -> None:
+    """Bring the pallets that wait outside onto the free slots of their team's entry."""
+    for p in range(team * MOST_PALLETS, (team + 1) * MOST_PALLETS):
+        if match.pallets[p].exists and match.pallets[p].place == WAITING:
+            s = free_shelf(match, team, ENTRY)
+            if s < 0:
+                return
+            move(match, p, IN_SLOT, s)
+
+
+@kernel
+def ship(match: Any, team: int) -> None:
+    """If all slots of a team's exit are full, the pallet that has lain there longest drives off."""
+    first = first_slot(team, ENTRY) + SHELVES
+    oldest, longest = -1, -1
+    for s in range(first, first + SHELVES):
+        p = match.slots[s].pallet - 1
+        if p < 0:
+            return
+        if match.pallets[p].waited > longest:
+            oldest, longest = p, match.pallets[p].waited
+    move(match, oldest, SHIPPED, team)

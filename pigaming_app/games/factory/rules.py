@@ -1,0 +1,207 @@
+"""Robot Factory, as a player would hear it: bring all your pallets through machine A, machine B and out.
+
+Fire lifts and sets down. A raw pallet goes to a machine A, comes out half done, goes to a machine B, comes out done,
+and goes to your exit; people work the machines. In a wrong machine a pallet is spoiled, and only after ten seconds a
+new one comes. Nobody can lift the other team's pallets. Drive over a person, who is never hurt, and you stand still for
+three seconds. Whoever has delivered everything first wins; when the time is up, more deliveries do, then more work.
+"""
+
+from math import cos, sin
+from typing import Any
+
+from pigaming_app.games.factory.crew import fits, run_crew
+from pigaming_app.games.factory.place import free_shelf, move, ship, stock_up
+from pigaming_app.games.factory.state import (
+    DAMAGED,
+    DELIVERED,
+    DONE,
+    ENTRY,
+    EXIT,
+    IN_SLOT,
+    INPUT,
+    MACHINE_SLOTS,
+    ON_ROBOT,
+    OUTPUT,
+    PALLETS,
+    RAW,
+    SLOTS,
+    TEAMS,
+    WAITING,
+    WORKERS,
+)
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robots import RADIUS, burn
+from pigaming_app.sim.world import ROBOTS
+
+APART = 6.0  # px more than a touch at which a touch has ended
+
+
+@kernel
+def judge(match: Any) -> None:
+    """One tick of the rules: forks, pallets, machines and people, then the speeds that robots ask for."""
+    if match.over:
+        for robot in match.robots:
+            robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        return
+    for k in range(ROBOTS):
+        if match.robots[k].present:
+            grip(match, k)
+    age(match)
+    for team in range(TEAMS):
+        stock_up(match, team)
+    run_crew(match)
+    for k in range(ROBOTS):
+        if match.robots[k].present:
+            mind_people(match, k)
+            steer(match, k)
+    match.tick += 1
+    for team in range(TEAMS):
+        if match.delivered[team] == match.rules.pallets:
+            match.over, match.winner = 1, 0 if match.winner else team + 1
+    if match.tick >= match.rules.ticks:
+        match.over = 1
+
+
+@kernel
+def grip(match: Any, k: int) -> None:
+    """Each press of fire lifts a pallet or sets one down; none does anything while the robot is frozen."""
+    load, fire = match.loads[k], match.actions[k].fire
+    pressed = fire and not load.pressed
+    load.pressed = fire
+    if load.refused:
+        load.refused += 1
+    if not pressed or load.frozen:
+        return
+    robot, rules = match.robots[k], match.rules
+    x, y = robot.x + rules.fork * cos(robot.heading), robot.y + rules.fork * sin(robot.heading)
+    s = slot_for(match, k, x, y)
+    if s < 0:
+        load.refused = 1
+        return
+    load.refused = 0
+    if load.pallet:
+        set_down(match, k, s)
+    else:
+        move(match, match.slots[s].pallet - 1, ON_ROBOT, k)
+
+
+@kernel
+def slot_for(match: Any, k: int, x: float, y: float) -> int:
+    """The slot nearest to (x, y) at which robot k could do something, -1 if none is within reach."""
+    best, least = -1, match.rules.reach * match.rules.reach
+    for s in range(SLOTS):
+        slot = match.slots[s]
+        dx, dy = x - slot.x, y - slot.y
+        away = dx * dx + dy * dy
+        if away < least and (may_set_down(match, k, s) if match.loads[k].pallet else may_lift(match, k, s)):
+            best, least = s, away
+    return best
+
+
+@kernel
+def may_lift(match: Any, k: int, s: int) -> bool:
+    """Whether slot s holds a pallet of robot k's team that is not delivered."""
+    p = match.slots[s].pallet - 1
+    if p < 0:
+        return False
+    return bool(match.pallets[p].team == match.robots[k].team and match.pallets[p].state != DELIVERED)
+
+
+@kernel
+def may_set_down(match: Any, k: int, s: int) -> bool:
+    """Whether robot k may put what it carries into slot s."""
+    slot = match.slots[s]
+    if slot.kind == OUTPUT:
+        return False
+    if slot.kind == INPUT:
+        return bool(not slot.pallet)
+    if slot.team != match.robots[k].team:
+        return False
+    state = match.pallets[match.loads[k].pallet - 1].state
+    if slot.kind == ENTRY:
+        return bool(not slot.pallet)
+    return bool(state == DONE and not slot.pallet)
+
+
+@kernel
+def set_down(match: Any, k: int, s: int) -> None:
+    """Robot k puts down what it carries, with all that follows from where."""
+    load, slot = match.loads[k], match.slots[s]
+    p = load.pallet - 1
+    pallet = match.pallets[p]
+    move(match, p, IN_SLOT, s)
+    if slot.kind == INPUT and pallet.state != DAMAGED:
+        if fits(match.machines[slot.machine].kind, pallet.state):
+            load.steps += 1
+        else:
+            pallet.state, pallet.waited = DAMAGED, 0
+            load.spoiled += 1
+    elif slot.kind == EXIT:
+        pallet.state = DELIVERED
+        match.delivered[pallet.team] += 1
+        load.delivered += 1
+        match.robots[k].score += 1
+        ship(match, pallet.team)
+
+
+@kernel
+def age(match: Any) -> None:
+    """Pallets that wait grow older; when its time has come a damaged one is replaced by a raw one."""
+    for p in range(PALLETS):
+        pallet = match.pallets[p]
+        if not pallet.exists:
+            continue
+        if pallet.state == DAMAGED:
+            pallet.waited += 1
+            if pallet.waited >= match.rules.replace:
+                renew(match, p)
+        elif pallet.place == IN_SLOT and (pallet.at >= MACHINE_SLOTS or pallet.state == DELIVERED):
+            pallet.waited += 1
+
+
+@kernel
+def renew(match: Any, p: int) -> None:
+    """A raw pallet comes in the place of a damaged one."""
+    pallet = match.pallets[p]
+    pallet.state, pallet.steps = RAW, 0
+    s = free_shelf(match, pallet.team, ENTRY)
+    if s >= 0:
+        move(match, p, IN_SLOT, s)
+    else:
+        move(match, p, WAITING, pallet.team)
+
+
+@kernel
+def mind_people(match: Any, k: int) -> None:
+    """Freeze robot k when it drives over somebody: once for each time that they touch."""
+    robot, load, rules = match.robots[k], match.loads[k], match.rules
+    if load.frozen:
+        load.frozen -= 1
+    reach = RADIUS + rules.worker_radius
+    for w in range(WORKERS):
+        worker = match.workers[w]
+        dx, dy = robot.x - worker.x, robot.y - worker.y
+        away = dx * dx + dy * dy
+        if away < reach * reach:
+            drives = robot.linear > rules.driving or robot.linear < -rules.driving
+            if drives and not worker.touched[k]:
+                worker.touched[k] = 1
+                load.hits += 1
+                load.frozen = rules.freeze
+        elif away > (reach + APART) * (reach + APART):
+            worker.touched[k] = 0
+
+
+@kernel
+def steer(match: Any, k: int) -> None:
+    """Ask for the speeds that robot k's stick and turbo give; none while it is frozen."""
+    rules, robot, action = match.rules, match.robots[k], match.actions[k]
+    if match.loads[k].frozen:
+        robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        return
+    speed = rules.speed
+    burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
+    if robot.boosting:
+        speed *= rules.turbo_factor
+    robot.ask_linear = action.linear * speed
+    robot.ask_angular = action.angular * rules.turn_rate

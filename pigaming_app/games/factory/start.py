@@ -1,0 +1,100 @@
+"""Robot Factory: how a match begins, with the numbers of its rules, and what it counts in the end."""
+
+from collections.abc import Mapping
+
+from pigaming_app.games.factory.floor import FORK, REACH, Floor
+from pigaming_app.games.factory.place import stock_up
+from pigaming_app.games.factory.state import (
+    FIRE,
+    ICE,
+    MOST_PALLETS,
+    RAW,
+    WAITING,
+    Factory,
+    Rules,
+)
+from pigaming_app.games.game import Setup
+from pigaming_app.sim.arena import Arena, build
+from pigaming_app.sim.chance import seeded
+from pigaming_app.sim.walker import send
+from pigaming_app.sim.world import DT, HZ, ROBOTS
+
+PALLETS = 4  # a team, if nobody says otherwise
+GOALS = tuple(range(2, MOST_PALLETS + 1))
+STEPS_BEFORE = 1000.0  # of work done that weigh as much as one delivery: more than a match can have
+
+
+def start(match: Factory, arena: Arena, setup: Setup) -> None:
+    """Fill a fresh match: walls, machines, people, robots on their team's starts, pallets, rules, chance."""
+    build(match, arena)
+    floor: Floor = arena.plan
+    match.random = seeded(setup.seed)
+    set_rules(match.rules, setup)
+    for seat, robot in zip(setup.seats, match.robots, strict=True):
+        robot.present, robot.team = int(seat.brain != "off"), seat.team
+    for i, k in enumerate(_places(setup)):
+        robot, place = match.robots[i], arena.starts[k]
+        robot.x, robot.y, robot.heading = place.x, place.y, place.heading
+    _furnish(match, floor)
+    for team in (ICE, FIRE):
+        for i in range(match.rules.pallets):
+            pallet = match.pallets[team * MOST_PALLETS + i]
+            pallet.exists, pallet.team, pallet.state = 1, team, RAW
+            pallet.place, pallet.at = WAITING, team
+        stock_up(match, team)
+
+
+def _places(setup: Setup) -> list[int]:
+    """Which start each seat has: the 1st and 3rd are ICE's, the others FIRE's; empty seats take what is left."""
+    free = {ICE: [0, 2], FIRE: [1, 3]}
+    taken = [free[seat.team].pop(0) if seat.brain != "off" else -1 for seat in setup.seats]
+    left = sorted(free[ICE] + free[FIRE])
+    return [k if k >= 0 else left.pop(0) for k in taken]
+
+
+def _furnish(match: Factory, floor: Floor) -> None:
+    """Slots, machines, people and the aisle."""
+    for slot, shelf in zip(match.slots, floor.slots, strict=True):
+        slot.kind, slot.team, slot.machine, slot.x, slot.y = shelf.kind, shelf.team, shelf.machine, shelf.x, shelf.y
+    for machine, body in zip(match.machines, floor.machines, strict=True):
+        machine.kind, machine.x, machine.y = body.kind, body.x, body.y
+        machine.spot_x, machine.spot_y = body.spot_x, body.spot_y
+    for worker, (x, y) in zip(match.workers, floor.homes, strict=True):
+        worker.x, worker.y, worker.home_x, worker.home_y, worker.machine = x, y, x, y, -1
+        send(worker, x, y)
+    match.aisle[:] = floor.aisle
+
+
+def set_rules(rules: Rules, setup: Setup) -> None:
+    """The numbers of DESIGN.md's rules."""
+    rules.ticks = round(setup.minutes * 60 * HZ)
+    rules.pallets = setup.goal or PALLETS
+    rules.speed, rules.turn_rate = 260.0, 3.0
+    rules.turbo_factor, rules.turbo_drain, rules.turbo_refill = 1.3, 1.0 / (2 * HZ), 1.0 / (4 * HZ)
+    rules.fork, rules.reach = FORK, REACH
+    rules.process, rules.replace, rules.freeze, rules.collect = 6 * HZ, 10 * HZ, 3 * HZ, 20 * HZ
+    rules.walk, rules.worker_radius, rules.driving = 130.0, 20.0, 20.0
+
+
+def standing(match: Factory, seat: int) -> float:
+    """Deliveries of a seat's team, then the work that its robots have fed to machines."""
+    team = match.robots[seat].team
+    steps = sum(match.loads[i].steps for i in range(ROBOTS) if match.robots[i].team == team)
+    return match.delivered[team] * STEPS_BEFORE + min(STEPS_BEFORE - 1.0, steps)
+
+
+def facts(match: Factory, seat: int) -> Mapping[str, float]:
+    """What one seat did: pallets delivered, pallets fed to the right machines, people driven over."""
+    load = match.loads[seat]
+    return {"delivered": load.delivered, "steps": load.steps, "hits": load.hits}
+
+
+def feat(match: Factory, seat: int) -> Mapping[str, int]:
+    """How long the seat's team took to deliver everything, in ms, if it did."""
+    done = match.delivered[match.robots[seat].team] == match.rules.pallets
+    return {"time": round(1000 * DT * match.tick)} if done else {}
+
+
+def times(match: Factory, seat: int) -> tuple[float, ...]:
+    """There are no laps."""
+    return ()
