@@ -8,7 +8,7 @@ The strengths differ in speed, in how much of the fastest line they use and how 
 how late they see others.
 """
 
-from math import atan2, pi, sin, sqrt
+from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain import Kind
@@ -18,16 +18,20 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.robots import LAG, RADIUS
+from pigaming_app.sim.robots import RADIUS
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LANES = 9  # ways to pass that are thought of, from one edge to the other
 CLEAR = 2.0 * RADIUS + 8.0  # px between the middles of two robots that pass each other
-EDGE = 5.0  # px that a lane keeps from the edge
+EDGE = 2.0  # px that a lane keeps from the edge
 NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 40
 FREEING = 20  # ticks of backing out, one way or the other
+
+LOOK = 115.0  # px along the course to the point that it drives for
+LATE = 0.05  # s until the motors follow
+GRIP = 1.8  # of the full turn rate that is asked for before it slows down
 
 RACE, BREAK_FREE = range(2)
 
@@ -179,21 +183,23 @@ def blocked(view: Any, lane: float) -> float:
 
 @kernel
 def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
-    """Drive the arc that leads to a point, as fast as it can be turned along."""
-    dx, dy = x - view.x, y - view.y
-    bearing = bearing_of(view, dx, dy)
-    # the motors are late: by the time they follow, this much will have been turned
-    bearing = turn_to(bearing - LAG * view.angular * 0.5)
-    away = sqrt(dx * dx + dy * dy)
-    speed = mind.speed * view.pace
+    """Drive the arc that leads to a point, as fast as it can be turned along.
+
+    The motors are late, so the arc begins where the robot will be when they follow.
+    """
+    heading = view.heading + LATE * view.angular
+    middle = view.heading + 0.5 * LATE * view.angular
+    dx = x - view.x - LATE * view.linear * cos(middle)
+    dy = y - view.y - LATE * view.linear * sin(middle)
+    bearing = turn_to(atan2(dy, dx) - heading)
     if abs(bearing) > 1.2:
         press(action, 0.0, 3.0 * bearing, 0, 0)
         return
-    bend = 2.0 * sin(bearing) / (away + 1.0)  # rad per px
-    most = view.turn_rate / (abs(bend) * view.speed + 1e-9)
-    speed = speed if speed < most else most
+    bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
     dash = use_turbo(view, mind, bend)
     full = view.speed * (1.3 if dash else 1.0)
+    speed, most = mind.speed * view.pace, GRIP * view.turn_rate / (abs(bend) * full + 1e-9)
+    speed = speed if speed < most else most
     press(action, speed, bend * speed * full / view.turn_rate, 0, dash)
 
 
@@ -206,15 +212,9 @@ def use_turbo(view: Any, mind: Any, bend: float) -> int:
 
 
 @kernel
-def bearing_of(view: Any, dx: float, dy: float) -> float:
-    """A direction, relative to the own heading."""
-    return turn_to(atan2(dy, dx) - view.heading)
-
-
-@kernel
 def go_back(view: Any, action: Any) -> None:
     """Drive to before a line that was missed, backwards where that saves a long turn."""
-    bearing, ahead = bearing_of(view, view.return_x - view.x, view.return_y - view.y), 1.0
+    bearing, ahead = turn_to(atan2(view.return_y - view.y, view.return_x - view.x) - view.heading), 1.0
     if abs(bearing) > 0.6 * pi and view.overshot < 200.0:
         bearing, ahead = turn_to(bearing + pi), -1.0
     if abs(bearing) > 0.9:
@@ -226,13 +226,13 @@ def wake(speed: float, line: float, spread: float, boost: float, delay: float) -
     """A function that fills a fresh mind: see RacerMind; seeing others `delay` s late."""
 
     def fill(mind: RacerMind, seed: int) -> None:
-        mind.eyes.delay, mind.eyes.look = delay, 100.0
+        mind.eyes.delay, mind.eyes.look = delay, LOOK
         mind.speed, mind.line, mind.spread, mind.boost = speed, line, spread, boost
         mind.random = seeded(seed)
 
     return fill
 
 
-EASY = Kind("easy", RacerMind, think, wake(speed=0.88, line=0.5, spread=12.0, boost=0.9, delay=0.35))
+EASY = Kind("easy", RacerMind, think, wake(speed=0.91, line=0.5, spread=12.0, boost=0.9, delay=0.35))
 NORMAL = Kind("normal", RacerMind, think, wake(speed=0.96, line=0.85, spread=6.0, boost=0.5, delay=0.2))
 HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))

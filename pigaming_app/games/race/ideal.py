@@ -14,7 +14,7 @@ from pigaming_app.sim.course import POINTS, Course
 from pigaming_app.sim.robots import RADIUS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
-MARGIN = 5.0  # px that the line keeps from the edges
+MARGIN = 3.0  # px that the line keeps from the edges
 WALL = RADIUS + 6.0  # px that it keeps from the outer walls
 LEVELS = (  # points of the course to one of the line; how broad bumps are, in points; how high, in px; rounds at most
     (4, (8, 4, 2, 1), (32.0, 16.0, 8.0, 4.0, 2.0, 1.0), 6),
@@ -22,7 +22,7 @@ LEVELS = (  # points of the course to one of the line; how broad bumps are, in p
     (1, (8, 4, 2), (4.0, 2.0, 1.0, 0.5), 3),
 )
 ENOUGH = 1e-3  # s saved in a round, below which it stops
-EASE = 6  # points over which a slower pace begins and ends
+EASE = 2  # points over which a slower pace begins and ends
 
 
 @lru_cache(maxsize=32)

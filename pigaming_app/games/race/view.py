@@ -15,6 +15,8 @@ from pigaming_app.sim.world import ROBOTS
 
 OTHERS = ROBOTS - 1
 BACK = 160.0  # px at a time that lead back to a missed line
+PACE = 40.0  # px for which the pace of the fastest line must be kept
+SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
 RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 
@@ -74,7 +76,7 @@ class View:
     on: int
     lean: float  # heading, relative to the way of the course
     ideal: float  # where the fastest line is here, px aside of the centre line
-    pace: float  # least speed of that line from here to what it drives for, as a share of full speed
+    pace: float  # least speed of that line in the next PACE px, as a share of full speed
     left: float  # px to the finish
     overshot: float  # px by which it is past a line that it has not crossed, 0: none
     return_x: float  # where to drive to get back before that line
@@ -113,7 +115,7 @@ def see_way(match: Any, along: float, look: float, view: Any) -> None:
     """The fastest line from here on."""
     k, _ = leg(match.course, along)
     view.ideal, view.pace = match.ideal[k], match.pace[k]
-    for i in range(k + 1, k + 1 + int(look / match.course.step)):
+    for i in range(k + 1, k + 1 + int(PACE / match.course.step)):
         pace = match.pace[i % match.course.count]
         if pace < view.pace:
             view.pace = pace
@@ -148,7 +150,7 @@ def see_overshot(match: Any, seat: int, along: float, view: Any) -> None:
     here = match.lines[(seat + behind) % ROBOTS].along
     ahead = match.lines[(seat + behind + 1) % ROBOTS].along
     gap, way = way_round(course, here, ahead), way_round(course, here, along)
-    if way > gap and (racer.missed or way - gap < course.length - way):
+    if way > gap + SLACK and (racer.missed or way - gap < course.length - way):
         view.overshot = way - gap
         back = view.overshot + RUN_UP
         view.return_x, view.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
