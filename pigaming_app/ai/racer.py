@@ -23,6 +23,7 @@ from pigaming_app.sim.robots import RADIUS
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LANES = 9  # ways to pass that are thought of, from one edge to the other
 CLEAR = 2.0 * RADIUS + 8.0  # px between the middles of two robots that pass each other
+SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
 EDGE = 2.0  # px that a lane keeps from the edge
 NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
@@ -33,7 +34,7 @@ LOOK = 115.0  # px along the course to the point that it drives for
 LATE = 0.05  # s until the motors follow
 GRIP = 1.8  # of the full turn rate that is asked for before it slows down
 
-RACE, BREAK_FREE = range(2)
+RACE, GO_BACK, BREAK_FREE = range(3)
 
 
 @record
@@ -73,8 +74,14 @@ def act(view: Any, mind: Any, action: Any) -> None:
     """Remember, choose the state, let the state act."""
     mind.since += PERIOD
     err(mind)
+    mind.eyes.look = look_ahead(view)
     feel_held_up(view, mind, action)
-    after = break_free(view, mind, action) if mind.state == BREAK_FREE else race(view, mind, action)
+    if mind.state == BREAK_FREE:
+        after = break_free(view, mind, action)
+    elif mind.state == GO_BACK:
+        after = go_back(view, action)
+    else:
+        after = race(view, mind, action)
     if after != mind.state:
         mind.state, mind.since = after, 0
 
@@ -84,10 +91,9 @@ def act(view: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def race(view: Any, mind: Any, action: Any) -> int:
-    """Drive the line, or back to a line that was missed."""
-    if view.overshot > 0.0:
-        go_back(view, action)
-        return RACE
+    """Drive the line, past whoever is in the way."""
+    if view.past > SLACK:
+        return go_back(view, action)
     mark = view.ahead
     choose_lane(view, mind)
     room = mark.half - EDGE
@@ -96,6 +102,18 @@ def race(view: Any, mind: Any, action: Any) -> int:
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
     pursue(view, mind, action, x, y)
     return RACE
+
+
+@kernel
+def go_back(view: Any, action: Any) -> int:
+    """Drive to before a line that was missed, backwards where that saves a long turn."""
+    bearing, ahead = turn_to(atan2(view.return_y - view.y, view.return_x - view.x) - view.heading), 1.0
+    if abs(bearing) > 0.6 * pi and view.past < 200.0:
+        bearing, ahead = turn_to(bearing + pi), -1.0
+    if abs(bearing) > 0.9:
+        ahead = 0.0
+    press(action, ahead, 2.0 * bearing, 0, 0)
+    return GO_BACK if view.past > -SLACK else RACE
 
 
 @kernel
@@ -122,6 +140,15 @@ def err(mind: Any) -> None:
     if mind.stray_left <= 0:
         mind.stray_left = NEW_ERROR
         mind.stray = 2.0 * mind.spread * (chance(mind) + chance(mind) + chance(mind) - 1.5)
+
+
+@kernel
+def look_ahead(view: Any) -> float:
+    """How far to look next time: off the course not past the next line, so as to cross it and not drive round it."""
+    look = LOOK
+    if not view.on:
+        look = -view.past - SLACK
+    return LOOK if look > LOOK else 20.0 if look < 20.0 else look
 
 
 @kernel
@@ -209,17 +236,6 @@ def use_turbo(view: Any, mind: Any, bend: float) -> int:
     if not view.on or abs(bend) * 1.3 * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
         return 0
     return 1 if view.boosting or view.turbo > mind.boost else 0
-
-
-@kernel
-def go_back(view: Any, action: Any) -> None:
-    """Drive to before a line that was missed, backwards where that saves a long turn."""
-    bearing, ahead = turn_to(atan2(view.return_y - view.y, view.return_x - view.x) - view.heading), 1.0
-    if abs(bearing) > 0.6 * pi and view.overshot < 200.0:
-        bearing, ahead = turn_to(bearing + pi), -1.0
-    if abs(bearing) > 0.9:
-        ahead = 0.0
-    press(action, ahead, 2.0 * bearing, 0, 0)
 
 
 def wake(speed: float, line: float, spread: float, boost: float, delay: float) -> Any:

@@ -16,7 +16,6 @@ from pigaming_app.sim.world import ROBOTS
 OTHERS = ROBOTS - 1
 BACK = 160.0  # px at a time that lead back to a missed line
 PACE = 40.0  # px for which the pace of the fastest line must be kept
-SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
 RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 
@@ -78,8 +77,8 @@ class View:
     ideal: float  # where the fastest line is here, px aside of the centre line
     pace: float  # least speed of that line in the next PACE px, as a share of full speed
     left: float  # px to the finish
-    overshot: float  # px by which it is past a line that it has not crossed, 0: none
-    return_x: float  # where to drive to get back before that line
+    past: float  # px by which it is past the line that it must cross next; negative: the way to it
+    return_x: float  # where to drive to get back before that line, if it is past it
     return_y: float
     rank: int
     finished: int
@@ -105,7 +104,7 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     view.left = rules.laps * course.length - racer.progress
     view.rank, view.finished = racer.rank, racer.finished
     see_way(match, along, eyes.look, view)
-    see_overshot(match, seat, along, view)
+    see_next(match, seat, along, view)
     for i in range(OTHERS):
         see_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
 
@@ -140,20 +139,20 @@ def see_mark(match: Any, along: float, mark: Any) -> None:
 
 
 @kernel
-def see_overshot(match: Any, seat: int, along: float, view: Any) -> None:
-    """Whether the robot is past the line that it must cross next, and where to go then."""
+def see_next(match: Any, seat: int, along: float, view: Any) -> None:
+    """How far it is to the line that the robot must cross next, or past it, and where to go then."""
     racer, course = match.racers[seat], match.course
-    view.overshot, view.return_x, view.return_y = 0.0, 0.0, 0.0
-    if racer.finished:
-        return
     behind = racer.passed - 1 - racer.back
     here = match.lines[(seat + behind) % ROBOTS].along
     ahead = match.lines[(seat + behind + 1) % ROBOTS].along
     gap, way = way_round(course, here, ahead), way_round(course, here, along)
-    if way > gap + SLACK and (racer.missed or way - gap < course.length - way):
-        view.overshot = way - gap
-        back = view.overshot + RUN_UP
-        view.return_x, view.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
+    view.past = way - gap
+    if way > gap and not racer.missed and way - gap > course.length - way:  # not yet at the last one
+        view.past = way - course.length - gap
+    if racer.finished:
+        view.past = -course.length
+    back = view.past + RUN_UP if view.past > 0.0 else RUN_UP
+    view.return_x, view.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
 
 
 @kernel
