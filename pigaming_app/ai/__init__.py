@@ -1,6 +1,6 @@
 """Who plays when nobody does, and the only list of them."""
 
-from pigaming_app.ai import fsm, racer, simple
+from pigaming_app.ai import foreman, fsm, racer, simple
 from pigaming_app.ai.brain import Kind, Thinker
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
@@ -18,6 +18,9 @@ BRAINS: dict[str, dict[str, Kind]] = {
     "factory": {
         "idle": simple.IDLE,
         "random": simple.RANDOM,
+        "easy": foreman.EASY,
+        "normal": foreman.NORMAL,
+        "hard": foreman.HARD,
     },
     "race": {
         "idle": simple.IDLE,

@@ -6,7 +6,7 @@ free, or a finished pallet that its owner has not collected for too long, which 
 
 from typing import Any
 
-from pigaming_app.games.factory.place import free_shelf, move
+from pigaming_app.games.factory.place import first_slot, free_shelf, move
 from pigaming_app.games.factory.state import (
     BY_WORKER,
     CARRYING,
@@ -21,6 +21,7 @@ from pigaming_app.games.factory.state import (
     MACHINES,
     RAW,
     RESTING,
+    WAITING,
     WORKERS,
     WORKING,
     A,
@@ -65,6 +66,7 @@ def run_machine(match: Any, m: int) -> None:
     pallet = match.pallets[p]
     pallet.state = HALF if machine.kind == A else DONE
     pallet.steps += 1
+    match.loads[pallet.fed - 1].steps += 1
     move(match, p, IN_SLOT, MACHINE_SLOTS + 2 * m + 1)
 
 
@@ -78,11 +80,9 @@ def has_work(match: Any, m: int) -> bool:
 
 @kernel
 def is_late(match: Any, m: int) -> bool:
-    """Whether a finished pallet has waited too long in a machine's output, and there is room for it at home."""
+    """Whether a finished pallet has waited too long in a machine's output."""
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
-    if not p or match.pallets[p - 1].waited < match.rules.collect:
-        return False
-    return bool(free_shelf(match, match.pallets[p - 1].team, ENTRY) >= 0)
+    return bool(p and match.pallets[p - 1].waited >= match.rules.collect)
 
 
 @kernel
@@ -172,7 +172,9 @@ def fetch(match: Any, w: int, there: int) -> None:
     if not there:
         return
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet - 1
-    worker.shelf = free_shelf(match, match.pallets[p].team, ENTRY)
+    team = match.pallets[p].team
+    shelf = free_shelf(match, team, ENTRY)
+    worker.shelf = shelf if shelf >= 0 else first_slot(team, ENTRY)
     move(match, p, BY_WORKER, w)
     match.machines[m].worker, worker.machine, worker.task = 0, -1, CARRYING
     send_to_shelf(match, worker)
@@ -180,17 +182,14 @@ def fetch(match: Any, w: int, there: int) -> None:
 
 @kernel
 def put_down(match: Any, w: int) -> None:
-    """Put a pallet onto the shelf; if somebody was faster, onto another one, or wait for one."""
+    """Put a pallet onto the shelf; if there is no room, to those that wait outside for a shelf."""
     worker = match.workers[w]
     p = worker.pallet - 1
-    if not match.slots[worker.shelf].pallet:
+    if match.slots[worker.shelf].pallet:
+        move(match, p, WAITING, match.pallets[p].team)
+    else:
         move(match, p, IN_SLOT, worker.shelf)
-        go_home(match, worker)
-        return
-    other = free_shelf(match, match.pallets[p].team, ENTRY)
-    if other >= 0:
-        worker.shelf = other
-        send_to_shelf(match, worker)
+    go_home(match, worker)
 
 
 @kernel

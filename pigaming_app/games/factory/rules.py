@@ -67,6 +67,10 @@ def grip(match: Any, k: int) -> None:
     """Each press of fire lifts a pallet or sets one down; none does anything while the robot is frozen."""
     load, fire = match.loads[k], match.actions[k].fire
     pressed = fire and not load.pressed
+    if load.told:
+        load.told -= 1
+    else:
+        load.aim = 0
     load.pressed = fire
     if load.refused:
         load.refused += 1
@@ -131,9 +135,8 @@ def set_down(match: Any, k: int, s: int) -> None:
     pallet = match.pallets[p]
     move(match, p, IN_SLOT, s)
     if slot.kind == INPUT and pallet.state != DAMAGED:
-        if fits(match.machines[slot.machine].kind, pallet.state):
-            load.steps += 1
-        else:
+        pallet.fed = k + 1
+        if not fits(match.machines[slot.machine].kind, pallet.state):
             pallet.state, pallet.waited = DAMAGED, 0
             load.spoiled += 1
     elif slot.kind == EXIT:

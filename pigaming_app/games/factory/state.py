@@ -62,6 +62,7 @@ class Pallet:
     at: int  # which slot, robot, machine or worker
     waited: int  # ticks in an output slot, or ticks since it was damaged
     steps: int  # machines that have worked on it
+    fed: int  # 1 + the robot that put it into the machine
 
 
 @record
@@ -118,10 +119,11 @@ class Load:
     pressed: int  # 1: fire was down on the tick before: each press acts once
     refused: int  # ticks since a press could do nothing; for the picture
     delivered: int
-    steps: int  # by machines that this robot has fed
+    steps: int  # done by machines on what this robot has put into them
     spoiled: int  # pallets put into a wrong machine
     hits: int  # workers driven over
     aim: int  # 1 + the slot that an AI is making for, shown to its mate; 0: none, or a person
+    told: int  # ticks for which that is still so, unless it is said again
 
 
 @record

@@ -1,0 +1,132 @@
+"""How a driver of Robot Factory gets to a slot and uses its fork: round walls, robots and people.
+
+`mind` is a ForemanMind; all of it works on the view.
+"""
+
+from typing import Any
+
+from pigaming_app.games.factory.state import WORKERS
+from pigaming_app.games.factory.view import OTHERS
+from pigaming_app.sim.action import press
+from pigaming_app.sim.chance import chance
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.world import DT
+
+PERIOD = 5
+AT = 24.0  # px between the fork and a slot at which it presses fire
+TURN_IN = 30.0  # px before the fork is at the slot from which it turns to it
+STAND_OFF = 150.0  # px from a slot that is not free at which it waits
+WIDE = 135.0  # px from another robot from which it steers round it
+PEOPLE = 150.0  # px from a person from which it does
+STOP = 96.0  # px from a person ahead at which it stops
+HELD_UP = 16.0  # px; less than this in HELD_UP_TICKS is getting nowhere
+HELD_UP_TICKS = 45
+FREEING = 25  # ticks of backing out
+
+
+@kernel
+def drive_to(view: Any, mind: Any, action: Any) -> None:
+    """Go to the target; there, turn to it and press fire."""
+    slot, errand = view.slots[mind.target], mind.eyes.errand
+    moved = not errand.wanted or errand.goal_x != slot.x or errand.goal_y != slot.y
+    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
+    if moved:  # the way comes with the next view
+        press(action, 0.0, 0.0, 0, 0)
+        return
+    if mind.near and view.goal_distance < STAND_OFF and view.straight:
+        press(action, -0.5 if view.goal_distance < STAND_OFF - 40.0 else 0.0, 0.0, 0, 0)
+        mind.held_up = 0
+        return
+    if view.straight and view.goal_distance < view.fork + TURN_IN:
+        handle(view, mind, action, slot)
+    else:
+        follow(view, mind, action)
+
+
+@kernel
+def handle(view: Any, mind: Any, action: Any, slot: Any) -> None:
+    """Turn to the slot, bring the fork over it, press."""
+    dx, dy = view.fork_x - slot.x, view.fork_y - slot.y
+    if dx * dx + dy * dy < AT * AT:
+        press(action, 0.0, 0.0, 0 if action.fire else 1, 0)
+        return
+    speed = 0.0
+    if abs(view.goal_bearing) < 0.5:
+        speed = (view.goal_distance - view.fork) / 40.0
+        if speed > 0.0 and blocked(view):
+            speed = 0.0
+    press(action, speed, turning(view, view.goal_bearing), 0, 0)
+
+
+@kernel
+def turning(view: Any, bearing: float) -> float:
+    """The stick that turns by `bearing` until the next decision, as far as the motors can."""
+    stick: float = 0.75 * (bearing - 0.08 * view.angular) / (view.turn_rate * PERIOD * DT)
+    return stick
+
+
+@kernel
+def follow(view: Any, mind: Any, action: Any) -> None:
+    """Drive on along the way, round whoever is in it."""
+    bearing = view.way_bearing
+    speed = mind.speed
+    for i in range(OTHERS):
+        other = view.others[i]
+        if other.present and other.distance < WIDE and abs(other.bearing - 0.5 * bearing) < 1.0:
+            nearness = 1.0 - (other.distance - 60.0) / (WIDE - 60.0)
+            left = other.bearing > 0.25 or (other.bearing > 0.0 and other.speed < 20.0)
+            bearing += (-1.2 if left else 1.2) * nearness  # who meet head-on keep to the right
+            if other.distance < 90.0 and abs(other.bearing) < 0.6:
+                speed *= 0.4
+    for w in range(WORKERS):
+        person = view.people[w]
+        if person.distance < PEOPLE and abs(person.bearing) < 1.1:
+            nearness = 1.0 - (person.distance - 60.0) / (PEOPLE - 60.0)
+            bearing += (-1.3 if person.bearing > 0.0 else 1.3) * nearness
+            speed *= 0.5
+    if blocked(view):
+        press(action, 0.0, turning(view, bearing), 0, 0)
+        return
+    if abs(bearing) > 1.1:
+        speed = 0.0
+    elif abs(bearing) > 0.5:
+        speed *= 0.5
+    dash = mind.dash and view.goal_distance > 350.0 and view.turbo > 0.4 and abs(bearing) < 0.25
+    press(action, speed, turning(view, bearing), 0, 1 if dash else 0)
+
+
+@kernel
+def blocked(view: Any) -> bool:
+    """Whether a person is so near ahead that driving on might touch them."""
+    near = False
+    for w in range(WORKERS):
+        person = view.people[w]
+        if person.distance < STOP and abs(person.bearing) < 0.9:
+            near = True
+    return near
+
+
+@kernel
+def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+    """Notice that it wants to move and gets nowhere."""
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if dx * dx + dy * dy > HELD_UP * HELD_UP:
+        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+        return
+    mind.held_up += PERIOD
+    if mind.held_up > HELD_UP_TICKS:
+        mind.held_up, mind.freeing = 0, FREEING
+        mind.escape = -0.8 if chance(mind) < 0.7 else 0.8
+        mind.escape_turn = 2.0 * chance(mind) - 1.0
+
+
+@kernel
+def free_itself(view: Any, mind: Any, action: Any) -> None:
+    """Back out with a turn, but not over anybody."""
+    mind.freeing -= PERIOD
+    for w in range(WORKERS):
+        person = view.people[w]
+        if person.distance < STOP:
+            ahead = abs(person.bearing) < 1.57
+            mind.escape = -0.8 if ahead else 0.8
+    press(action, mind.escape, mind.escape_turn, 0, 0)

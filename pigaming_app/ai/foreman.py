@@ -1,0 +1,95 @@
+"""The hand-written driver of Robot Factory: what to carry where, shared out between mates, and how to get there.
+
+Twice a second it lists what its team could do next, reckons what each job costs itself and its mate, and takes its part
+of the cheapest way to share two of them out. Its mate, if it is one of these, reckons alike; a person's next job is
+guessed from where they are, and left to them. A slot that a mate makes for is taken. The three strengths differ in
+speed, in how long they think after each job, and in how well they reckon, never in rules.
+"""
+
+from typing import Any
+
+from pigaming_app.ai.brain import Kind
+from pigaming_app.ai.errands import drive_to, feel_held_up, free_itself
+from pigaming_app.ai.jobs import choose_job
+from pigaming_app.games.factory.view import Eyes, View, see
+from pigaming_app.sim.action import press
+from pigaming_app.sim.chance import seeded
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.world import HZ
+
+PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
+PLAN = 25  # ticks between two looks at what there is to do
+
+
+@record
+class ForemanMind:
+    """What the driver remembers."""
+
+    eyes: Eyes
+    sight: View  # numba takes no field named view
+    random: int
+    speed: float  # share of full speed
+    pause: int  # ticks for which it thinks after each job
+    noise: float  # by which it misreckons what a job costs, as a share
+    dash: int  # 1: it uses turbo
+    target: int  # the slot it makes for, -1: none
+    near: int  # 1: it only waits near the target, which is not free
+    plan_in: int  # ticks until it looks again
+    resting: int  # ticks left of thinking
+    carried: int  # what it carried at the last decision
+    waiting: int  # ticks for which it has had nothing better to do than wait
+    anchor_x: float  # where it was when it last got anywhere
+    anchor_y: float
+    held_up: int  # ticks since
+    freeing: int  # ticks left of breaking free
+    escape: float  # the stick while it does
+    escape_turn: float
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any) -> None:
+    """Look and decide every PERIOD ticks; in between the stick stays as it is."""
+    if (match.tick + seat) % PERIOD:
+        return
+    load = match.loads[seat]
+    load.aim, load.told = mind.target + 1, 4 * PERIOD
+    see(match, seat, mind.eyes, mind.sight)
+    act(mind.sight, mind, match.actions[seat])
+
+
+@kernel
+def act(view: Any, mind: Any, action: Any) -> None:
+    """Choose a job now and then, and go about it."""
+    if view.carries != mind.carried:  # a job is done
+        mind.carried, mind.plan_in, mind.resting = view.carries, 0, mind.pause
+    mind.plan_in -= PERIOD
+    if mind.plan_in <= 0:
+        mind.plan_in = PLAN
+        choose_job(view, mind)
+    if view.frozen or mind.resting > 0 or mind.target < 0:
+        mind.resting -= PERIOD
+        mind.held_up = 0
+        press(action, 0.0, 0.0, 0, 0)
+        return
+    if mind.freeing > 0:
+        free_itself(view, mind, action)
+        return
+    drive_to(view, mind, action)
+    feel_held_up(view, mind, action)
+
+
+def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
+    """A function that fills a fresh mind: share of full speed, s of thinking, misreckoning, s of late eyes, turbo."""
+
+    def fill(mind: ForemanMind, seed: int) -> None:
+        mind.random, mind.target = seeded(seed), -1
+        mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
+        mind.eyes.delay = delay
+
+    return fill
+
+
+EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
+NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
+HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.0, delay=0.1, dash=1))

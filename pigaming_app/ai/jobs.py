@@ -1,0 +1,176 @@
+"""What a driver of Robot Factory does next: jobs, what they cost, and how two mates share them out.
+
+A job is a slot: to lift what lies there, or to put down there what is carried. `mind` is a ForemanMind.
+"""
+
+from math import sqrt
+from typing import Any
+
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, A, B
+from pigaming_app.games.factory.view import OTHERS
+from pigaming_app.sim.chance import chance
+from pigaming_app.sim.kernel import kernel
+
+NO = 1e8  # a cost that says: impossible
+SPEED = 230.0  # px/s that a robot makes on the way, to weigh ways against waiting
+KEEP = 90.0  # px by which the job that one is about seems cheaper, so that plans stay
+BLOCKED = 320.0  # px that an input costs whose machine's output is taken
+QUEUE = 500.0  # px that it costs to lift what cannot be put down yet
+LATER = 260.0  # px by which a raw pallet seems farther: what is nearer to the exit comes first
+
+
+@kernel
+def choose_job(view: Any, mind: Any) -> None:
+    """Set the target of the mind; `near`: it is not free, go near it and wait."""
+    mind.near = 0
+    best = cheapest_place(view, mind) if view.carries else share_out(view, mind)
+    if best >= 0:
+        mind.target, mind.waiting = best, 0
+        return
+    mind.waiting += 1
+    mind.near = 1
+    mind.target = waiting_place(view)
+
+
+@kernel
+def taken(view: Any, s: int) -> bool:
+    """Whether a mate says that it makes for slot s."""
+    said = False
+    for i in range(OTHERS):
+        other = view.others[i]
+        if other.present and other.mate and other.aim == s + 1:
+            said = True
+    return said
+
+
+@kernel
+def away(view: Any, s: int) -> float:
+    """The px from the robot to slot s."""
+    dx, dy = view.slots[s].x - view.x, view.slots[s].y - view.y
+    return sqrt(dx * dx + dy * dy)
+
+
+@kernel
+def between(view: Any, s: int, t: int) -> float:
+    """The px from slot s to slot t."""
+    dx, dy = view.slots[s].x - view.slots[t].x, view.slots[s].y - view.slots[t].y
+    return sqrt(dx * dx + dy * dy)
+
+
+@kernel
+def takes(slot: Any, state: int) -> bool:
+    """Whether a pallet in a state is at its right place in a slot."""
+    if slot.kind == INPUT:
+        return bool((slot.makes == A and state == RAW) or (slot.makes == B and state == HALF))
+    return bool(slot.kind == EXIT and slot.mine == 1 and state == DONE)
+
+
+@kernel
+def cheapest_place(view: Any, mind: Any) -> int:
+    """Where to put down what is carried; -1: nowhere now."""
+    state = view.carries - 1
+    best, least = -1, NO
+    for s in range(SLOTS):
+        slot = view.slots[s]
+        if not slot.put or taken(view, s):
+            continue
+        right = slot.kind == ENTRY if state == DAMAGED else takes(slot, state)
+        if not right:
+            continue
+        cost = away(view, s) + (BLOCKED if slot.kind == INPUT and slot.output_blocked else 0.0)
+        if mind.target == s:
+            cost -= KEEP
+        if cost < least:
+            best, least = s, cost
+    if best < 0 and mind.waiting > 16:  # for eight seconds: back to the shelf, and do something else
+        for s in range(SLOTS):
+            slot = view.slots[s]
+            if slot.put and slot.kind == ENTRY and away(view, s) < least:
+                best, least = s, away(view, s)
+    return best
+
+
+@kernel
+def onward(view: Any, s: int, state: int) -> float:
+    """The px from slot s to the best place for a pallet in that state; what is not free costs QUEUE more."""
+    least = NO
+    for t in range(SLOTS):
+        slot = view.slots[t]
+        if takes(slot, state):
+            cost = between(view, s, t)
+            if slot.holds or taken(view, t):
+                cost += QUEUE
+            if slot.kind == INPUT and slot.output_blocked:
+                cost += BLOCKED
+            if cost < least:
+                least = cost
+    return least
+
+
+@kernel
+def cost_of(view: Any, s: int) -> float:
+    """What it costs to do the job at slot s, after the way there; NO: there is nothing to lift."""
+    slot = view.slots[s]
+    if not slot.lift:
+        return NO
+    state = slot.holds - 1
+    if state == DAMAGED or takes(slot, state):  # spoiled, or where it should be
+        return NO
+    return onward(view, s, state) + (LATER if state == RAW else 0.0)
+
+
+@kernel
+def share_out(view: Any, mind: Any) -> int:
+    """The slot from which to lift next, when the mate's next job is thought of too; -1: nothing to do."""
+    mate = -1
+    for i in range(OTHERS):
+        if view.others[i].present and view.others[i].mate:
+            mate = i
+    best, least = -1, NO
+    for s in range(SLOTS):
+        then = cost_of(view, s)
+        if then >= NO or (mate >= 0 and view.others[mate].carries and taken(view, s)):
+            continue
+        cost = away(view, s) + then - (KEEP if mind.target == s else 0.0)
+        if mind.noise > 0.0:
+            cost *= 1.0 + mind.noise * chance(mind)
+        if mate >= 0 and not view.others[mate].carries:
+            cost += best_other(view, view.others[mate], s)
+        if cost < least:
+            best, least = s, cost
+    return best
+
+
+@kernel
+def best_other(view: Any, mate: Any, without: int) -> float:
+    """What the mate's best job costs it if it leaves slot `without` to this robot."""
+    least = 3000.0
+    for s in range(SLOTS):
+        if s == without:
+            continue
+        then = cost_of(view, s)
+        if then < NO:
+            dx, dy = view.slots[s].x - mate.x, view.slots[s].y - mate.y
+            cost = sqrt(dx * dx + dy * dy) + then - (KEEP if mate.aim == s + 1 else 0.0)
+            if cost < least:
+                least = cost
+    return least
+
+
+@kernel
+def waiting_place(view: Any) -> int:
+    """The slot near which to wait: where what is carried will go, or where the next pallet will come out."""
+    best, least = -1, NO
+    state = view.carries - 1
+    for s in range(SLOTS):
+        slot = view.slots[s]
+        if view.carries:
+            good = takes(slot, state) or (state == DAMAGED and slot.kind == ENTRY and slot.mine == 1)
+        else:
+            good = slot.kind == OUTPUT
+        if not good or taken(view, s):
+            continue
+        cost = away(view, s) + slot.wait * SPEED + (0.0 if view.carries or slot.wait > 0.0 else 2000.0)
+        if cost < least:
+            best, least = s, cost
+    return best
