@@ -3,6 +3,7 @@
 `mind` is a ForemanMind; all of it works on the view.
 """
 
+from math import cos, sin, sqrt
 from typing import Any
 
 from pigaming_app.games.factory.state import WORKERS
@@ -16,9 +17,11 @@ PERIOD = 5
 AT = 24.0  # px between the fork and a slot at which it presses fire
 TURN_IN = 30.0  # px before the fork is at the slot from which it turns to it
 STAND_OFF = 150.0  # px from a slot that is not free at which it waits
-WIDE = 135.0  # px from another robot from which it steers round it
-PEOPLE = 150.0  # px from a person from which it does
-STOP = 96.0  # px from a person ahead at which it stops
+LOOK = 130.0  # px ahead that must be free
+LOOKS, LEAN = 11, 0.32  # ways that it looks for one that is free, and rad from one to the next
+ROBOT_ROOM = 78.0  # px between two robots that pass each other
+PERSON_ROOM = 70.0  # px between a robot and a person that it passes
+STOP = 96.0  # px from a person within which it does not back up
 HELD_UP = 16.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 45
 FREEING = 25  # ticks of backing out
@@ -53,7 +56,7 @@ def handle(view: Any, mind: Any, action: Any, slot: Any) -> None:
     speed = 0.0
     if abs(view.goal_bearing) < 0.5:
         speed = (view.goal_distance - view.fork) / 40.0
-        if speed > 0.0 and blocked(view):
+        if speed > 0.0 and room(view, 0.0, 0.0) < 20.0:
             speed = 0.0
     press(action, speed, turning(view, view.goal_bearing), 0, 0)
 
@@ -67,43 +70,50 @@ def turning(view: Any, bearing: float) -> float:
 
 @kernel
 def follow(view: Any, mind: Any, action: Any) -> None:
-    """Drive on along the way, round whoever is in it."""
+    """Drive on along the way, or as near to it as whoever is about leaves room."""
     bearing = view.way_bearing
+    free = False
+    for i in range(LOOKS):
+        lean = LEAN * ((i + 1) // 2)
+        turn = bearing + (lean if i % 2 else -lean)  # who meet head-on keep to the right
+        if room(view, turn, ROBOT_ROOM) >= min(LOOK, view.way_distance):
+            bearing, free = turn, True
+            break
+    ahead = room(view, 0.0, ROBOT_ROOM)
     speed = mind.speed
-    for i in range(OTHERS):
-        other = view.others[i]
-        if other.present and other.distance < WIDE and abs(other.bearing - 0.5 * bearing) < 1.0:
-            nearness = 1.0 - (other.distance - 60.0) / (WIDE - 60.0)
-            left = other.bearing > 0.25 or (other.bearing > 0.0 and other.speed < 20.0)
-            bearing += (-1.2 if left else 1.2) * nearness  # who meet head-on keep to the right
-            if other.distance < 90.0 and abs(other.bearing) < 0.6:
-                speed *= 0.4
-    for w in range(WORKERS):
-        person = view.people[w]
-        if person.distance < PEOPLE and abs(person.bearing) < 1.1:
-            nearness = 1.0 - (person.distance - 60.0) / (PEOPLE - 60.0)
-            bearing += (-1.3 if person.bearing > 0.0 else 1.3) * nearness
-            speed *= 0.5
-    if blocked(view):
-        press(action, 0.0, turning(view, bearing), 0, 0)
-        return
-    if abs(bearing) > 1.1:
+    if abs(bearing) > 1.1 or ahead < 40.0:
         speed = 0.0
-    elif abs(bearing) > 0.5:
+    elif abs(bearing) > 0.5 or ahead < LOOK:
         speed *= 0.5
-    dash = mind.dash and view.goal_distance > 350.0 and view.turbo > 0.4 and abs(bearing) < 0.25
+    if not free and ahead < 80.0:
+        speed = 0.0
+    dash = mind.dash and view.goal_distance > 350.0 and view.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
     press(action, speed, turning(view, bearing), 0, 1 if dash else 0)
 
 
 @kernel
-def blocked(view: Any) -> bool:
-    """Whether a person is so near ahead that driving on might touch them."""
-    near = False
+def room(view: Any, turn: float, robots: float) -> float:
+    """The px that it can drive at a bearing before it comes too near to a person, or within `robots` px of a robot."""
+    free = 1000.0
     for w in range(WORKERS):
         person = view.people[w]
-        if person.distance < STOP and abs(person.bearing) < 0.9:
-            near = True
-    return near
+        if person.distance < 2.0 * LOOK:
+            free = min(free, gap(person.distance, person.bearing - turn, PERSON_ROOM))
+    for i in range(OTHERS):
+        other = view.others[i]
+        if other.present and other.distance < LOOK:
+            free = min(free, gap(other.distance, other.bearing - turn, robots))
+    return free
+
+
+@kernel
+def gap(distance: float, bearing: float, clearance: float) -> float:
+    """The px that one can drive straight on before one is within `clearance` of what is there."""
+    ahead, aside = distance * cos(bearing), distance * sin(bearing)
+    if ahead <= 0.0 or aside >= clearance or aside <= -clearance:
+        return 1000.0
+    before = ahead - sqrt(clearance * clearance - aside * aside)
+    return before if before > 0.0 else 0.0
 
 
 @kernel
