@@ -24,6 +24,11 @@ PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LANES = 9  # ways to pass that are thought of, from one edge to the other
 CLEAR = 2.0 * RADIUS + 8.0  # px between the middles of two robots that pass each other
 SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
+OWN, STEADY = 0.15, 0.1  # what a px costs away from the own line, and from the lane chosen last
+FAR = 300.0  # px from which others matter
+SOON = 2.5  # s in which it would run into another, from which on that is in the way
+TAIL = 20.0  # px behind another at which it drives no faster than that
+SHIFT = 60.0  # px that a lane may be changed while it drives to the point ahead
 EDGE = 2.0  # px that a lane keeps from the edge
 NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
@@ -98,6 +103,8 @@ def race(view: Any, mind: Any, action: Any) -> int:
     choose_lane(view, mind)
     room = mark.half - EDGE
     lane = mind.lane + mind.stray
+    keep = view.aside - view.ideal + mark.ideal  # the lane that leads along beside the fastest line
+    lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
     lane = room if lane > room else -room if lane < -room else lane
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
     pursue(view, mind, action, x, y)
@@ -170,42 +177,53 @@ def feel_held_up(view: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def choose_lane(view: Any, mind: Any) -> None:
-    """The lane nearest to the own line, and to where it is, on which nobody is in the way."""
+    """The lane that costs the fewest px: those lost behind others, and those of a longer way round a bend."""
     mark = view.ahead
     wanted = mind.line * mark.ideal
-    best, least = wanted, blocked(view, wanted)
+    best, least = wanted, blocked(view, mind, wanted)
     if least > 0.0:
-        room = mark.half - EDGE
+        least += STEADY * abs(wanted - mind.lane)
+        room, away = mark.half - EDGE, OWN + abs(view.turn)
         for i in range(LANES):
             lane = room * (2.0 * i / (LANES - 1) - 1.0)
-            cost = blocked(view, lane) + 0.2 * abs(lane - wanted) + 0.3 * abs(lane - view.aside)
+            cost = blocked(view, mind, lane) + away * abs(lane - wanted) + STEADY * abs(lane - mind.lane)
             if cost < least:
                 best, least = lane, cost
     mind.lane = best
 
 
 @kernel
-def blocked(view: Any, lane: float) -> float:
-    """How much others are in the way of one who moves over to a lane; 0: not at all."""
+def blocked(view: Any, mind: Any, lane: float) -> float:
+    """The px that others on a lane cost; 0: nobody is in the way."""
     cost = 0.0
     for i in range(OTHERS):
         other = view.others[i]
-        if not other.present or other.ahead < -CLEAR or other.ahead > 300.0:
+        if not other.present or other.ahead < -CLEAR or other.distance > FAR:
             continue
-        pace = view.linear if view.linear > 100.0 else 100.0
-        closing = pace - other.speed
-        if other.ahead > CLEAR:
-            if closing < 5.0 or (other.ahead - CLEAR) / closing > 1.5:
-                continue
-            soon = (other.ahead - CLEAR) / closing
-        else:
-            soon = 0.0
-        gap = abs(other.aside + (soon if soon < 0.5 else 0.5) * other.sideways - lane)
-        if gap < CLEAR:
-            cost += 60.0 + 3.0 * (CLEAR - gap)
-        if other.ahead < CLEAR and (other.aside - view.aside) * (other.aside - lane) < 0.0:
-            cost += 400.0  # through it
+        gap = abs(other.aside - lane)
+        if other.ahead < CLEAR:
+            if (other.aside - view.aside) * (other.aside - lane) < 0.0:
+                cost += 400.0  # through it
+            if gap < CLEAR:
+                cost += 3.0 * (CLEAR - gap)
+        elif gap < CLEAR:
+            closing = mind.speed * view.speed - other.speed
+            if other.distance - CLEAR < SOON * closing:
+                cost += 0.5 * (closing if closing < 150.0 else 150.0) * (1.0 + (CLEAR - gap) / CLEAR)
     return cost
+
+
+@kernel
+def held_to(view: Any) -> float:
+    """The speed of a robot right ahead, as a share of full speed; above 1 if there is none."""
+    share = 2.0
+    for i in range(OTHERS):
+        other = view.others[i]
+        near = other.present and other.ahead > 0.0 and other.distance < CLEAR + TAIL
+        if near and other.speed > 100.0 and abs(other.bearing) < 0.6:
+            ahead = other.speed / view.speed
+            share = ahead if ahead < share else share
+    return share
 
 
 @kernel
@@ -223,10 +241,12 @@ def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
         press(action, 0.0, 3.0 * bearing, 0, 0)
         return
     bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
-    dash = use_turbo(view, mind, bend)
+    held = held_to(view)
+    dash = use_turbo(view, mind, bend) if held > 1.0 else 0
     full = view.speed * (1.3 if dash else 1.0)
     speed, most = mind.speed * view.pace, GRIP * view.turn_rate / (abs(bend) * full + 1e-9)
     speed = speed if speed < most else most
+    speed = speed if speed < held else held
     press(action, speed, bend * speed * full / view.turn_rate, 0, dash)
 
 

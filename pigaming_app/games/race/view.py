@@ -76,6 +76,7 @@ class View:
     lean: float  # heading, relative to the way of the course
     ideal: float  # where the fastest line is here, px aside of the centre line
     pace: float  # least speed of that line in the next PACE px, as a share of full speed
+    turn: float  # sine of the angle by which the course turns from here to `beyond`, positive to the right
     left: float  # px to the finish
     past: float  # px by which it is past the line that it must cross next; negative: the way to it
     return_x: float  # where to drive to get back before that line, if it is past it
@@ -104,6 +105,7 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     view.left = rules.laps * course.length - racer.progress
     view.rank, view.finished = racer.rank, racer.finished
     see_way(match, along, eyes.look, view)
+    view.turn = place.tangent_x * -view.beyond.right_x + place.tangent_y * -view.beyond.right_y
     see_next(match, seat, along, view)
     for i in range(OTHERS):
         see_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
