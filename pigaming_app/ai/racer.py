@@ -27,8 +27,11 @@ SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that
 OWN, STEADY = 0.15, 0.1  # what a px costs away from the own line, and from the lane chosen last
 FAR = 300.0  # px from which others matter
 SOON = 2.5  # s in which it would run into another, from which on that is in the way
+DASH = 1.1  # times its speed, with its turbo, by which it judges how fast it comes up to another
+LEEWAY = 6.0  # px of two robots that it takes for granted when they pass
 TAIL = 20.0  # px behind another at which it drives no faster than that
 SHIFT = 60.0  # px that a lane may be changed while it drives to the point ahead
+OUT = 30.0  # px from the edge for which it makes when it is off the course
 EDGE = 2.0  # px that a lane keeps from the edge
 NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
@@ -101,7 +104,7 @@ def race(view: Any, mind: Any, action: Any) -> int:
         return go_back(view, action)
     mark = view.ahead
     choose_lane(view, mind)
-    room = mark.half - EDGE
+    room = mark.half - (EDGE if view.on else OUT)
     lane = mind.lane + mind.stray
     keep = view.aside - view.ideal + mark.ideal  # the lane that leads along beside the fastest line
     lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
@@ -152,10 +155,10 @@ def err(mind: Any) -> None:
 @kernel
 def look_ahead(view: Any) -> float:
     """How far to look next time: off the course not past the next line, so as to cross it and not drive round it."""
-    look = LOOK
-    if not view.on:
+    look = LOOK if view.on else 0.5 * LOOK
+    if not view.on and -view.past - SLACK < look:
         look = -view.past - SLACK
-    return LOOK if look > LOOK else 20.0 if look < 20.0 else look
+    return 20.0 if look < 20.0 else look
 
 
 @kernel
@@ -207,21 +210,21 @@ def blocked(view: Any, mind: Any, lane: float) -> float:
             if gap < CLEAR:
                 cost += 3.0 * (CLEAR - gap)
         elif gap < CLEAR:
-            closing = mind.speed * view.speed - other.speed
+            closing = DASH * mind.speed * view.speed - other.speed
             if other.distance - CLEAR < SOON * closing:
-                cost += 0.5 * (closing if closing < 150.0 else 150.0) * (1.0 + (CLEAR - gap) / CLEAR)
+                cost += (closing if closing < 150.0 else 150.0) * (1.0 + (CLEAR - gap) / CLEAR)
     return cost
 
 
 @kernel
-def held_to(view: Any) -> float:
-    """The speed of a robot right ahead, as a share of full speed; above 1 if there is none."""
+def held_to(view: Any, mind: Any) -> float:
+    """The speed of a robot right ahead on the own lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
     for i in range(OTHERS):
         other = view.others[i]
-        near = other.present and other.ahead > 0.0 and other.distance < CLEAR + TAIL
-        if near and other.speed > 100.0 and abs(other.bearing) < 0.6:
-            ahead = other.speed / view.speed
+        near = other.present and other.ahead > 15.0 and other.distance < CLEAR + TAIL
+        if near and other.speed > 100.0 and abs(other.aside - mind.lane) < CLEAR - LEEWAY:
+            ahead = 0.98 * other.speed / view.speed
             share = ahead if ahead < share else share
     return share
 
@@ -241,7 +244,7 @@ def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
         press(action, 0.0, 3.0 * bearing, 0, 0)
         return
     bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
-    held = held_to(view)
+    held = held_to(view, mind)
     dash = use_turbo(view, mind, bend) if held > 1.0 else 0
     full = view.speed * (1.3 if dash else 1.0)
     speed, most = mind.speed * view.pace, GRIP * view.turn_rate / (abs(bend) * full + 1e-9)
