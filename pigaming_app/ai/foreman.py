@@ -13,13 +13,14 @@ from pigaming_app.ai.errands import drive_to, feel_held_up, free_itself
 from pigaming_app.ai.jobs import choose_job
 from pigaming_app.games.factory.view import Eyes, View, see
 from pigaming_app.sim.action import press
-from pigaming_app.sim.chance import seeded
+from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 PLAN = 25  # ticks between two looks at what there is to do
+START = 20  # ticks within which it wakes up
 
 
 @record
@@ -84,6 +85,7 @@ def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> A
 
     def fill(mind: ForemanMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
+        mind.resting = int(chance(mind) * START)  # nobody begins on the same tick
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
         mind.eyes.delay = delay
 
@@ -92,4 +94,4 @@ def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> A
 
 EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
 NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
-HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.0, delay=0.1, dash=1))
+HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))

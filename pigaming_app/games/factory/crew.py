@@ -44,9 +44,7 @@ def run_crew(match: Any) -> None:
     """One tick of all machines and people."""
     for m in range(MACHINES):
         run_machine(match, m)
-    for m in range(MACHINES):
-        if not match.machines[m].worker:
-            call_worker(match, m)
+    call_worker(match)
     for w in range(WORKERS):
         run_worker(match, w)
 
@@ -86,10 +84,16 @@ def is_late(match: Any, m: int) -> bool:
 
 
 @kernel
-def call_worker(match: Any, m: int) -> None:
-    """Send the nearest worker who rests to a machine that needs one."""
-    task = GOING if has_work(match, m) else FETCHING if is_late(match, m) else RESTING
-    if task == RESTING:
+def call_worker(match: Any) -> None:
+    """Send the nearest worker who rests to the machine at which something has waited longest: one of them a tick."""
+    m, longest = -1, -1
+    for i in range(MACHINES):
+        if not match.machines[i].worker and (has_work(match, i) or is_late(match, i)):
+            lies = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
+            waited = match.pallets[match.slots[lies].pallet - 1].waited
+            if waited > longest:
+                m, longest = i, waited
+    if m < 0:
         return
     machine = match.machines[m]
     best, least = -1, 1e18
@@ -102,10 +106,11 @@ def call_worker(match: Any, m: int) -> None:
     if best < 0:
         return
     worker = match.workers[best]
-    worker.task, worker.machine, machine.worker = task, m, best + 1
-    if task == GOING:
+    worker.task, worker.machine, machine.worker = GOING, m, best + 1
+    if has_work(match, m):
         send(worker, machine.spot_x, machine.spot_y)
     else:
+        worker.task = FETCHING
         stand_at(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
 
 
