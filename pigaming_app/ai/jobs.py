@@ -15,7 +15,9 @@ NO = 1e8  # a cost that says: impossible
 SPEED = 230.0  # px/s that a robot makes on the way, to weigh ways against waiting
 KEEP = 90.0  # px by which the job that one is about seems cheaper, so that plans stay
 BLOCKED = 320.0  # px that an input costs whose machine's output is taken
-QUEUE = 500.0  # px that it costs to lift what cannot be put down yet
+QUEUE = 900.0  # px that it costs to lift what cannot be put down yet
+FREES = 300.0  # px that it is worth to free a machine
+NOISE = 600.0  # px by which who reckons badly is wrong
 LATER = 260.0  # px by which a raw pallet seems farther: what is nearer to the exit comes first
 
 
@@ -92,14 +94,12 @@ def cheapest_place(view: Any, mind: Any) -> int:
 
 @kernel
 def onward(view: Any, s: int, state: int) -> float:
-    """The px from slot s to the best place for a pallet in that state; what is not free costs QUEUE more."""
+    """The px from slot s to the best free place for a pallet in that state; NO: there is none."""
     least = NO
     for t in range(SLOTS):
         slot = view.slots[t]
-        if takes(slot, state):
+        if takes(slot, state) and not slot.holds and not taken(view, t):
             cost = between(view, s, t)
-            if slot.holds or taken(view, t):
-                cost += QUEUE
             if slot.kind == INPUT and slot.output_blocked:
                 cost += BLOCKED
             if cost < least:
@@ -108,15 +108,18 @@ def onward(view: Any, s: int, state: int) -> float:
 
 
 @kernel
-def cost_of(view: Any, s: int) -> float:
-    """What it costs to do the job at slot s, after the way there; NO: there is nothing to lift."""
+def cost_of(view: Any, s: int, queue: float) -> float:
+    """What it costs to do the job at slot s, after the way there; `queue`: if it must then wait for a free place."""
     slot = view.slots[s]
     if not slot.lift:
         return NO
     state = slot.holds - 1
     if state == DAMAGED or takes(slot, state):  # spoiled, or where it should be
         return NO
-    return onward(view, s, state) + (LATER if state == RAW else 0.0)
+    then = onward(view, s, state)
+    if slot.kind == OUTPUT:  # whatever it is, it frees a machine
+        return min(then, queue) - FREES
+    return then + LATER if state == RAW and then < NO else then
 
 
 @kernel
@@ -126,30 +129,32 @@ def share_out(view: Any, mind: Any) -> int:
     for i in range(OTHERS):
         if view.others[i].present and view.others[i].mate:
             mate = i
+    alone = mate < 0 or view.others[mate].carries  # somebody must keep the fork free, to clear the machines
+    queue = NO if alone else QUEUE
     best, least = -1, NO
     for s in range(SLOTS):
-        then = cost_of(view, s)
-        if then >= NO or (mate >= 0 and view.others[mate].carries and taken(view, s)):
+        then = cost_of(view, s, queue)
+        if then >= NO - FREES or (alone and taken(view, s)):
             continue
         cost = away(view, s) + then - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
-            cost *= 1.0 + mind.noise * chance(mind)
-        if mate >= 0 and not view.others[mate].carries:
-            cost += best_other(view, view.others[mate], s)
+            cost += mind.noise * NOISE * chance(mind)
+        if not alone:
+            cost += best_other(view, view.others[mate], s, queue)
         if cost < least:
             best, least = s, cost
     return best
 
 
 @kernel
-def best_other(view: Any, mate: Any, without: int) -> float:
+def best_other(view: Any, mate: Any, without: int, queue: float) -> float:
     """What the mate's best job costs it if it leaves slot `without` to this robot."""
     least = 3000.0
     for s in range(SLOTS):
         if s == without:
             continue
-        then = cost_of(view, s)
-        if then < NO:
+        then = cost_of(view, s, queue)
+        if then < NO - FREES:
             dx, dy = view.slots[s].x - mate.x, view.slots[s].y - mate.y
             cost = sqrt(dx * dx + dy * dy) + then - (KEEP if mate.aim == s + 1 else 0.0)
             if cost < least:
@@ -159,7 +164,7 @@ def best_other(view: Any, mate: Any, without: int) -> float:
 
 @kernel
 def waiting_place(view: Any) -> int:
-    """The slot near which to wait: where what is carried will go, or where the next pallet will come out."""
+    """The slot near which to wait: where what is carried will go, or where the own next pallet will come out."""
     best, least = -1, NO
     state = view.carries - 1
     for s in range(SLOTS):
@@ -167,10 +172,9 @@ def waiting_place(view: Any) -> int:
         if view.carries:
             good = takes(slot, state) or (state == DAMAGED and slot.kind == ENTRY and slot.mine == 1)
         else:
-            good = slot.kind == OUTPUT
-        if not good or taken(view, s):
-            continue
-        cost = away(view, s) + slot.wait * SPEED + (0.0 if view.carries or slot.wait > 0.0 else 2000.0)
-        if cost < least:
-            best, least = s, cost
+            good = slot.kind == OUTPUT and slot.ours == 1
+        if good and not taken(view, s):
+            cost = away(view, s) + slot.wait * SPEED
+            if cost < least:
+                best, least = s, cost
     return best

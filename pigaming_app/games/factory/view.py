@@ -70,7 +70,8 @@ class Place:
     lift: int  # 1: this robot could lift what lies there, if it were there with its fork empty
     put: int  # 1: this robot could put there what it carries
     output_blocked: int  # of an input: 1 while something lies in the output of its machine
-    wait: float  # s until the machine of an output is done; 0: it is not working
+    wait: float  # s until the machine is done; 0: it is not working
+    ours: int  # 1: what the machine works on, or has done, is of the own team
 
 
 @record
@@ -163,12 +164,14 @@ def see_slot(match: Any, seat: int, s: int, place: Any) -> None:
     place.holds = match.pallets[slot.pallet - 1].state + 1 if slot.pallet else 0
     place.lift = 1 if may_lift(match, seat, s) else 0
     place.put = 1 if match.loads[seat].pallet and may_set_down(match, seat, s) else 0
-    place.makes, place.wait, place.output_blocked = -1, 0.0, 0
+    place.makes, place.wait, place.output_blocked, place.ours = -1, 0.0, 0, 0
     if slot.machine >= 0:
         machine = match.machines[slot.machine]
         place.makes = machine.kind
         place.wait = machine.left * 0.02 if machine.pallet else 0.0
-        place.output_blocked = 1 if machine.keeps else 0
+        if machine.keeps:
+            place.output_blocked = 1
+            place.ours = 1 if match.pallets[machine.keeps - 1].team == team else 0
 
 
 @kernel
