@@ -16,6 +16,7 @@ from pigaming_app.sim.world import DT
 PERIOD = 5
 AT = 24.0  # px between the fork and a slot at which it presses fire
 TURN_IN = 30.0  # px before the fork is at the slot from which it turns to it
+ASIDE = 120.0  # px from a person at which who only waits makes way
 STAND_OFF = 150.0  # px from a slot that is not free at which it waits
 LOOK = 130.0  # px ahead that must be free
 LOOKS, LEAN = 11, 0.32  # ways that it looks for one that is free, and rad from one to the next
@@ -37,13 +38,26 @@ def drive_to(view: Any, mind: Any, action: Any) -> None:
         press(action, 0.0, 0.0, 0, 0)
         return
     if mind.near and view.goal_distance < STAND_OFF and view.straight:
-        press(action, -0.5 if view.goal_distance < STAND_OFF - 40.0 else 0.0, 0.0, 0, 0)
-        mind.held_up = 0
+        make_way(view, mind, action)
         return
     if view.straight and view.goal_distance < view.fork + TURN_IN:
         handle(view, mind, action, slot)
     else:
         follow(view, mind, action)
+
+
+@kernel
+def make_way(view: Any, mind: Any, action: Any) -> None:
+    """Stand, but not where a person wants to walk, nor at the slot."""
+    speed = -0.5 if view.goal_distance < STAND_OFF - 40.0 else 0.0
+    nearest = ASIDE
+    for w in range(WORKERS):
+        person = view.people[w]
+        if person.distance < nearest:
+            nearest = person.distance
+            speed = -0.6 if abs(person.bearing) < 1.57 else 0.6
+    mind.held_up = 0
+    press(action, speed, 0.0, 0, 0)
 
 
 @kernel

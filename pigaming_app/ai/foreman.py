@@ -68,8 +68,8 @@ def act(view: Any, mind: Any, action: Any) -> None:
     if mind.plan_in <= 0:
         mind.plan_in = PLAN
         choose_job(view, mind)
-    if view.frozen or mind.resting > 0 or mind.target < 0:
-        mind.resting -= PERIOD
+    mind.resting -= PERIOD
+    if view.frozen or mind.resting > 0:
         mind.held_up = 0
         press(action, 0.0, 0.0, 0, 0)
         return

@@ -17,6 +17,7 @@ KEEP = 90.0  # px by which the job that one is about seems cheaper, so that plan
 BLOCKED = 320.0  # px that an input costs whose machine's output is taken
 QUEUE = 900.0  # px that it costs to lift what cannot be put down yet
 FREES = 300.0  # px that it is worth to free a machine
+HOME = 5000.0  # px by which waiting at home seems farther than where something will come out
 NOISE = 600.0  # px by which who reckons badly is wrong
 LATER = 260.0  # px by which a raw pallet seems farther: what is nearer to the exit comes first
 
@@ -164,7 +165,7 @@ def best_other(view: Any, mate: Any, without: int, queue: float) -> float:
 
 @kernel
 def waiting_place(view: Any) -> int:
-    """The slot near which to wait: where what is carried will go, or where the own next pallet will come out."""
+    """The slot near which to wait: where what is carried will go, or the own next pallet come out, or at home."""
     best, least = -1, NO
     state = view.carries - 1
     for s in range(SLOTS):
@@ -172,9 +173,9 @@ def waiting_place(view: Any) -> int:
         if view.carries:
             good = takes(slot, state) or (state == DAMAGED and slot.kind == ENTRY and slot.mine == 1)
         else:
-            good = slot.kind == OUTPUT and slot.ours == 1
+            good = slot.mine == 1 or (slot.kind == OUTPUT and slot.ours == 1)
         if good and not taken(view, s):
-            cost = away(view, s) + slot.wait * SPEED
+            cost = away(view, s) + slot.wait * SPEED + (HOME if slot.mine == 1 else 0.0)
             if cost < least:
                 best, least = s, cost
     return best

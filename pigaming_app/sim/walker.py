@@ -1,6 +1,7 @@
 """People who walk: a flow field leads them round walls; they stop for robots, and step round whoever stands still.
 
-A walker is any record with x, y, heading, walking (1: on the move) and an `errand` (see `navigate`).
+A walker is any record with x, y, heading, walking (1: on the move), side (on which it goes round somebody: -1, 0 or 1)
+and an `errand` (see `navigate`).
 """
 
 from math import atan2, cos, sin, sqrt
@@ -11,10 +12,12 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.navigate import find_way
 from pigaming_app.sim.robots import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, WIDTH
+from pigaming_app.sim.world import DT
 
 THERE = 6.0  # px from the goal that count as there
-ROOM = 34.0  # px that a walker keeps from a robot beside its own radius
+NEARLY = 70.0  # px that do, if somebody stands in the way
+ROOM, CLOSE = 34.0, 8.0  # px that a walker keeps from a robot that drives, and from one that stands
+DRIVING = 20.0  # px/s
 AHEAD = 0.5  # s that it looks ahead at how a robot drives
 TURN = 8.0  # rad/s
 
@@ -28,7 +31,7 @@ def send(walker: Any, x: float, y: float) -> None:
 
 @kernel
 def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
-    """One tick on the way; 1 if the walker is where it was sent."""
+    """One tick on the way; 1 if the walker is where it was sent, or as near as those who stand there let it."""
     errand = walker.errand
     dx, dy = errand.goal_x - walker.x, errand.goal_y - walker.y
     left = sqrt(dx * dx + dy * dy)
@@ -41,18 +44,28 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     if gap < 1e-6:
         return 0
     ux, uy = dx / gap, dy / gap
-    pace = speed * DT
-    if left < pace:
-        pace = left
-    for side in range(3):  # straight on, else to the right, else to the left
-        turn = 0.0 if side == 0 else (1.0 if side == 1 else -1.0)
-        vx, vy = ux * (1.0 - abs(turn)) - uy * turn, uy * (1.0 - abs(turn)) + ux * turn
-        x, y = walker.x + pace * vx, walker.y + pace * vy
-        if free_of_robots(world, walker, x, y, radius) and inside(x, y) and (side == 0 or not in_wall(world, x, y)):
-            look(walker, vx, vy)
-            walker.x, walker.y, walker.walking = x, y, 1
+    pace = min(left, speed * DT)
+    if step(world, walker, pace * ux, pace * uy, radius):
+        walker.side = 0
+        return 0
+    if walker.side == 0:
+        walker.side = 1
+    for _ in range(2):  # round what is in the way, on one side as long as that leads on
+        if step(world, walker, -pace * walker.side * uy, pace * walker.side * ux, radius):
             return 0
-    return 0
+        walker.side = -walker.side
+    return 1 if left < NEARLY else 0
+
+
+@kernel
+def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
+    """Take a step, if neither a robot nor a wall is in the way."""
+    x, y = walker.x + dx, walker.y + dy
+    if not free_of_robots(world, walker, x, y, radius) or in_wall(world, x, y):
+        return False
+    look(walker, dx, dy)
+    walker.x, walker.y, walker.walking = x, y, 1
+    return True
 
 
 @kernel
@@ -68,18 +81,13 @@ def look(walker: Any, vx: float, vy: float) -> None:
 
 
 @kernel
-def inside(x: float, y: float) -> bool:
-    """Whether a walker may stand there at all."""
-    return bool(RADIUS <= x <= WIDTH - RADIUS and RADIUS <= y <= HEIGHT - RADIUS)
-
-
-@kernel
 def free_of_robots(world: Any, walker: Any, x: float, y: float, radius: float) -> bool:
     """Whether no robot is, or will soon be, in the way of a step to (x, y). Stepping away from one is always free."""
-    reach = RADIUS + radius + ROOM
     for robot in world.robots:
         if not robot.present:
             continue
+        drives = robot.linear > DRIVING or robot.linear < -DRIVING
+        reach = RADIUS + radius + (ROOM if drives else CLOSE)
         ahead = AHEAD * robot.linear
         vx, vy = ahead * cos(robot.heading), ahead * sin(robot.heading)
         for half in range(3):

@@ -100,6 +100,7 @@ class Worker:
     y: float
     heading: float
     walking: int  # 1: on the move
+    side: int  # on which it goes round somebody: -1, 0 or 1
     task: int
     machine: int  # which it goes to, works at or fetches from; -1: none
     pallet: int  # 1 + what it carries; 0: nothing
