@@ -1,0 +1,217 @@
+"""The fastest lap of each track, how near the drivers come to it, and whether they ever fail.
+
+    python -m tests.bench.reference_lap [RACES]
+
+1000 races if nothing is said; exit code 1 where a target is missed.
+
+The reference is a lap by dynamic programming over (x, y, heading), without turbo. The places lie on lines across the
+course at each of its 320 points, 3 px apart and up to 40 px into the mud; the headings are 2.5 degrees apart. From each
+the robot drives an arc to the next line across: at full speed as long as its turn rate allows, else slower, in the mud
+at a third. The best way is then driven without rounding, and timed. Motors are taken to follow at once, which no
+robot's do. Ways that leave the course further than that, through the infield, are not looked at.
+
+A driver's ratio is the reference over the mean of its flying laps, alone on the track, with its turbo meter empty for
+good, so that both have the same limits. With turbo, shown beside it, a driver may be faster than the reference.
+"""
+
+import sys
+from collections import deque
+from math import atan2, cos, pi, sin
+from typing import Any
+
+import numpy as np
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.ai.rollout import Batch
+from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.race.start import set_rules
+from pigaming_app.games.race.state import MOST_LAPS, Rules
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.course import POINTS, Course
+from pigaming_app.sim.kernel import compiled, kernel
+from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH
+
+ASIDE, ASIDES = 3.0, 111  # px between places, and how many
+LEAN, LEANS = pi / 72, 61  # rad between headings, and how many
+BENDS = (-3.0, -2.0, -1.4, -1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0)  # of the full-speed bend
+MUDDY = 40.0  # px off the course that are looked at
+NEVER = 1e6
+LAPS = 3  # of dynamic programming, after which the next lap costs the same from everywhere
+TARGETS = {"easy": (0.75, 0.85), "normal": (0.85, 0.96), "hard": (0.96, 1.01)}
+SOLO = 8  # races of a driver alone
+MIXTURES = (
+    ("easy", "normal", "hard", "hard"),
+    ("hard", "hard", "easy", "easy"),
+    ("normal", "easy", "hard", "normal"),
+    ("easy", "hard", "normal", "easy"),
+    ("hard", "easy", "hard", "normal"),
+)
+LOOK = 5  # ticks between two looks at a race
+STUCK, STUCK_PX = 3 * HZ, 10.0  # ticks with the stick pushed, in which a robot that is not stuck gets further than this
+
+
+def reference(course: Course) -> float:
+    """The s of the fastest flying lap."""
+    rules, nobody = Rules(), Seat("off", 0)
+    set_rules(rules, Setup("race", "", (nobody, nobody, nobody, nobody), 1.0, 1, "standard"))
+    ring = np.zeros((POINTS, 4))  # x, y, way, half
+    for i in range(POINTS):
+        after = (i + 1) % POINTS
+        way = atan2(course.ys[after] - course.ys[i - 1], course.xs[after] - course.xs[i - 1])
+        ring[i] = course.xs[i], course.ys[i], way, course.half[i]
+    limits = np.array([rules.speed, rules.turn_rate, rules.mud])
+    full = rules.turn_rate / rules.speed
+    rest = np.zeros((POINTS + 1, ASIDES, LEANS))
+    fill_all, drive_all = compiled(fill), compiled(follow)
+    for _ in range(LAPS):
+        rest[POINTS] = rest[0] - rest[0].min()
+        fill_all(rest, ring, np.array(BENDS) * full, limits)
+    path = np.zeros((LAPS * POINTS + 1, 3))  # aside, lean, s
+    a, b = np.unravel_index(rest[0].argmin(), rest[0].shape)
+    path[0] = (a - ASIDES // 2) * ASIDE, (b - LEANS // 2) * LEAN, 0.0
+    drive_all(rest, ring, np.linspace(-3.0, 3.0, 241) * full, limits, path)
+    return float(path[-1, 2] - path[-1 - POINTS, 2])
+
+
+@kernel
+def step(ring: Any, i: int, aside: float, lean: float, bend: float, limits: Any) -> tuple[float, float, float]:
+    """Where an arc from line i meets the next: aside, lean, and the s it takes; NEVER where it does not."""
+    here, there = ring[i], ring[(i + 1) % len(ring)]
+    x, y = here[0] - aside * sin(here[2]), here[1] + aside * cos(here[2])
+    heading = here[2] + lean
+    tx, ty = cos(there[2]), sin(there[2])
+    straight = (there[0] - x) * tx + (there[1] - y) * ty
+    way = straight
+    for _ in range(3):
+        middle = heading + 0.5 * bend * way
+        facing = cos(middle) * tx + sin(middle) * ty
+        if facing < 0.2:
+            return 0.0, 0.0, NEVER
+        way = straight / facing
+    if way < 0.0 or way > 100.0:
+        return 0.0, 0.0, NEVER
+    middle = heading + 0.5 * bend * way
+    x, y = x + way * cos(middle), y + way * sin(middle)
+    after = (y - there[1]) * tx - (x - there[0]) * ty
+    if abs(after) > there[3] + MUDDY or not (RADIUS <= x <= WIDTH - RADIUS and RADIUS <= y <= HEIGHT - RADIUS):
+        return 0.0, 0.0, NEVER
+    speed = limits[0] * limits[2] if abs(after) > there[3] or abs(aside) > here[3] else limits[0]
+    drive, turn = way / speed, abs(bend) * way / limits[1]
+    return after, turn_to(heading + bend * way - there[2]), drive if drive > turn else turn
+
+
+@kernel
+def worth(table: Any, aside: float, lean: float) -> float:
+    """The table between its places."""
+    a, b = aside / ASIDE + ASIDES // 2, lean / LEAN + LEANS // 2
+    i, j = int(a), int(b)
+    if a < 0.0 or b < 0.0 or i >= ASIDES - 1 or j >= LEANS - 1:
+        return NEVER
+    a, b = a - i, b - j
+    low = table[i, j] + a * (table[i + 1, j] - table[i, j])
+    high = table[i, j + 1] + a * (table[i + 1, j + 1] - table[i, j + 1])
+    between: float = low + b * (high - low)
+    return between
+
+
+def fill(rest: Any, ring: Any, bends: Any, limits: Any) -> None:
+    """One lap backwards: what the rest costs from every place of every line."""
+    for i in range(len(ring) - 1, -1, -1):
+        for a in range(ASIDES):
+            for b in range(LEANS):
+                aside, lean = (a - ASIDES // 2) * ASIDE, (b - LEANS // 2) * LEAN
+                least = NEVER
+                if abs(aside) <= ring[i, 3] + MUDDY:
+                    for bend in bends:
+                        on, turned, cost = step(ring, i, aside, lean, bend, limits)
+                        if cost < NEVER:
+                            least = min(least, cost + worth(rest[i + 1], on, turned))
+                rest[i, a, b] = least
+
+
+def follow(rest: Any, ring: Any, bends: Any, limits: Any, path: Any) -> None:
+    """Drive the best way, without rounding: fills `path` from its first row on."""
+    for n in range(len(path) - 1):
+        i = n % len(ring)
+        least = 1e9
+        for bend in bends:
+            on, turned, cost = step(ring, i, path[n, 0], path[n, 1], bend, limits)
+            total = cost + worth(rest[i + 1], on, turned)
+            if cost < NEVER and total < least:
+                least = total
+                path[n + 1, 0], path[n + 1, 1], path[n + 1, 2] = on, turned, path[n, 2] + cost
+
+
+# ------------------------------------------------------------------------------------------------------------- drivers
+
+
+def alone(track: str, strength: str, turbo: bool) -> float:
+    """The mean s of the flying laps of a driver that has the track to itself."""
+    seats = Seat(strength, 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
+    setups = [Setup("race", track, seats, 10.0, seed, "standard", MOST_LAPS) for seed in range(1, SOLO + 1)]
+    batch = Batch(setups, [BRAINS["race"][strength]], True)
+    if not turbo:
+        batch.matches["robots"]["turbo"] = 0.0
+        batch.matches["rules"]["turbo_refill"] = 0.0
+    batch.play(10 * 60 * HZ)
+    return float(batch.matches["racers"]["laps"][:, 0, 1:].mean()) * DT
+
+
+def race(track: str, strengths: tuple[str, ...], seeds: range) -> dict[str, int]:
+    """Races of four drivers: how many missed a line, were stuck, or did not finish in the time that all have."""
+    one, two, three, four = (Seat(strength, i) for i, strength in enumerate(strengths))
+    setups = [Setup("race", track, (one, two, three, four), 10.0, seed, "standard") for seed in seeds]
+    batch = Batch(setups, [BRAINS["race"][strength] for strength in strengths], True)
+    matches, racers = batch.matches, batch.matches["racers"]
+    missed = np.zeros((len(setups), ROBOTS), bool)
+    stuck = np.zeros((len(setups), ROBOTS), bool)
+    trail: deque[Any] = deque(maxlen=STUCK // LOOK + 1)
+    while not matches["over"].all():
+        batch.play(LOOK)
+        missed |= (racers["missed"] > 0) | (racers["void"] > 0)
+        robots, actions = matches["robots"], matches["actions"]
+        driving = (actions["linear"] != 0.0) & (racers["finished"] == 0) & (matches["over"] == 0)[:, None]
+        trail.append((np.stack([robots["x"], robots["y"]], axis=-1), driving))
+        if len(trail) == trail.maxlen:
+            places, sticks = (np.stack(part) for part in zip(*trail, strict=True))
+            moved = np.sqrt(((places - places[0]) ** 2).sum(axis=-1)).max(axis=0)
+            stuck |= sticks.all(axis=0) & (moved < STUCK_PX)
+    unfinished = racers["finished"] == 0
+    return {"missed": int(missed.sum()), "stuck": int(stuck.sum()), "unfinished": int(unfinished.sum())}
+
+
+def sweep(races: int, first: int = 1) -> tuple[int, dict[str, int]]:
+    """About so many races over all tracks and mixtures of strengths, at least that many; what went wrong in them."""
+    tracks = arenas("race")
+    each = -(-races // (len(tracks) * len(MIXTURES)))
+    total = {"missed": 0, "stuck": 0, "unfinished": 0}
+    for track in tracks:
+        for i, mixture in enumerate(MIXTURES):
+            begin = first + i * each
+            for name, count in race(track, mixture, range(begin, begin + each)).items():
+                total[name] += count
+    return each * len(tracks) * len(MIXTURES), total
+
+
+def main(races: int) -> int:
+    """Print the ratios and the sweep; the exit code."""
+    good = True
+    for track in arenas("race"):
+        lap = reference(load("race", track).plan.course)
+        print(f"{track:10} reference {lap:6.2f} s", end="")
+        for strength, (low, high) in TARGETS.items():
+            ratio = lap / alone(track, strength, False)
+            good &= low <= ratio <= high
+            print(
+                f"   {strength} {ratio:.3f} (with turbo {lap / alone(track, strength, True):.3f})", end="", flush=True
+            )
+        print()
+    played, wrong = sweep(races)
+    print(f"{played} races:", ", ".join(f"{count} {name}" for name, count in wrong.items()))
+    return int(not good or any(wrong.values()))
+
+
+if __name__ == "__main__":
+    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
