@@ -22,13 +22,21 @@ from pigaming_app.sim.robots import RADIUS
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LANES = 9  # ways to pass that are thought of, from one edge to the other
-CLEAR = 2.0 * RADIUS + 8.0  # px between the middles of two robots that pass each other
+CLEAR = 74.0  # px between the middles of two robots that pass each other
 SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
 OWN, STEADY = 0.15, 0.1  # what a px costs away from the own line, and from the lane chosen last
 FAR = 300.0  # px from which others matter
 SOON = 2.5  # s in which it would run into another, from which on that is in the way
-DASH = 1.1  # times its speed, with its turbo, by which it judges how fast it comes up to another
-LEEWAY = 6.0  # px of two robots that it takes for granted when they pass
+SLOW = 0.5  # of full speed: whoever is slower is in the way, others are overtaken
+LEEWAY = 32.0  # px of two robots that it takes for granted when they pass
+RUNWAY = 300.0  # px of about straight course in which it begins to overtake
+FUEL = 0.6  # of the turbo meter for that
+REACH = 180.0  # px that the other may be ahead
+QUICKER = 70.0  # px/s by which turbo must be faster than the other
+PASSING = 200  # ticks after which it leaves off
+SPARE = 4.0  # px more than it takes to pass
+SWING = 50.0  # px that a lane may be changed for it while it drives to the point ahead
+SAVE = 200.0  # px to somebody ahead, for whom it saves its turbo
 TAIL = 20.0  # px behind another at which it drives no faster than that
 SHIFT = 60.0  # px that a lane may be changed while it drives to the point ahead
 OUT = 30.0  # px from the edge for which it makes when it is off the course
@@ -61,6 +69,9 @@ class RacerMind:
     stray: float  # px, the present error of its line
     stray_left: int
     lane: float  # px aside of the middle, where it wants to be
+    target: int  # which of the others it overtakes now; -1: none
+    side: float  # on which side: 1: to the right of it
+    target_for: int  # ticks for which it has been at it
     anchor_x: float  # where it was when it last got anywhere
     anchor_y: float
     held_up: int  # ticks since
@@ -103,11 +114,17 @@ def race(view: Any, mind: Any, action: Any) -> int:
     if view.past > SLACK:
         return go_back(view, action)
     mark = view.ahead
-    choose_lane(view, mind)
+    choose_target(view, mind)
+    if mind.target >= 0:
+        other = view.others[mind.target]
+        mind.lane = other.aside + mind.side * (CLEAR + SPARE)
+    else:
+        choose_lane(view, mind)
     room = mark.half - (EDGE if view.on else OUT)
     lane = mind.lane + mind.stray
     keep = view.aside - view.ideal + mark.ideal  # the lane that leads along beside the fastest line
-    lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
+    shift = SHIFT if mind.target < 0 else SWING
+    lane = keep + shift if lane > keep + shift else keep - shift if lane < keep - shift else lane
     lane = room if lane > room else -room if lane < -room else lane
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
     pursue(view, mind, action, x, y)
@@ -179,6 +196,29 @@ def feel_held_up(view: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
+def choose_target(view: Any, mind: Any) -> None:
+    """Begin to overtake whoever is close ahead where it is straight and turbo will do; leave off past it, or late."""
+    if mind.target >= 0:
+        mind.target_for += PERIOD
+        other = view.others[mind.target]
+        if other.ahead < -CLEAR or other.distance > FAR or mind.target_for > PASSING or not view.on:
+            mind.target = -1
+        return
+    if view.straight < RUNWAY or view.turbo < FUEL or mind.boost > 1.0:
+        return
+    for i in range(OTHERS):
+        other = view.others[i]
+        if not other.present or not 0.0 < other.ahead < REACH or other.distance > REACH:
+            continue
+        room, away = view.ahead.half - EDGE - CLEAR - SPARE, view.aside - other.aside
+        if 1.3 * view.speed - other.speed > QUICKER and (other.aside > -room or other.aside < room):
+            mind.target, mind.target_for = i, 0
+            mind.side = 1.0 if away > 0.0 else -1.0
+            if mind.side * other.aside > room:  # no room on that side
+                mind.side = -mind.side
+
+
+@kernel
 def choose_lane(view: Any, mind: Any) -> None:
     """The lane that costs the fewest px: those lost behind others, and those of a longer way round a bend."""
     mark = view.ahead
@@ -210,9 +250,9 @@ def blocked(view: Any, mind: Any, lane: float) -> float:
             if gap < CLEAR:
                 cost += 3.0 * (CLEAR - gap)
         elif gap < CLEAR:
-            closing = DASH * mind.speed * view.speed - other.speed
-            if other.distance - CLEAR < SOON * closing:
-                cost += (closing if closing < 150.0 else 150.0) * (1.0 + (CLEAR - gap) / CLEAR)
+            closing = mind.speed * view.speed - other.speed
+            if other.speed < SLOW * view.speed and other.distance - CLEAR < SOON * closing:
+                cost += 150.0 * (1.0 + (CLEAR - gap) / CLEAR)
     return cost
 
 
@@ -245,6 +285,8 @@ def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
         return
     bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
     held = held_to(view, mind)
+    if mind.target >= 0:
+        held = 2.0
     dash = use_turbo(view, mind, bend) if held > 1.0 else 0
     full = view.speed * (1.3 if dash else 1.0)
     speed, most = mind.speed * view.pace, GRIP * view.turn_rate / (abs(bend) * full + 1e-9)
@@ -255,9 +297,15 @@ def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
 
 @kernel
 def use_turbo(view: Any, mind: Any, bend: float) -> int:
-    """1 where the way is straight enough, and the meter full enough to begin."""
+    """1 where the way is straight enough, the meter full enough to begin, and it is not wanted for somebody ahead."""
     if not view.on or abs(bend) * 1.3 * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
         return 0
+    if mind.target >= 0:
+        return 1
+    for i in range(OTHERS):
+        other = view.others[i]
+        if other.present and other.ahead > 0.0 and other.distance < SAVE:
+            return 0
     return 1 if view.boosting or view.turbo > mind.boost else 0
 
 
@@ -267,11 +315,11 @@ def wake(speed: float, line: float, spread: float, boost: float, delay: float) -
     def fill(mind: RacerMind, seed: int) -> None:
         mind.eyes.delay, mind.eyes.look = delay, LOOK
         mind.speed, mind.line, mind.spread, mind.boost = speed, line, spread, boost
-        mind.random = seeded(seed)
+        mind.random, mind.target = seeded(seed), -1
 
     return fill
 
 
-EASY = Kind("easy", RacerMind, think, wake(speed=0.91, line=0.5, spread=12.0, boost=0.9, delay=0.35))
-NORMAL = Kind("normal", RacerMind, think, wake(speed=0.96, line=0.85, spread=6.0, boost=0.5, delay=0.2))
+EASY = Kind("easy", RacerMind, think, wake(speed=0.98, line=0.2, spread=10.0, boost=0.9, delay=0.35))
+NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.45, spread=5.0, boost=0.5, delay=0.2))
 HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))

@@ -19,7 +19,7 @@ RACE = Game(
     sides=ALONE,
     teams=(0, 1, 2, 3),
     columns=("laps", "best", "total"),
-    feats=(Feat("lap", True), Feat("race", True)),
+    feats=(Feat("lap", timed=True), Feat("race", timed=True, by_goal=True)),
     read=read,
     start=start,
     judge=judge,

@@ -16,6 +16,8 @@ from pigaming_app.sim.world import ROBOTS
 OTHERS = ROBOTS - 1
 BACK = 160.0  # px at a time that lead back to a missed line
 PACE = 40.0  # px for which the pace of the fastest line must be kept
+STRAIGHT = 500.0  # px ahead that are looked at for bends
+AS_STRAIGHT = 0.94  # cosine of the angle up to which it is about straight: 20 degrees
 RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 
@@ -76,7 +78,8 @@ class View:
     lean: float  # heading, relative to the way of the course
     ideal: float  # where the fastest line is here, px aside of the centre line
     pace: float  # least speed of that line in the next PACE px, as a share of full speed
-    turn: float  # sine of the angle by which the course turns from here to `beyond`, positive to the right
+    turn: float  # sine of the angle by which the course turns from here to twice as far ahead, positive to the right
+    straight: float  # px for which the course goes on about straight from here, up to STRAIGHT
     left: float  # px to the finish
     past: float  # px by which it is past the line that it must cross next; negative: the way to it
     return_x: float  # where to drive to get back before that line, if it is past it
@@ -84,7 +87,6 @@ class View:
     rank: int
     finished: int
     ahead: Mark  # as far ahead as the eyes look
-    beyond: Mark  # twice as far
     others: Annotated[list[Other], OTHERS]
 
 
@@ -104,24 +106,40 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     view.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
     view.left = rules.laps * course.length - racer.progress
     view.rank, view.finished = racer.rank, racer.finished
-    see_way(match, along, eyes.look, view)
-    view.turn = place.tangent_x * -view.beyond.right_x + place.tangent_y * -view.beyond.right_y
+    see_way(match, place, eyes.look, view)
+    see_mark(match, along + eyes.look, view.ahead)
     see_next(match, seat, along, view)
     for i in range(OTHERS):
         see_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
 
 
 @kernel
-def see_way(match: Any, along: float, look: float, view: Any) -> None:
-    """The fastest line from here on."""
-    k, _ = leg(match.course, along)
+def see_way(match: Any, place: Any, look: float, view: Any) -> None:
+    """The fastest line from here on, and how the course turns."""
+    course = match.course
+    k, _ = leg(course, place.along)
     view.ideal, view.pace = match.ideal[k], match.pace[k]
-    for i in range(k + 1, k + 1 + int(PACE / match.course.step)):
-        pace = match.pace[i % match.course.count]
+    for i in range(k + 1, k + 1 + int(PACE / course.step)):
+        pace = match.pace[i % course.count]
         if pace < view.pace:
             view.pace = pace
-    see_mark(match, along + look, view.ahead)
-    see_mark(match, along + 2.0 * look, view.beyond)
+    soon, far = int(2.0 * look / course.step), int(STRAIGHT / course.step)
+    x, y = leg_way(course, k + soon)
+    view.turn = place.tangent_x * y - place.tangent_y * x
+    view.straight = STRAIGHT
+    for i in range(2, far, 2):
+        x, y = leg_way(course, k + i)
+        if place.tangent_x * x + place.tangent_y * y < AS_STRAIGHT:
+            view.straight = i * course.step
+            break
+
+
+@kernel
+def leg_way(course: Any, k: int) -> tuple[float, float]:
+    """The way of the leg from point k on, of about length 1."""
+    a = k % course.count
+    b = (k + 1) % course.count
+    return (course.xs[b] - course.xs[a]) / course.step, (course.ys[b] - course.ys[a]) / course.step
 
 
 @kernel
