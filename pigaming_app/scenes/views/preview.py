@@ -1,10 +1,17 @@
-"""A small picture of an arena: its walls, and the shapes of the players where they begin."""
+"""A small picture of an arena: what it is made of, and the players where they begin.
+
+What is drawn depends on what the arena is, its `plan`: see PREVIEWS.
+"""
 
 import math
+from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.ink import HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
+from pigaming_app.games.race.start import Track
+from pigaming_app.scenes.ink import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
+from pigaming_app.scenes.views.raceway import GLOW, earth
+from pigaming_app.scenes.views.roadway import draw_track
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 
@@ -13,8 +20,12 @@ MARGIN = 8  # px round the frame, for its glow
 
 def preview(arena: Arena, w: int, h: int) -> pygame.Surface:
     """The arena as light, as large as fits into w x h px and centred there; add it to a picture."""
-    k = min((w - 2 * MARGIN) / WIDTH, (h - 2 * MARGIN) / HEIGHT)
-    left, top = (w - k * WIDTH) / 2, (h - k * HEIGHT) / 2
+    return PREVIEWS.get(type(arena.plan), walls)(arena, w, h)
+
+
+def walls(arena: Arena, w: int, h: int) -> pygame.Surface:
+    """The walls of an arena, and the shapes of the players where they begin."""
+    left, top, k = fitted(w, h)
     ink = Ink(w, h, 3)
     for column in range(200, int(WIDTH), 200):
         for row in range(150, int(HEIGHT), 200):
@@ -30,3 +41,25 @@ def preview(arena: Arena, w: int, h: int) -> pygame.Surface:
         ink.fill([(x + py, y - px) for px, py in shape_points(player, r)], PLAYERS[player])
         ink.line([(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], PLAYERS[player], HAIR + 1)
     return ink.lit(0.6)
+
+
+def track(arena: Arena, w: int, h: int) -> pygame.Surface:
+    """A track as it is driven on: mud, road, lines with their badges, the way round."""
+    left, top, k = fitted(w, h)
+    out = pygame.Surface((w, h))
+    size = round(k * WIDTH), round(k * HEIGHT)
+    out.blit(pygame.transform.smoothscale(earth(arena.plan), size), (round(left), round(top)))
+    hot, cold = Ink(w, h, 3).to(left, top, 0.0, k), Ink(w, h, 3).to(left, top, 0.0, k)
+    draw_track(hot, cold, arena.plan)
+    out.blit(hot.lit(GLOW), (0, 0), special_flags=ADD)
+    cold.onto(out)
+    return out
+
+
+def fitted(w: int, h: int) -> tuple[float, float, float]:
+    """Where an arena lies in the middle of w x h px, and its scale."""
+    k = min((w - 2 * MARGIN) / WIDTH, (h - 2 * MARGIN) / HEIGHT)
+    return (w - k * WIDTH) / 2, (h - k * HEIGHT) / 2, k
+
+
+PREVIEWS: dict[type, Callable[[Arena, int, int], pygame.Surface]] = {Track: track}  # by what an arena's plan is
