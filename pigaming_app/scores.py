@@ -1,8 +1,8 @@
-"""High scores: for each game and arena the best ever, and the best of each of the last days."""
+"""High scores: for each game and table (an arena, and what was done there) the best ever, and the last days' best."""
 
 import tomllib
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -17,11 +17,17 @@ LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 @dataclass(frozen=True)
 class Score:
-    """One row of a table. `when` is local time with its offset."""
+    """One row of a table: points, more is better, or milliseconds, less is. `when` is local time with its offset."""
 
     initials: str  # three of LETTERS
     score: int
     when: datetime
+    timed: bool = False
+
+    @property
+    def order(self) -> int:
+        """What tables are sorted by: the best first."""
+        return self.score if self.timed else -self.score
 
 
 class Scores:
@@ -41,7 +47,7 @@ class Scores:
                 good = [score for score in map(_score, rows if isinstance(rows, list) else []) if score]
                 if not isinstance(rows, list) or len(good) < len(rows):
                     said.append(
-                        f"{path}: {game}.{arena} has rows that are not initials, score, when; they are ignored."
+                        f"{path}: {game}.{arena} has rows that are not initials, score or ms, when; they are ignored."
                     )
                 if good:
                     scores._tables[game, arena] = _worth_keeping(good)
@@ -53,12 +59,14 @@ class Scores:
 
         games: dict[str, dict[str, list[dict[str, Any]]]] = {}
         for (game, arena), rows in self._tables.items():
-            games.setdefault(game, {})[arena] = [asdict(row) for row in rows]
+            games.setdefault(game, {})[arena] = [_entry(row) for row in rows]
         keep(folder / FILE, tomli_w.dumps(games))
 
-    def add(self, game: str, arena: str, initials: str, score: int, when: datetime | None = None) -> Score:
+    def add(
+        self, game: str, arena: str, initials: str, score: int, when: datetime | None = None, timed: bool = False
+    ) -> Score:
         """Note a score; `when`: now, if not said. Raises ValueError unless the initials are three of A to Z."""
-        row = Score(initials, score, _local(when))
+        row = Score(initials, score, _local(when), timed)
         if not _are_initials(initials):
             raise ValueError(f"initials are three of A to Z, not {initials!r}")
         rows = self._tables.setdefault((game, arena), [])
@@ -74,10 +82,17 @@ class Scores:
         return rows[:LENGTH]
 
     def place(
-        self, game: str, arena: str, score: int, days: int | None = None, now: datetime | None = None
+        self,
+        game: str,
+        arena: str,
+        score: int,
+        days: int | None = None,
+        now: datetime | None = None,
+        timed: bool = False,
     ) -> int | None:
         """Where a new score would stand in that table, from 1; None: not in it. It stands behind its equals."""
-        ahead = sum(row.score >= score for row in self.best(game, arena, days, now))
+        order = score if timed else -score
+        ahead = sum(row.order <= order for row in self.best(game, arena, days, now))
         return ahead + 1 if ahead < LENGTH else None
 
     def reset(self) -> None:
@@ -85,12 +100,20 @@ class Scores:
         self._tables.clear()
 
 
+def _entry(row: Score) -> dict[str, Any]:
+    return {"initials": row.initials, "ms" if row.timed else "score": row.score, "when": row.when}
+
+
 def _score(row: object) -> Score | None:
     match row:
         case {"initials": str(initials), "score": int(score), "when": datetime() as when, **rest} if not rest:
-            good = _are_initials(initials) and not isinstance(score, bool)
-            return Score(initials, score, _local(when)) if good else None
-    return None
+            timed = False
+        case {"initials": str(initials), "ms": int(score), "when": datetime() as when, **rest} if not rest:
+            timed = True
+        case _:
+            return None
+    good = _are_initials(initials) and not isinstance(score, bool) and (score > 0 or not timed)
+    return Score(initials, score, _local(when), timed) if good else None
 
 
 def _are_initials(text: str) -> bool:
@@ -108,7 +131,7 @@ def _day(row: Score) -> date:
 
 def _worth_keeping(rows: Iterable[Score]) -> list[Score]:
     """The rows that any table can show, best first; of equal scores the earlier one."""
-    ordered = sorted(rows, key=lambda row: (-row.score, row.when))
+    ordered = sorted(rows, key=lambda row: (row.order, row.when))
     days = sorted({_day(row) for row in ordered})[-DAYS:]
     shown = {id(row) for day in days for row in [one for one in ordered if _day(one) == day][:LENGTH]}
     return [row for place, row in enumerate(ordered) if place < LENGTH or id(row) in shown]

@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from pigaming_app.keeping import keep, recall
 
 FILE = "settings.toml"
+FORMER = ("arena", "minutes", "variant")  # stood alone when there was one game
 
 
 @dataclass(frozen=True)
@@ -84,8 +85,18 @@ def _setting(default: Any, fit: Fit) -> Any:
 
 
 @dataclass
+class Choice:
+    """What was last chosen in the setup of one game; what is empty or 0 is the game's own."""
+
+    arena: str = _setting("", Name())
+    minutes: int = _setting(0, Range(0, 60))
+    variant: str = _setting("", Name())
+    goal: int = _setting(0, Range(0, 99))
+
+
+@dataclass
 class Settings:
-    """What the operator chose, and what was last chosen in the setup of a match."""
+    """What the operator chose, and what was last chosen before a match."""
 
     language: str = _setting("en", OneOf(("en", "pt")))
     music: int = _setting(6, Range(0, 10))
@@ -95,29 +106,46 @@ class Settings:
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Switch())
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # of nobody pressing anything
-    minutes: int = _setting(2, Range(1, 60))
-    arena: str = _setting("classic", Name())
     strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
-    variant: str = _setting("", Name())  # empty: the game's first
+    games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     @classmethod
     def load(cls, folder: Path) -> "tuple[Settings, list[str]]":
         """The settings kept in the folder, and one sentence for everything that was wrong with them."""
         path = folder / FILE
         found, said = recall(path, tomllib.loads)
-        settings = cls()
-        fits = {one.name: one.metadata["fit"] for one in fields(cls)}
-        for key, value in (found or {}).items():
-            if key not in fits:
-                said.append(f"{path}: {key} is not a setting; it is ignored.")
-            elif wrong := fits[key].wrong(value):
-                said.append(f"{path}: {key} = {value!r} is {wrong}; {getattr(settings, key)!r} is used.")
+        settings, table = cls(), dict(found or {})
+        games = table.pop("games", {})
+        former = {key: table.pop(key) for key in FORMER if key in table}
+        said += _fill(settings.choice("pitanks"), former, f"{path}: ") if former else []
+        said += _fill(settings, table, f"{path}: ")
+        for game, entries in games.items() if isinstance(games, dict) else [("games", games)]:
+            if isinstance(entries, dict):
+                said += _fill(settings.choice(game), entries, f"{path}: games.{game}.")
             else:
-                setattr(settings, key, float(value) if isinstance(getattr(settings, key), float) else value)
+                said.append(f"{path}: {game} is not a table; it is ignored.")
         return settings, said
+
+    def choice(self, game: str) -> Choice:
+        """What was last chosen for a game; write to it what is chosen now."""
+        return self.games.setdefault(game, Choice())
 
     def save(self, folder: Path) -> None:
         """Keep the settings in the folder. Raises NotSaved; then the settings kept before are intact."""
         import tomli_w
 
         keep(folder / FILE, tomli_w.dumps(asdict(self)))
+
+
+def _fill(target: Any, table: dict[str, Any], where: str) -> list[str]:
+    """Set what fits; a sentence for everything that does not."""
+    said = []
+    fits = {one.name: one.metadata["fit"] for one in fields(target) if "fit" in one.metadata}
+    for key, value in table.items():
+        if key not in fits:
+            said.append(f"{where}{key} is not a setting; it is ignored.")
+        elif wrong := fits[key].wrong(value):
+            said.append(f"{where}{key} = {value!r} is {wrong}; {getattr(target, key)!r} is used.")
+        else:
+            setattr(target, key, float(value) if isinstance(getattr(target, key), float) else value)
+    return said

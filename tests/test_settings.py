@@ -9,7 +9,7 @@ import pytest
 
 from pigaming_app import keeping
 from pigaming_app.keeping import NotSaved
-from pigaming_app.settings import FILE, Settings, folders
+from pigaming_app.settings import FILE, Choice, Settings, folders
 
 
 def test_without_a_file_there_are_defaults_and_nothing_is_said(tmp_path):
@@ -17,7 +17,9 @@ def test_without_a_file_there_are_defaults_and_nothing_is_said(tmp_path):
 
 
 def test_what_is_saved_comes_back(tmp_path):
-    changed = Settings(language="pt", music=0, shake=False, attract_seconds=90.0, arena="islands", variant="classic")
+    changed = Settings(language="pt", music=0, shake=False, attract_seconds=90.0)
+    changed.choice("race").goal = 5
+    changed.choice("pitanks").arena = "islands"
     changed.save(tmp_path / "new")
     assert Settings.load(tmp_path / "new") == (changed, [])
 
@@ -65,7 +67,11 @@ def test_notepad_may_have_edited_it(tmp_path):
         ("language = []", "language = [] is none of en, pt; 'en' is used"),
         ("shake = 1", "shake = 1 is neither true nor false; True is used"),
         ("attract_seconds = nan", "attract_seconds = nan is not between 5.0 and 3600.0; 60.0 is used"),
-        ("arena = 3", "arena = 3 is not a short text; 'classic' is used"),
+        ("games = 3", "games is not a table; it is ignored"),
+        ("[games.race]\ngoal = -1", "games.race.goal = -1 is not between 0 and 99; 0 is used"),
+        ("[games.race]\narena = 3", "games.race.arena = 3 is not a short text; '' is used"),
+        ("[games.race]\nwheels = 3", "games.race.wheels is not a setting; it is ignored"),
+        ("[games]\nrace = 3", "race is not a table; it is ignored"),
         ("[music]", "music = {} is not a whole number; 6 is used"),
         ("loudness = 3", "loudness is not a setting; it is ignored"),
     ],
@@ -73,8 +79,16 @@ def test_notepad_may_have_edited_it(tmp_path):
 def test_a_wrong_line_is_named_and_costs_only_itself(tmp_path, line, reason):
     (tmp_path / FILE).write_text(f"sounds = 1\n{line}\n")
     settings, said = Settings.load(tmp_path)
-    assert settings == replace(Settings(), sounds=1)
+    assert settings == replace(Settings(), sounds=1, games=settings.games)
+    assert all(choice == Choice() for choice in settings.games.values())
     assert said == [f"{tmp_path / FILE}: {reason}."]
+
+
+def test_what_an_older_arcade_kept_goes_to_its_only_game(tmp_path):
+    (tmp_path / FILE).write_text('arena = "islands"\nminutes = 3\nvariant = "plain"\n')
+    settings, said = Settings.load(tmp_path)
+    assert settings.choice("pitanks") == Choice("islands", 3, "plain")
+    assert said == []
 
 
 def test_a_whole_number_will_do_for_seconds(tmp_path):

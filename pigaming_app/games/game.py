@@ -56,10 +56,11 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Feat:
-    """A table of the best: its name, and whether it holds milliseconds (less is better) or points (more is)."""
+    """A table of the best. `timed`: it holds milliseconds, and less is better; else points, and more is."""
 
     name: str
     timed: bool = False
+    by_goal: bool = False  # only those with the same goal can be compared
 
 
 @dataclass(frozen=True)

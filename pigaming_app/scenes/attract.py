@@ -9,8 +9,9 @@ import pygame
 from pigaming_app.ai import STRENGTHS, seated
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.scenes.best import Best
+from pigaming_app.scenes.feats import boards
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, FOCUS, LABEL, dim
 from pigaming_app.scenes.match import new_seed
@@ -77,7 +78,12 @@ class Attract:
     def _best(self) -> Scene | None:
         """The tables of an arena in which somebody has scored."""
         scores = self.house.scores
-        there = [(game, arena) for game in GAMES for arena in arenas(game) if scores.best(game, arena)]
+        there = [
+            (game, arena, GAMES[game].default_goal)
+            for game in GAMES
+            for arena in arenas(game)
+            if any(scores.best(game, board.table) for board in boards(game, arena, GAMES[game].default_goal))
+        ]
         if not there:
             return None
         best = Best(self.house, *secrets.choice(there))
@@ -89,10 +95,11 @@ class Demonstration:
 
     def __init__(self, house: House) -> None:
         game = secrets.choice(list(GAMES))
-        teams = secrets.choice(((0, 1, 2, 3), (0, 1, 2, 3), (0, 1, 0, 1)))
+        rules = GAMES[game]
+        teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.sides == FREE else rules.teams
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
-        arena, variant = secrets.choice(arenas(game)), GAMES[game].variants[0]
-        setup = Setup(game, arena, (one, two, three, four), MINUTES, new_seed(), variant)
+        arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
+        setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.variants[0], rules.default_goal)
         self.stage = Stage(house, seated(setup), loud=False)
         self.warm = False
         self.over = 0.0

@@ -1,10 +1,12 @@
-"""The best scores of an arena: today's table beside the one of all time."""
+"""The best of an arena, in two tables: today's beside that of all time, or of two feats, such as lap and race."""
 
 from collections.abc import Sequence
 
 import pygame
 
 from pigaming_app.games.arenas import load
+from pigaming_app.games.game import Feat
+from pigaming_app.scenes.feats import boards, told
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, TITLE, icon, panel
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
@@ -23,8 +25,8 @@ APART, WIPE = 0.07, 0.25  # seconds from row to row, for one row
 class Best:
     """Both tables; `fresh`: the rows that have just come in, shown in yellow."""
 
-    def __init__(self, house: House, game: str, arena: str, fresh: Sequence[Score] = ()) -> None:
-        self.house, self.game, self.arena, self.fresh = house, game, arena, list(fresh)
+    def __init__(self, house: House, game: str, arena: str, goal: int, fresh: Sequence[Score] = ()) -> None:
+        self.house, self.game, self.arena, self.goal, self.fresh = house, game, arena, goal, list(fresh)
         self.age = 0.0
         self.lit: list[tuple[float, Lit]] = []
         self.prompts = Prompts(house, [(Act.FIRE, "results.on")])
@@ -62,25 +64,25 @@ class Best:
     def _make(self) -> list[tuple[float, Lit]]:
         words = self.house.words
         pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
-        pane.page.text(words("results.best"), TITLE, LEFT, 112)
+        pane.page.text(words("results.scores"), TITLE, LEFT, 112)
         title = load(self.game, self.arena).title.get(words.language, self.arena)
         where = f"{words('games.' + self.game)}  ·  {title}"
         pane.page.body(where, RIGHT, 112, MIST, "r", fitted(where, 40, 800, "body"))
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], FOCUS, LINE)
         out = [(0.0, pane.done())]
-        for first, days, key in ((0, 1, "results.today"), (6, None, "results.ever")):
+        for first, board in zip((0, 6), boards(self.game, self.arena, self.goal), strict=True):
             x, w = span(first, 6)
-            rows = self.house.scores.best(self.game, self.arena, days)[:ROWS]
+            rows = self.house.scores.best(self.game, board.table, board.days)[:ROWS]
             head = Pane(x, 216, w, 670)
             panel(head.hot, x, 276, w, 24 + PITCH * ROWS + 8, STEEL, THIN)
-            head.page.text(words(key), LABEL, x, 236, ICE)
+            head.page.text(words(board.heading, goal=self.goal), LABEL, x, 236, ICE)
             out.append((0.1, head.done()))
             for i in range(ROWS):
                 row = rows[i] if i < len(rows) else None
-                out.append((0.2 + APART * i, self._row(row, i, x, w)))
+                out.append((0.2 + APART * i, self._row(row, board.feat, i, x, w)))
         return out
 
-    def _row(self, row: Score | None, i: int, x: int, w: int) -> Lit:
+    def _row(self, row: Score | None, feat: Feat, i: int, x: int, w: int) -> Lit:
         y = TOP + PITCH * i + PITCH // 2 - 20
         pane = Pane(x, y - 36, w, 72)
         color = FOCUS if row in self.fresh else ICE if i == 0 and row else MIST
@@ -91,5 +93,5 @@ class Best:
         pane.page.text(row.initials, SUB, x + 150, y, color, "hero")
         if row in self.fresh:
             icon(pane.hot, "left", x + 420, y, 20, FOCUS, LINE)
-        pane.page.text(str(row.score), SUB, x + w - 48, y, color, "hero", "r")
+        pane.page.text(told(row.score, feat), SUB, x + w - 48, y, color, "hero", "r")
         return pane.done()

@@ -58,6 +58,19 @@ def chip_at(count: int, x: float) -> int | None:
     return int(i) if 0 <= i < count and rest < CHIP else None
 
 
+@lru_cache(maxsize=16)
+def records(lines: tuple[tuple[str, str, str], ...]) -> Lit:
+    """The best so far: what, how much and whose, a line for each; upper left at (0, 0)."""
+    pane = Pane(0, 0, W, 20 + 56 * len(lines))
+    for i, (name, value, initials) in enumerate(lines):
+        y = 38 + 56 * i
+        icon(pane.hot, "crown", PAD + 18, y - 2, 16, FOCUS, 3)
+        pane.page.body(name, PAD + 52, y, MIST, "l", fitted(name, BODY, W - 2 * PAD - 340, "body"))
+        pane.page.text(value, BODY, W - PAD - 110, y, ICE, "head", "r")
+        pane.page.text(initials, BODY, W - PAD, y, FOCUS, "head", "r")
+    return pane.done()
+
+
 @lru_cache(maxsize=8)
 def begin(said: str) -> Lit:
     """The button that begins; upper left at (0, 0)."""

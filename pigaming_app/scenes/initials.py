@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.games.game import Outcome, Setup
+from pigaming_app.games.game import Feat, Outcome, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes.best import ROWS, Best
+from pigaming_app.scenes.feats import Board, boards, told
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BODY,
@@ -46,30 +47,35 @@ _log = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Claim:
-    """Somebody's score that belongs into the table."""
+    """What somebody did that belongs into a table: boards (one for each feat) and values."""
 
     seat: int
     device: Device
-    score: int
+    feats: tuple[tuple[Board, int], ...]
 
 
 def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
-    """The scores of people, above zero, that are among the rows shown of today or of all time."""
+    """What people did, above zero, that is among the rows shown."""
     out = []
+    there = {board.feat.name: board for board in boards(setup.game, setup.arena, setup.goal)}
     for row in outcome.rows:
         device = devices[row.seat]
-        if setup.seats[row.seat].brain == "human" and device and row.score > 0 and places(house, setup, row.score):
-            out.append(Claim(row.seat, device, row.score))
+        if setup.seats[row.seat].brain == "human" and device:
+            feats = [(there[name], value) for name, value in row.feats.items() if value > 0]
+            kept = tuple((board, value) for board, value in feats if places(house, setup, board.feat, value))
+            if kept:
+                out.append(Claim(row.seat, device, kept))
     return out
 
 
-def places(house: House, setup: Setup, score: int) -> dict[str, int]:
-    """The places of a score in the tables in which it is shown."""
-    found = {
-        "today": house.scores.place(setup.game, setup.arena, score, 1),
-        "ever": house.scores.place(setup.game, setup.arena, score),
-    }
-    return {name: place for name, place in found.items() if place and place <= ROWS}
+def places(house: House, setup: Setup, feat: Feat, value: int) -> list[tuple[Board, int]]:
+    """The places of a value in the boards of its feat in which it is shown."""
+    found = [
+        (board, house.scores.place(setup.game, board.table, value, board.days, timed=feat.timed))
+        for board in boards(setup.game, setup.arena, setup.goal)
+        if board.feat == feat
+    ]
+    return [(board, place) for board, place in found if place and place <= ROWS]
 
 
 class Initials:
@@ -154,7 +160,9 @@ class Initials:
 
     def _enter(self) -> Turn:
         initials = "".join(LETTERS[letter] for letter in self.letters)
-        self.fresh.append(self.house.scores.add(self.setup.game, self.setup.arena, initials, self.claim.score))
+        for board, value in self.claim.feats:
+            row = self.house.scores.add(self.setup.game, board.table, initials, value, timed=board.feat.timed)
+            self.fresh.append(row)
         self.house.sounds.play("ready", self.claim.seat)
         return self._next()
 
@@ -169,7 +177,7 @@ class Initials:
             self.house.scores.save(folders().data)
         except NotSaved as reason:
             _log.warning("%s", reason)
-        return Swap(Best(self.house, self.setup.game, self.setup.arena, self.fresh))
+        return Swap(Best(self.house, self.setup.game, self.setup.arena, self.setup.goal, self.fresh))
 
     def _heading(self) -> Lit:
         """Who is asked, for what."""
@@ -177,9 +185,10 @@ class Initials:
         pane = Pane(LEFT, 54, RIGHT - LEFT, 260)
         badge(pane.hot, seat, LEFT + 52, 110, 50)
         text = words("results.high_score")
-        size = fitted(text, TITLE, RIGHT - LEFT - 330)
+        size = fitted(text, TITLE, RIGHT - LEFT - 330 - 300 * (len(self.claim.feats) - 1))
         pane.page.text(text, size, LEFT + 132, 112, PLAYERS[seat])
-        pane.page.text(str(self.claim.score), TITLE, RIGHT, 112, ICE, "hero", "r")
+        told_all = "   ".join(told(value, board.feat) for board, value in self.claim.feats)
+        pane.page.text(told_all, TITLE, RIGHT, 112, ICE, "hero", "r")
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line(
             [(LEFT, 176), (LEFT + 218, 176)], PLAYERS[seat], LINE
         )
@@ -191,8 +200,12 @@ class Initials:
         pane = Pane(middle(0) - 400, MIDDLE - 160, 2 * 400 + 2 * (SLOT_W + SLOT_GAP), 440)
         for i in range(3):
             pane.hot.line(cut(middle(i) - SLOT_W / 2, MIDDLE - SLOT_H / 2, SLOT_W, SLOT_H, 20), STEEL, THIN, True)
-        found = places(self.house, self.setup, self.claim.score)
-        text = "   ·   ".join(self.house.words(f"results.place_{name}", place=place) for name, place in found.items())
+        words = self.house.words
+        found = [one for board, value in self.claim.feats for one in places(self.house, self.setup, board.feat, value)]
+        text = "   ·   ".join(
+            words("results.place", board=words(board.heading, goal=self.setup.goal), place=place)
+            for board, place in found
+        )
         x = 960 - text_width(text, BODY, "body") / 2
         icon(pane.hot, "crown", x - 52, MIDDLE + 262, 24, FOCUS, THIN)
         pane.page.body(text, x, MIDDLE + 264, MIST)

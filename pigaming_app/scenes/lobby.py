@@ -6,15 +6,16 @@ anybody may still join. Every device acts for its own seat; the mouse acts on wh
 
 import pygame
 
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.scenes import card
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.lobby_page import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, PLACES, Seats
-from pigaming_app.scenes.setup import SetupPage, chosen_arena, chosen_rules, summary
+from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, Seats
+from pigaming_app.scenes.setup import SetupPage, chosen, summary
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.stage import Stage
 
@@ -30,7 +31,7 @@ class Lobby:
 
     def __init__(self, house: House, game: str) -> None:
         self.house, self.game = house, game
-        self.seats = Seats(house.settings.strength)
+        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides)
         self.now = Moment()
         self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
         self.focus = Focus(spots(self.seats))
@@ -62,7 +63,7 @@ class Lobby:
                 self._leave(device)
             case Act.ALT:
                 self._ais()
-            case Act.EXTRA:
+            case Act.EXTRA if self.seats.sides == FREE:
                 self.seats.teams = not self.seats.teams
                 self.house.sounds.play("move")
             case Act.LEFT | Act.RIGHT | Act.UP | Act.DOWN:
@@ -98,9 +99,9 @@ class Lobby:
         if piece := next(self.ahead, None):
             piece()
         elif self.rehearsal is None and self.house.idle > PAUSE:
-            one, two, three, four = (Seat("idle", i) for i in range(PLACES))
-            minutes, variant = chosen_rules(self.house, self.game)
-            setup = Setup(self.game, chosen_arena(self.house, self.game), (one, two, three, four), minutes, 1, variant)
+            one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
+            now = chosen(self.house, self.game)
+            setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.rehearsal = Stage(self.house, Match(setup), loud=False)
         elif self.rehearsal:
             self.rehearsal.warm(3.0)
@@ -129,9 +130,7 @@ class Lobby:
         if not self.seats.robots and device.kind != "mouse":
             self._fire(device)
             return None
-        filled = self.seats.fill()
-        if filled is not None:
-            self.now.since[filled] = 0.0
+        self._fill()
         if trouble := problem(self.seats, self.house.words):
             self._say(trouble, "error")
             return None
@@ -181,7 +180,7 @@ class Lobby:
             self.house.sounds.play("move")
 
     def _change_team(self, seat: int) -> None:
-        self.seats.places[seat].team = 1 - self.seats.places[seat].team
+        self.seats.change_team(seat)
         self.house.sounds.play("move")
 
     def _unplugged(self, device: Device) -> None:
@@ -222,11 +221,13 @@ class Lobby:
         if not self.seats.like(HUMAN) or self.seats.waiting:
             self.now.starting = None
         elif self.now.starting is None:
-            filled = self.seats.fill()
-            if filled is not None:
-                self.now.since[filled] = 0.0
+            self._fill()
             if not problem(self.seats, self.house.words):
                 self.now.starting = self.now.whole = ALONE if alone else ALL
+
+    def _fill(self) -> None:
+        for seat in self.seats.fill():
+            self.now.since[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:
         self.now.message, self.now.said = message, SAID

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import pygame
 
+from pigaming_app.games.game import FREE, PAIRS
 from pigaming_app.scenes import card
 from pigaming_app.scenes.focus import Spot
 from pigaming_app.scenes.house import House
@@ -63,16 +64,14 @@ class LobbyPage:
         """The hints that are true for the device used last."""
         seat = self.seats.of(self.house.controls.last)
         full = not self.seats.like(EMPTY)
-        return Prompts(
-            self.house,
-            [
-                (Act.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
-                (Act.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
-                (Act.ALT, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
-                (Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"),
-                (Act.START, "lobby.hint_begin"),
-            ],
-        )
+        hints = [
+            (Act.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
+            (Act.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
+            (Act.ALT, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
+        ]
+        if self.seats.sides == FREE:
+            hints.append((Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
+        return Prompts(self.house, [*hints, (Act.START, "lobby.hint_begin")])
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.house.words, self.seats.places[seat], card_rect(seat).topleft
@@ -85,7 +84,8 @@ class LobbyPage:
         card.frame(seat, said, place.ready or place.kind == AI).draw(screen, x, y)
         self._robot(screen, seat)
         if self.seats.teams:
-            team = words("lobby.team", team=place.team + 1)
+            pairs = self.seats.sides == PAIRS
+            team = words(f"lobby.side_{place.team + 1}") if pairs else words("lobby.team", team=place.team + 1)
             card.team(team, place.team, True).draw(screen, x, y)
         if place.device:
             controls = self.house.controls

@@ -9,10 +9,11 @@ import pygame
 from pigaming_app.scenes.ink import BODY, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix
 from pigaming_app.scenes.pane import Lit, Pane
 
-Series = Sequence[tuple[float, int]]  # (seconds, score) at each change
+Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
 Point = tuple[float, float]
 APART = 4  # px between lines that lie on each other
 ROOM = 54  # px between the badges at the ends
+STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)  # between the lines of an axis
 
 
 @dataclass(frozen=True)
@@ -20,10 +21,10 @@ class Curve:
     """A line of the plot: whose it is (the first gives the colour) and how the score went."""
 
     players: tuple[int, ...]
-    series: tuple[tuple[float, int], ...]
+    series: tuple[tuple[float, float], ...]
 
     @property
-    def last(self) -> int:
+    def last(self) -> float:
         return self.series[-1][1] if self.series else 0
 
 
@@ -35,10 +36,13 @@ class Plot:
         self.x, self.y, self.w, self.h = x + 84, y + 8, w - 84 - 30 - 50 * badges, h - 76
         self.foot = y + h - 20
         self.seconds = max(1.0, seconds)
-        values = [0, *(score for curve in curves for _, score in curve.series)]
-        self.low, self.high, self.step = scale(min(values), max(values))
+        self.low, self.high, self.step = self.scale([value for curve in curves for _, value in curve.series])
         self.curves = curves
         self.box = x, y, w, h
+
+    def scale(self, values: Sequence[float]) -> tuple[int, int, int]:
+        """The lowest and the highest number of the axis, and the step between its lines."""
+        return scale(math.floor(min(0, *values, 0)), math.ceil(max(0, *values, 0)))
 
     def to(self, seconds: float, score: float) -> Point:
         """Where a moment's score lies on the canvas."""
@@ -54,11 +58,14 @@ class Plot:
             a, b = self.to(0, value), self.to(self.seconds, value)
             ink.line([a, b], STEEL if value == 0 else faint, THIN if value == 0 else HAIR)
             ink.text(str(value).replace("-", "−"), BODY, self.x - 20, a[1], MIST, "head", "r")
-        for second in moments(self.seconds):
-            ink.line([self.to(second, self.low), self.to(second, self.high)], faint, HAIR)
-            time = f"{second // 60}:{second % 60:02}"
-            ink.text(time, BODY, self.to(second, 0)[0], self.foot, MIST, "head", "c")
+        for at, said in self.marks():
+            ink.line([self.to(at, self.low), self.to(at, self.high)], faint, HAIR)
+            ink.text(said, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
         return pane.done()
+
+    def marks(self) -> list[tuple[float, str]]:
+        """What stands under the axis, and where."""
+        return [(second, f"{second // 60}:{second % 60:02}") for second in moments(self.seconds)]
 
     def lines(self) -> Lit:
         """The curves alone."""
@@ -66,15 +73,17 @@ class Plot:
         middle = (len(self.curves) - 1) / 2
         for i, curve in reversed(list(enumerate(self.curves))):
             points = [(x, y + APART * (i - middle)) for x, y in self.corners(curve.series)]
-            pane.hot.line(points, PLAYERS[curve.players[0]], 5)
+            if points:
+                pane.hot.line(points, PLAYERS[curve.players[0]], 5)
         return pane.done()
 
     def ends(self) -> Lit:
         """The badges where the curves end, none over another."""
         x = self.x + self.w
         pane = Pane(x, self.y, 1840 - x, self.h)
-        heights = spread([self.to(0, curve.last)[1] for curve in self.curves], ROOM, self.y + self.h)
-        for curve, y in zip(self.curves, heights, strict=True):
+        drawn = [curve for curve in self.curves if curve.series]
+        heights = spread([self.to(0, curve.last)[1] for curve in drawn], ROOM, self.y + self.h)
+        for curve, y in zip(drawn, heights, strict=True):
             for i, player in enumerate(curve.players):
                 badge(pane.hot, player, x + 44 + 52 * i, y, 22)
         return pane.done()
@@ -90,18 +99,53 @@ class Plot:
 
     def corners(self, series: Series) -> list[Point]:
         """The steps of a curve on the canvas."""
-        points, score = [self.to(0, 0)], 0
+        points, score = [self.to(0, 0)], 0.0
         for seconds, after in series:
             points += [self.to(seconds, score), self.to(seconds, after)]
             score = after
         return [*points, self.to(self.seconds, score)]
 
 
+class LapPlot(Plot):
+    """The times of laps: s over the number of the lap, for so many laps."""
+
+    def __init__(self, x: int, y: int, w: int, h: int, curves: Sequence[Curve], laps: int) -> None:
+        super().__init__(x, y, w, h, curves, laps)
+
+    def scale(self, values: Sequence[float]) -> tuple[int, int, int]:
+        """From just below the best lap on: nobody drives one in no time."""
+        low, high = math.floor(min(values, default=0)), math.ceil(max(values, default=2))
+        step = next(step for step in STEPS if math.ceil((high - low) / step) <= 4)
+        bottom = low // step * step
+        return bottom, max(-(-high // step) * step, bottom + 2 * step), step
+
+    def to(self, seconds: float, score: float) -> Point:
+        """Where a lap and its time lie on the canvas: laps stand in the middle of their share of the axis."""
+        share = (score - self.low) / (self.high - self.low)
+        return self.x + self.w * min(1.0, max(0.0, (seconds - 0.5) / self.seconds)), self.y + self.h * (1.0 - share)
+
+    def marks(self) -> list[tuple[float, str]]:
+        """The numbers of the laps."""
+        return [(lap, str(lap)) for lap in range(1, round(self.seconds) + 1)]
+
+    def corners(self, series: Series) -> list[Point]:
+        """From lap to lap; a driver's only lap is a short stroke."""
+        points = [self.to(lap, time) for lap, time in series]
+        return [(points[0][0] - 20, points[0][1]), (points[0][0] + 20, points[0][1])] if len(points) == 1 else points
+
+    def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
+        """The last lap of each driver that is drawn already."""
+        now, out = 0.5 + share * self.seconds, []
+        for curve in self.curves:
+            seen = [(lap, time) for lap, time in curve.series if lap <= now]
+            if seen:
+                out.append((self.to(*seen[-1]), mix(PLAYERS[curve.players[0]], (255, 255, 255), 0.6)))
+        return out
+
+
 def scale(low: int, high: int) -> tuple[int, int, int]:
     """The lowest and the highest number of an axis that holds both and 0, and the step between its lines."""
-    step = next(
-        step for step in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if math.ceil(high / step) - low // step <= 5
-    )
+    step = next(step for step in STEPS if math.ceil(high / step) - low // step <= 5)
     bottom, top = low // step * step, -(-high // step) * step
     return bottom, max(top, bottom + 2 * step), step
 
@@ -131,7 +175,7 @@ def spread(wanted: Sequence[float], room: float, bottom: float) -> list[float]:
 def team_curve(players: Sequence[int], series: Sequence[Series]) -> Curve:
     """One curve for several robots: the sum of their scores."""
     changes = sorted((seconds, k, score) for k, one in enumerate(series) for seconds, score in one)
-    now, out = [0] * len(series), []
+    now, out = [0.0] * len(series), []
     for seconds, k, score in changes:
         now[k] = score
         out.append((seconds, sum(now)))

@@ -79,7 +79,7 @@ class Results:
                 self.house.sounds.play("accept")
                 return Pop()
             case Act.ALT:
-                return Push(Best(self.house, self.setup.game, self.setup.arena))
+                return Push(Best(self.house, self.setup.game, self.setup.arena, self.setup.goal))
             case Act.BACK:
                 self.house.sounds.play("back")
                 return Home()

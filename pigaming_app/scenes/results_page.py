@@ -10,6 +10,7 @@ import pygame
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.scenes.feats import boards, clock, told
 from pigaming_app.scenes.finale import Finale
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
@@ -34,10 +35,14 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
-from pigaming_app.scenes.plot import Curve, Plot, dot, team_curve
+from pigaming_app.scenes.plot import Curve, LapPlot, Plot, dot, team_curve
+from pigaming_app.scenes.setup import measure
 
 TOP, ROW, PITCH = 280, 120, 136
-COLUMNS = (346, 494, 676, 820)  # right edges: score, and what the game counts
+RIGHTS = {4: (346, 494, 676, 820), 3: (410, 620, 820)}  # right edges of so many columns
+SCORED = ("pitanks",)  # games in which the score itself is a column
+TIMES = ("best", "total")  # columns that are s
+ROW_FROM = 172  # px, where a row's badge ends
 SHORT = 218  # px of the line under a title without a winner
 FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
 
@@ -58,6 +63,8 @@ class ResultsPage:
         self.house, self.outcome, self.setup, self.finished = house, outcome, setup, finished
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
+        game = GAMES[setup.game]
+        self.columns = ("score", *game.columns) if setup.game in SCORED else game.columns
         self.winners = outcome.winners if finished else ()
         self.title_at = FIRST + APART * len(self.teams) + 0.15
         self.ready_at = self.title_at + 0.4
@@ -138,7 +145,7 @@ class ResultsPage:
             self.parts.append(Part(records, self.ready_at))
             yield True
         x, w = span(6, 6)
-        self.plot = Plot(x, TOP, w, 528, self._curves(), self.outcome.seconds)
+        self.plot = self._plot(x, w)
         self.parts.append(Part(self.plot.grid(), 0.1))
         yield True
         self.lines = self.plot.lines()
@@ -180,7 +187,7 @@ class ResultsPage:
     def _where(self) -> Lit:
         """Game, time, arena."""
         words, setup = self.house.words, self.setup
-        minutes = words("results.minutes", minutes=f"{setup.minutes:g}")
+        minutes = measure(words, GAMES[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
         where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
         size = fitted(where, BODY, 720, "body")
@@ -195,12 +202,11 @@ class ResultsPage:
         x, w = span(0, 6)
         plot_x, _ = span(6, 6)
         pane = Pane(x, 206, 2 * w, 60)
-        names = ["results.score", *(f"results.{column}" for column in GAMES[self.setup.game].columns)]
-        for name, right in zip(names, COLUMNS, strict=False):
-            pane.page.body(words(name), x + right, 236, MIST, "r")
+        for name, right in zip(self.columns, RIGHTS[len(self.columns)], strict=True):
+            pane.page.body(words(f"results.{name}"), x + right, 236, MIST, "r")
         if self.by_team:
             pane.page.body(words("results.team"), x + 24, 236, MIST)
-        pane.page.body(words("results.over_time"), plot_x, 236, MIST)
+        pane.page.body(words(f"results.plot_{self.setup.game}"), plot_x, 236, MIST)
         return pane.done()
 
     def _team(self, rows: Sequence[Row], y: int) -> Lit:
@@ -223,30 +229,41 @@ class ResultsPage:
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
             icon(pane.hot, "ai", x + 225, y, 15, MIST, 3)
-        score = signed(row.score)
-        size = fitted(score, SUB, 102 if brain != "human" else 150, "hero")
-        pane.page.text(score, size, x + COLUMNS[0], y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
-        for name, before, right in zip(GAMES[self.setup.game].columns, COLUMNS, COLUMNS[1:], strict=False):
-            value = row.facts[name]
-            text = f"{round(100 * value)}%" if name == "aim" else signed(round(value))
-            pane.page.cold.text(text, fitted(text, LABEL, right - before - 24), x + right, y, color, "head", "r")
+        rights = RIGHTS[len(self.columns)]
+        for name, before, right in zip(self.columns, (ROW_FROM, *rights), rights, strict=False):
+            text, room = cell(name, row), right - before - 24
+            if name == self.columns[0]:
+                size = fitted(text, SUB, room - (48 if brain != "human" else 0), "hero")
+                pane.page.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
+            else:
+                pane.page.cold.text(text, fitted(text, LABEL, room), x + right, y, color, "head", "r")
 
     def _records(self) -> Lit | None:
-        """Who was best in this arena, in the place of a row that nobody needs; nothing before somebody was."""
+        """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
         scores, setup, words = self.house.scores, self.setup, self.house.words
-        tables = [(key, scores.best(setup.game, setup.arena, days)) for key, days in (("today", 1), ("ever", None))]
-        if not tables[1][1]:
+        there = boards(setup.game, setup.arena, setup.goal)
+        tables = [(board, scores.best(setup.game, board.table, board.days)) for board in there]
+        if not any(rows for _, rows in tables):
             return None
         x, w = span(0, 6)
         y = TOP + 3 * PITCH + ROW // 2
         pane = Pane(x, y - ROW // 2, w, ROW)
-        for left, (key, rows) in zip((x + 24, x + w // 2 + 24), tables, strict=True):
+        for left, (board, rows) in zip((x + 24, x + w // 2 + 24), tables, strict=True):
             icon(pane.hot, "crown", left + 24, y - 34, 20, FOCUS, 3)
-            pane.page.body(words(f"results.{key}"), left + 64, y - 32, MIST)
+            heading = words(board.heading, goal=setup.goal)
+            pane.page.body(heading, left + 64, y - 32, MIST, "l", fitted(heading, BODY, 330, "body"))
             if rows:
                 pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
-                pane.page.text(str(rows[0].score), LABEL, left + 330, y + 32, ICE, "hero", "r")
+                pane.page.text(told(rows[0].score, board.feat), LABEL, left + 370, y + 32, ICE, "hero", "r")
         return pane.done()
+
+    def _plot(self, x: int, w: int) -> Plot:
+        """How the score went, or the laps."""
+        if self.setup.game == "race":
+            rows = sorted(self.outcome.rows, key=lambda row: row.seat)
+            laps = [Curve((row.seat,), tuple((i + 1.0, lap) for i, lap in enumerate(row.times))) for row in rows]
+            return LapPlot(x, TOP, w, 528, laps, self.setup.goal)
+        return Plot(x, TOP, w, 528, self._curves(), self.outcome.seconds)
 
     def _curves(self) -> list[Curve]:
         series = self.outcome.series
@@ -277,3 +294,13 @@ def line(color: Color, length: float, width: int = LINE) -> Lit:
 def signed(number: int) -> str:
     """A number with a proper minus sign."""
     return str(number).replace("-", "−")
+
+
+def cell(name: str, row: Row) -> str:
+    """What a row says in a column."""
+    if name == "score":
+        return signed(row.score)
+    value = row.facts[name]
+    if name in TIMES:
+        return clock(value)
+    return f"{round(100 * value)}%" if name == "aim" else signed(round(value))

@@ -6,7 +6,7 @@ Whoever presses fire gets the next empty seat, and so becomes player 1, 2, 3 or 
 from dataclasses import dataclass, field
 
 from pigaming_app.ai import STRENGTHS
-from pigaming_app.games.game import Seat
+from pigaming_app.games.game import FREE, PAIRS, Seat
 from pigaming_app.scenes.press import Device
 
 EMPTY, HUMAN, AI = "empty", "human", "ai"
@@ -26,11 +26,15 @@ class Place:
 
 @dataclass
 class Seats:
-    """The four seats. `strength` is that of the next AI."""
+    """The four seats. `strength` is that of the next AI; `sides`: what teams the game knows."""
 
     strength: str = "normal"
     teams: bool = False
+    sides: str = FREE
     places: list[Place] = field(default_factory=lambda: [Place(team=i % 2) for i in range(PLACES)])
+
+    def __post_init__(self) -> None:
+        self.teams = self.sides == PAIRS or (self.teams and self.sides == FREE)
 
     # ---- what is so
 
@@ -112,15 +116,24 @@ class Seats:
         for place in self.places:
             place.ready = False
 
-    def fill(self) -> int | None:
-        """One person alone gets an AI to play against; answers its seat."""
+    def fill(self) -> list[int]:
+        """One person alone gets company: an AI to play against, or in games for four all seats; answers which."""
         if self.robots != 1:
-            return None
+            return []
         alone = next(i for i, place in enumerate(self.places) if place.kind != EMPTY)
-        seat = self.add()
-        if seat is not None:
-            self.places[seat].team = 1 - self.places[alone].team
-        return seat
+        wanted = 1 if self.sides == FREE else PLACES - 1
+        added = [seat for seat in (self.add() for _ in range(wanted)) if seat is not None]
+        if self.sides == FREE:
+            self.places[added[0]].team = 1 - self.places[alone].team
+        return added
+
+    def change_team(self, seat: int) -> None:
+        """Send a robot to the other team; if that has two already, one of them comes over, an AI if there is one."""
+        place = self.places[seat]
+        place.team = 1 - place.team
+        mates = [one for one in self.places if one is not place and one.kind != EMPTY and one.team == place.team]
+        if self.sides == PAIRS and len(mates) > 1:
+            sorted(mates, key=lambda one: one.kind == AI)[-1].team = 1 - place.team
 
     def _wanted(self, seat: int) -> int:
         """The team with fewer robots; the seat's own where they are equal."""

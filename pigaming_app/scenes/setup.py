@@ -4,15 +4,18 @@ Any device may steer it: up and down from row to row, left and right change, fir
 """
 
 import logging
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.game import Setup
+from pigaming_app.games.game import Game, Seat, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
+from pigaming_app.scenes.feats import table_of, told
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
@@ -23,7 +26,8 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.seats import EMPTY, Seats
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.views.preview import preview
-from pigaming_app.settings import folders
+from pigaming_app.scenes.words import Words
+from pigaming_app.settings import Choice, folders
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -33,10 +37,11 @@ SLIDE = 0.18  # seconds in which another arena comes in
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
 MARGIN = 8  # px round the arena in its picture
-ROWS = {
-    name: pygame.Rect(span(8, 4)[0], y, span(8, 4)[1], h)
-    for name, y, h in (("arena", 216, 140), ("minutes", 372, 140), ("rules", 528, 236), ("go", 780, 96))
-}
+ROW_X, ROW_W = span(8, 4)
+HIGH = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px
+GAP = 16  # px between rows
+GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
+RECORDS = 132  # px, of the best so far, where there is room
 log = logging.getLogger(__name__)
 
 
@@ -46,13 +51,13 @@ class SetupPage:
     def __init__(self, house: House, game: str, seats: Seats) -> None:
         self.house, self.game, self.seats = house, GAMES[game], seats
         self.arenas = playable(game)
-        self.arena = chosen_arena(house, game)
-        self.minutes, self.variant = chosen_rules(house, game)
+        self.chosen = chosen(house, game)
+        self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
         self.prompts = Prompts(
             house, [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
         )
-        self.focus = Focus([Spot(name, box) for name, box in ROWS.items()], "arena")
+        self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
@@ -93,21 +98,12 @@ class SetupPage:
         screen.blit(backdrop(), (0, 0))
         heading(words("setup.title")).draw(screen)
         choice.lineup(self._signs()).draw(screen, RIGHT, 112)
-        blacked(screen, FRAME, *ROWS.values())
+        blacked(screen, FRAME, *self.rows.values())
         self._picture(screen)
-        arena = load_kept(self.game.name, self.arena)
-        place = f"{self.arenas.index(self.arena) + 1} / {len(self.arenas)}"
-        minutes = tuple(map(str, self.game.minutes))
-        variant, line = words(f"setup.{self.variant}"), words(f"setup.{self.variant}_line")
-        rows = {
-            "arena": choice.row(words("setup.arena"), title(arena, words.language), place),
-            "minutes": choice.chips(words("setup.minutes"), minutes, str(self.minutes)),
-            "rules": choice.row(words("setup.rules"), variant, line=line),
-            "go": choice.begin(words("setup.go")),
-        }
-        for name, box in ROWS.items():
-            rows[name].draw(screen, *box.topleft)
-        choice.meant(ROWS[self.focus.name].h).draw(screen, *ROWS[self.focus.name].topleft)
+        for name, box in self.rows.items():
+            self._row(name).draw(screen, *box.topleft)
+        self._records(screen)
+        choice.meant(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
         self.focus.draw(screen)
         self.prompts.draw(screen)
 
@@ -118,34 +114,50 @@ class SetupPage:
 
         self._keep()
         self.house.sounds.play("accept")
-        setup = Setup(self.game.name, self.arena, self.seats.seats(), float(self.minutes), new_seed(), self.variant)
+        now = self.chosen
+        minutes, seats = float(now.minutes), self.seats.seats()
+        setup = Setup(self.game.name, now.arena, seats, minutes, new_seed(), now.variant, now.goal)
         return Push(MatchScene(self.house, setup, self.seats.devices()))
 
     def _keep(self) -> None:
         """Remember the choice for the next time, also after a power cut."""
-        settings = self.house.settings
-        settings.arena, settings.minutes, settings.variant = self.arena, self.minutes, self.variant
         try:
-            settings.save(folders().config)
+            self.house.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
 
+    def _row(self, name: str) -> Lit:
+        """What a row says."""
+        words, now, game = self.house.words, self.chosen, self.game
+        if name == "arena":
+            place = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
+            where = title(load_kept(game.name, now.arena), words.language)
+            return choice.row(words(f"setup.arena_{game.name}"), where, place)
+        if name == "goal":
+            return choice.row(words(f"setup.{game.goal}"), str(now.goal))
+        if name == "minutes":
+            return choice.chips(words("setup.minutes"), tuple(map(str, game.minutes)), str(now.minutes))
+        if name == "rules":
+            line = words(f"setup.{now.variant}_line")
+            return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
+        return choice.begin(words("setup.go"))
+
     def _change(self, name: str, by: int) -> None:
         """The next value of a row, or the one before it."""
-        before = self.arena, self.minutes, self.variant
+        now, game = self.chosen, self.game
+        before = replace(now)
         if name == "arena":
-            self.arena = self.arenas[(self.arenas.index(self.arena) + by) % len(self.arenas)]
+            now.arena = self.arenas[(self.arenas.index(now.arena) + by) % len(self.arenas)]
             self.slid, self.way = 0.0, by
+        elif name == "goal":
+            now.goal = beside(game.goals, now.goal, by)
         elif name == "minutes":
-            i = self.game.minutes.index(self.minutes) + by
-            self.minutes = self.game.minutes[max(0, min(len(self.game.minutes) - 1, i))]
+            now.minutes = beside(game.minutes, now.minutes, by)
         elif name == "rules":
-            variants = self.game.variants
-            self.variant = variants[(variants.index(self.variant) + by) % len(variants)]
-        if (self.arena, self.minutes, self.variant) != before:
+            now.variant = game.variants[(game.variants.index(now.variant) + by) % len(game.variants)]
+        if now != before:
             self.house.sounds.play("move")
-        settings = self.house.settings
-        settings.arena, settings.minutes, settings.variant = self.arena, self.minutes, self.variant
+        self.house.settings.games[game.name] = now
 
     def _click(self, press: Press) -> Turn:
         """The arrows and chips of a row, the picture (the next arena), the button."""
@@ -154,14 +166,31 @@ class SetupPage:
         if name == "go":
             return self._go()
         if name == "minutes":
-            minutes = choice.chip_at(len(self.game.minutes), at[0] - ROWS[name].left)
+            minutes = choice.chip_at(len(self.game.minutes), at[0] - self.rows[name].left)
             if minutes is not None:
-                self._change(name, minutes - self.game.minutes.index(self.minutes))
+                self._change(name, minutes - self.game.minutes.index(self.chosen.minutes))
         elif name:
-            self._change(name, 1 if at[0] > ROWS[name].centerx else -1)
+            self._change(name, 1 if at[0] > self.rows[name].centerx else -1)
         elif FRAME.collidepoint(at):
             self._change("arena", 1)
         return None
+
+    def _records(self, screen: pygame.Surface) -> None:
+        """The best so far with this choice, where the rows leave room for it."""
+        low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
+        lines = []
+        for feat in self.game.feats:
+            best = self.house.scores.best(self.game.name, table_of(self.chosen.arena, feat, self.chosen.goal))
+            if best:
+                lines.append(
+                    (
+                        self.house.words(f"results.best_{feat.name}", goal=self.chosen.goal),
+                        told(best[0].score, feat),
+                        best[0].initials,
+                    )
+                )
+        if lines and low + RECORDS <= GO.top - GAP:
+            choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
     def _signs(self) -> tuple[tuple[int, str], ...]:
         """Who plays: seats and the icons of what drives them."""
@@ -172,21 +201,20 @@ class SetupPage:
     def _picture(self, screen: pygame.Surface) -> None:
         """The arena, coming in from the side, and light where the robots of this match begin."""
         choice.frame(*FRAME.size).draw(screen, *FRAME.topleft)
-        arena = load_kept(self.game.name, self.arena)
         left = (1.0 - self.slid / SLIDE) ** 2
         dx = round(self.way * 160 * left)
         screen.set_clip(FRAME.inflate(-12, -12))
-        picture(self.game.name, self.arena).draw(screen, dx)
+        picture(self.game.name, self.chosen.arena).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
+        starts = begins(self.game.name, self.chosen.arena, self.seats.seats())
         for i, _ in self._signs():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
-                start = arena.starts[i]
                 wave = effects.wave(PLAYERS[i], stage)
                 screen.blit(
                     wave.image,
-                    (round(x0 + dx + k * start.x + wave.dx), round(y0 + k * start.y + wave.dy)),
+                    (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
                     special_flags=pygame.BLEND_RGB_ADD,
                 )
         screen.set_clip(None)
@@ -196,6 +224,15 @@ class SetupPage:
 def picture(game: str, name: str) -> Lit:
     """A large picture of an arena, where the page shows it."""
     return Lit(preview(load_kept(game, name), *PICTURE.size), PICTURE.topleft)
+
+
+@lru_cache(maxsize=16)
+def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
+    """Where the robots of these seats begin, px."""
+    rules, state = GAMES[game], GAMES[game].state()
+    setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
+    rules.start(state, load_kept(game, name), setup)
+    return [(robot.x, robot.y) for robot in state.robots]
 
 
 @lru_cache(maxsize=32)
@@ -222,22 +259,40 @@ def title(arena: Arena, language: str) -> str:
     return arena.title.get(language, arena.name)
 
 
-def chosen_arena(house: House, game: str) -> str:
-    """The arena that was chosen last, or the first if that has gone."""
-    names = playable(game)
-    return house.settings.arena if house.settings.arena in names else names[0]
+def rows(game: Game) -> dict[str, pygame.Rect]:
+    """Where the rows of a game stand: those in which there is something to choose, and the button."""
+    there = {"arena": True, "goal": bool(game.goals), "minutes": len(game.minutes) > 1, "rules": len(game.variants) > 1}
+    boxes, y = {}, FRAME.top
+    for name, high in HIGH.items():
+        if there[name]:
+            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, high)
+            y += high + GAP
+    return {**boxes, "go": GO}
 
 
-def chosen_rules(house: House, game: str) -> tuple[int, str]:
-    """Minutes and variant that were chosen last, or the game's own."""
-    rules, settings = GAMES[game], house.settings
-    minutes = settings.minutes if settings.minutes in rules.minutes else rules.default_minutes
-    return minutes, settings.variant if settings.variant in rules.variants else rules.variants[0]
+def beside(values: Sequence[int], value: int, by: int) -> int:
+    """The value so many places after another one; the last and the first stop it."""
+    return values[max(0, min(len(values) - 1, values.index(value) + by))]
+
+
+def chosen(house: House, game: str) -> Choice:
+    """What was chosen last, or the game's own where that is not there (any more)."""
+    rules, last, names = GAMES[game], house.settings.choice(game), playable(game)
+    return Choice(
+        arena=last.arena if last.arena in names else names[0],
+        minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
+        variant=last.variant if last.variant in rules.variants else rules.variants[0],
+        goal=last.goal if last.goal in rules.goals else rules.default_goal,
+    )
 
 
 def summary(house: House, game: str) -> str:
-    """Game, minutes and arena in one line."""
-    words = house.words
-    minutes, _ = chosen_rules(house, game)
-    where = title(load_kept(game, chosen_arena(house, game)), words.language)
-    return "  ·  ".join((words(f"games.{game}"), words("setup.min", minutes=minutes), where))
+    """Game, minutes or goal, and arena in one line."""
+    words, now = house.words, chosen(house, game)
+    where = title(load_kept(game, now.arena), words.language)
+    return "  ·  ".join((words(f"games.{game}"), measure(words, GAMES[game], now.minutes, now.goal), where))
+
+
+def measure(words: Words, game: Game, minutes: float, goal: int) -> str:
+    """How long a match is: its laps or pallets, or its minutes."""
+    return f"{words('setup.' + game.goal)} {goal}" if game.goal else words("setup.min", minutes=f"{minutes:g}")

@@ -1,6 +1,6 @@
 """The title: the name in light, four robots that underline it, a tile for each game, and what else there is to do.
 
-A game that is not in GAMES yet is shown dimmed, and says so. When nobody is there for a while, an AI match begins.
+When nobody is there for a while, an AI match begins.
 """
 
 from functools import lru_cache
@@ -24,7 +24,6 @@ from pigaming_app.scenes.ink import (
     button_width,
     dim,
     panel,
-    text_width,
 )
 from pigaming_app.scenes.logo import dot_of, logo, vignette
 from pigaming_app.scenes.operator import Combination
@@ -34,23 +33,19 @@ from pigaming_app.scenes.page import (
     calling_width,
     chip,
     chip_width,
-    dimmed,
     pulse,
     sign,
     stamp,
 )
 from pigaming_app.scenes.pane import LEFT, MARGIN, RIGHT, Lit, Pane, backdrop, fitted, span
 from pigaming_app.scenes.parade import dot_robot, parade
-from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Push, Quit, Scene, Turn
 from pigaming_app.scenes.words import LANGUAGES
 
-SHOWN = ("pitanks", "factory", "race")  # tiles, from the left
 TILE_Y, TILE_H = 416, 416
 PROMPT_Y, FOOT_Y = 906, 990
 LOGO = (LEFT + 16, 84, 30)
-SOON = 0.42  # how bright the picture of a game is that does not exist yet
 
 
 class Title:
@@ -59,7 +54,6 @@ class Title:
     def __init__(self, house: House) -> None:
         self.house = house
         self.clock = 0.0
-        self.refused = 9.0  # seconds since somebody chose a game that does not exist yet
         self.combination = Combination(house)
         self.focus = Focus(self._spots())
 
@@ -81,7 +75,6 @@ class Title:
     def update(self, seconds: float) -> Turn:
         """Let the robots drive; after a while without anybody, show a match."""
         self.clock += seconds
-        self.refused += seconds
         self.focus.update(seconds)
         if self.combination.held(seconds):
             from pigaming_app.scenes.options import OptionsPage
@@ -100,12 +93,9 @@ class Title:
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
         stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
-        for i, game in enumerate(SHOWN):
-            there = game in GAMES
-            lit = tile(game, words(f"games.{game}"), words(f"games.{game}_line"), self.focus.name == game, there)
+        for i, game in enumerate(GAMES):
+            lit = tile(game, words(f"games.{game}"), words(f"games.{game}_line"), self.focus.name == game)
             lit.draw(screen, *tile_rect(i).topleft)
-            if not there:
-                self._soon(screen, game, tile_rect(i))
         self._prompt(screen)
         self._foot(screen)
         self.focus.draw(screen)
@@ -117,10 +107,6 @@ class Title:
             self._speak(name)
             return None
         scene = self._scene(name)
-        if scene is None and name != "quit":
-            self.house.sounds.play("error")
-            self.refused = 0.0
-            return None
         self.house.sounds.play("accept")
         return Push(scene) if scene else Quit()
 
@@ -148,7 +134,7 @@ class Title:
         self.focus.place(self._spots())
 
     def _spots(self) -> list[Spot]:
-        spots = [Spot(game, tile_rect(i)) for i, game in enumerate(SHOWN)]
+        spots = [Spot(game, tile_rect(i)) for i, game in enumerate(GAMES)]
         x = LEFT
         for name in self._menu():
             w = chip_width(self.house.words(f"title.{name}"))
@@ -164,19 +150,9 @@ class Title:
     def _menu(self) -> tuple[str, ...]:
         return ("howto", "options") if self.house.kiosk else ("howto", "options", "quit")
 
-    def _soon(self, screen: pygame.Surface, game: str, box: pygame.Rect) -> None:
-        hot = self.focus.name == game
-        shake = 0 if self.refused > 0.3 or not hot else round(8 * (-1) ** int(self.refused * 30))
-        sheet = plate(self.house.words("title.soon"), ICE if hot else STEEL, ICE if hot else MIST, face="head")
-        sheet.draw(screen, box.centerx + shake, box.top + 142)
-
     def _prompt(self, screen: pygame.Surface) -> None:
         """The line that asks for a press, between arrows that run towards it."""
-        words, game = self.house.words, self.focus.name
-        if game in SHOWN and game not in GAMES:
-            said = words("title.soon_line", game=words(f"games.{game}"))
-            dimmed_line(said).draw(screen, 960, PROMPT_Y)
-            return
+        words = self.house.words
         label = words.printed(self.house.controls.label(None, Act.FIRE))
         said = words("title.press", button="{button}")
         calling(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
@@ -210,22 +186,21 @@ def ground() -> pygame.Surface:
     logo(pane.hot, *LOGO)
     out = backdrop().copy()
     pane.done().draw(out)
-    return blacked(out, *map(tile_rect, range(len(SHOWN))))
+    return blacked(out, *map(tile_rect, range(len(GAMES))))
 
 
 @lru_cache(maxsize=24)
-def tile(game: str, name: str, line: str, hot: bool, there: bool) -> Lit:
+def tile(game: str, name: str, line: str, hot: bool) -> Lit:
     """A game's picture and name, its upper left at (0, 0)."""
     w = span(0, 4)[1]
     pane = Pane(0, 0, w, TILE_H)
-    panel(pane.hot, 0, 0, w, TILE_H, (dim(FOCUS, 0.55) if there else MIST) if hot else STEEL)
+    panel(pane.hot, 0, 0, w, TILE_H, dim(FOCUS, 0.55) if hot else STEEL)
     pane.hot.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
-    color = (FOCUS if hot else ICE) if there else MIST
+    color = FOCUS if hot else ICE
     pane.page.text(name, fitted(name, LABEL, w - 64), 32, 326, color)
-    pane.page.body(line, 32, 380, ICE if hot and there else MIST, "l", fitted(line, BODY, w - 64, "body"))
-    picture = _picture(game) if there else dimmed(_picture(game), SOON)
+    pane.page.body(line, 32, 380, ICE if hot else MIST, "l", fitted(line, BODY, w - 64, "body"))
     lit = pane.done()
-    picture.draw(lit.image, -lit.at[0], -lit.at[1])
+    _picture(game).draw(lit.image, -lit.at[0], -lit.at[1])
     return lit
 
 
@@ -234,15 +209,6 @@ def _picture(game: str) -> Lit:
     pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
     vignette(game, pane.hot, MARGIN, MARGIN)
     return Lit(pane.done().image, (-MARGIN, -MARGIN))
-
-
-@lru_cache(maxsize=8)
-def dimmed_line(said: str) -> Lit:
-    """What stands in the place of the prompt when there is nothing to press."""
-    w = text_width(said, SUB)
-    pane = Pane(-w / 2, -SUB, w, 2 * SUB)
-    pane.page.text(said, SUB, 0, 0, MIST, "head", "c")
-    return pane.done()
 
 
 @lru_cache(maxsize=16)

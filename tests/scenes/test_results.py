@@ -32,7 +32,8 @@ def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, 
     """A minute that ended so."""
     sums = {team: sum(scores[seat] for seat in scores if teams[seat] == team) for team in teams}
     seats = sorted(scores, key=lambda seat: (-sums[teams[seat]], teams[seat], -scores[seat]))
-    rows = [Row(seat, teams[seat], 1, scores[seat], {"hits": 9, "taken": 12, "aim": 0.617}) for seat in seats]
+    facts = {"hits": 9, "taken": 12, "aim": 0.617}
+    rows = [Row(seat, teams[seat], 1, scores[seat], facts, {"points": scores[seat]}, ()) for seat in seats]
     rows = [replace(row, place=1 + sum(sums[teams[seat]] > sums[row.team] for seat in seats)) for row in rows]
     series = tuple(((0.0, 0), (20.0, scores[seat])) if seat in scores else ((0.0, 0),) for seat in range(4))
     return Outcome(tuple(rows), winners, series, 60.0)

@@ -38,9 +38,9 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
 def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
     seats = Seats(teams=True)
     seats.join(ANA)
-    assert seats.fill() == 1
+    assert seats.fill() == [1]
     assert seats.places[0].team != seats.places[1].team
-    assert seats.fill() is None
+    assert seats.fill() == []
     assert not seats.one_team
 
 

@@ -1,5 +1,6 @@
 """The choice before a match: arena, minutes, rules."""
 
+import itertools
 import tomllib
 from pathlib import Path
 
@@ -14,7 +15,8 @@ from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.seats import Seats
-from pigaming_app.scenes.setup import ROWS, SetupPage, playable
+from pigaming_app.scenes.setup import SetupPage, playable, rows
+from pigaming_app.settings import Choice
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.virtual_pad import VirtualPad
 
@@ -37,19 +39,19 @@ def page(arcade: Arcade) -> SetupPage:
 def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
     seen = []
     for _ in arenas("pitanks"):
-        seen.append(page(arcade).arena)
+        seen.append(page(arcade).chosen.arena)
         arcade.press(Act.RIGHT)
     assert sorted(seen) == sorted(arenas("pitanks"))
-    assert page(arcade).arena == seen[0]
+    assert page(arcade).chosen.arena == seen[0]
 
 
 def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
     for act in (Act.RIGHT, Act.DOWN, Act.RIGHT, Act.DOWN, Act.RIGHT):
         arcade.press(act)
-    arena, minutes, variant = page(arcade).arena, page(arcade).minutes, page(arcade).variant
+    arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, GAMES["pitanks"].variants[1])
     arcade.press(Act.FIRE, KEYS[2])
-    assert page(arcade).variant == variant, "whoever still hammers on fire does not begin"
+    assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
     arcade.wait(0.5)
     arcade.press(Act.FIRE, KEYS[2])
     match = arcade.shown(MatchScene)
@@ -57,7 +59,7 @@ def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp
     assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
     assert match.devices == [KEYS[0], None, None, None]
     kept = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
-    assert (kept["arena"], kept["minutes"], kept["variant"]) == (arena, 3, variant)
+    assert tuple(kept["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)
 
 
 def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
@@ -65,21 +67,22 @@ def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
     for act, last in ((Act.RIGHT, max(GAMES["pitanks"].minutes)), (Act.LEFT, min(GAMES["pitanks"].minutes))):
         for _ in range(6):
             arcade.press(act)
-        assert page(arcade).minutes == last
+        assert page(arcade).chosen.minutes == last
 
 
 def test_a_mouse_chooses_minutes_rules_and_the_arena_and_begins(arcade: Arcade) -> None:
-    row = ROWS["minutes"]
+    boxes = rows(GAMES["pitanks"])
+    row = boxes["minutes"]
     arcade.click(row.x + PAD + 3 * (CHIP + APART) + 20, row.centery)
-    assert page(arcade).minutes == GAMES["pitanks"].minutes[3]
-    before = page(arcade).variant
-    arcade.click(ROWS["rules"].right - 40, ROWS["rules"].centery)
-    arcade.click(ROWS["rules"].left + 40, ROWS["rules"].centery)
-    assert page(arcade).variant == before
-    arena = page(arcade).arena
+    assert page(arcade).chosen.minutes == GAMES["pitanks"].minutes[3]
+    before = page(arcade).chosen.variant
+    arcade.click(boxes["rules"].right - 40, boxes["rules"].centery)
+    arcade.click(boxes["rules"].left + 40, boxes["rules"].centery)
+    assert page(arcade).chosen.variant == before
+    arena = page(arcade).chosen.arena
     arcade.click(*setup.FRAME.center)
-    assert page(arcade).arena != arena
-    arcade.click(*ROWS["go"].center)
+    assert page(arcade).chosen.arena != arena
+    arcade.click(*boxes["go"].center)
     arcade.shown(MatchScene)
 
 
@@ -95,11 +98,10 @@ def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
 
 
 def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
-    settings = arcade.house.settings
-    settings.arena, settings.minutes, settings.variant = "atlantis", 47, "nonsense"
+    arcade.house.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
     fresh = SetupPage(arcade.house, "pitanks", Seats())
     rules = GAMES["pitanks"]
-    assert (fresh.arena, fresh.minutes, fresh.variant) == ("classic", rules.default_minutes, rules.variants[0])
+    assert fresh.chosen == Choice("classic", rules.default_minutes, rules.variants[0], 0)
 
 
 def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -115,3 +117,33 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
     finally:
         setup.playable.cache_clear()
         setup.load_kept.cache_clear()
+
+
+@pytest.mark.parametrize("game", [game for game in GAMES if GAMES[game].goals])
+def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: Arcade, game: str) -> None:
+    rules = GAMES[game]
+    seats = Seats(sides=rules.sides)
+    seats.join(KEYS[0])
+    seats.fill()
+    arcade.open(SetupPage(arcade.house, game, seats))
+    arcade.press(Act.DOWN)
+    for act, last in ((Act.RIGHT, max(rules.goals)), (Act.LEFT, min(rules.goals))):
+        for _ in rules.goals:
+            arcade.press(act)
+        assert page(arcade).chosen.goal == last
+    arcade.wait(0.5, draw=True)
+    arcade.press(Act.FIRE)
+    match = arcade.shown(MatchScene)
+    assert match.setup.goal == min(rules.goals)
+    assert arcade.house.settings.choice("pitanks") == Choice()
+    assert arcade.house.settings.choice(game).goal == min(rules.goals)
+
+
+def test_only_what_can_be_chosen_is_a_row() -> None:
+    for rules in GAMES.values():
+        boxes = rows(rules)
+        assert ("goal" in boxes) == bool(rules.goals)
+        assert ("minutes" in boxes) == (len(rules.minutes) > 1)
+        assert ("rules" in boxes) == (len(rules.variants) > 1)
+        heights = sorted((box.top, box.bottom) for box in boxes.values())
+        assert all(one[1] < other[0] for one, other in itertools.pairwise(heights))

@@ -6,7 +6,6 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.games import GAMES
 from pigaming_app.scenes.attract import Attract
 from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
@@ -14,9 +13,9 @@ from pigaming_app.scenes.howto import HowTo
 from pigaming_app.scenes.lobby import Lobby
 from pigaming_app.scenes.operator import HOLD
 from pigaming_app.scenes.options import OptionsPage
-from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.press import Act
 from pigaming_app.scenes.stack import Stack
-from pigaming_app.scenes.title import SHOWN, Title
+from pigaming_app.scenes.title import Title
 from pigaming_app.settings import Settings
 from tests.scenes.arcade import Arcade
 from tests.scenes.virtual_pad import VirtualPad
@@ -40,16 +39,6 @@ def test_fire_opens_the_lobby_of_the_game_and_back_returns(arcade: Arcade) -> No
     assert arcade.shown(Lobby).game == "pitanks"
     arcade.press(Act.BACK)
     title(arcade)
-
-
-def test_a_game_that_is_not_there_yet_says_so_and_opens_nothing(arcade: Arcade) -> None:
-    missing = [game for game in SHOWN if game not in GAMES]
-    if not missing:
-        pytest.skip("every game is there")
-    arcade.stack.top.on(Press(Act.POINT, Device("mouse"), at=title(arcade).focus.rect(missing[0]).center))
-    arcade.press(Act.FIRE)
-    assert title(arcade).focus.name == missing[0]
-    assert arcade.sounds.heard[-1] == "error"
 
 
 def test_the_row_below_leads_to_how_to_play_options_and_out(arcade: Arcade) -> None:

@@ -53,7 +53,8 @@ def test_every_game_and_its_rules_have_names(language: str) -> None:
     words = Words(language)
     for game in GAMES.values():
         assert words(f"games.{game.name}")
-        assert all(words(f"setup.{variant}") and words(f"setup.{variant}_line") for variant in game.variants)
+        asked = game.variants if len(game.variants) > 1 else ()
+        assert all(words(f"setup.{variant}") and words(f"setup.{variant}_line") for variant in asked)
 
 
 def _holes(text: str) -> set[str | None]:

@@ -86,7 +86,7 @@ def standing(match: Factory, seat: int) -> float:
 def facts(match: Factory, seat: int) -> Mapping[str, float]:
     """What one seat did: pallets delivered, pallets fed to the right machines, people driven over."""
     load = match.loads[seat]
-    return {"delivered": load.delivered, "steps": load.steps, "hits": load.hits}
+    return {"delivered": load.delivered, "steps": load.steps, "bumps": load.hits}
 
 
 def feat(match: Factory, seat: int) -> Mapping[str, int]:
