@@ -22,22 +22,23 @@ from pigaming_app.sim.robots import RADIUS
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LANES = 9  # ways to pass that are thought of, from one edge to the other
-CLEAR = 74.0  # px between the middles of two robots that pass each other
+CLEAR = 2.0 * RADIUS + 2.0  # px between the middles of two robots that pass each other
 SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
-OWN, STEADY = 0.15, 0.1  # what a px costs away from the own line, and from the lane chosen last
+OWN, STEADY = 0.08, 0.1  # what a px costs away from the own line, and from the lane chosen last
 FAR = 300.0  # px from which others matter
 SOON = 2.5  # s in which it would run into another, from which on that is in the way
 SLOW = 0.5  # of full speed: whoever is slower is in the way, others are overtaken
 LEEWAY = 32.0  # px of two robots that it takes for granted when they pass
 RUNWAY = 300.0  # px of about straight course in which it begins to overtake
 FUEL = 0.6  # of the turbo meter for that
-REACH = 180.0  # px that the other may be ahead
-QUICKER = 70.0  # px/s by which turbo must be faster than the other
-PASSING = 200  # ticks after which it leaves off
-SPARE = 4.0  # px more than it takes to pass
+REACH = 110.0  # px that the other may be ahead
+QUICKER = 110.0  # px/s by which turbo must be faster than the other
+PASSING = 160  # ticks after which it leaves off
+INSIDE = 45.0  # px that another must leave on the inside of a bend: it is shorter there, and who is beside makes way
+SPARE = 2.0  # px more than it takes to pass
 SWING = 50.0  # px that a lane may be changed for it while it drives to the point ahead
-SAVE = 200.0  # px to somebody ahead, for whom it saves its turbo
-TAIL = 20.0  # px behind another at which it drives no faster than that
+SAVE = 120.0  # px to somebody ahead, for whom it saves its turbo
+TAIL = 12.0  # px behind another at which it drives no faster than that
 SHIFT = 60.0  # px that a lane may be changed while it drives to the point ahead
 OUT = 30.0  # px from the edge for which it makes when it is off the course
 EDGE = 2.0  # px that a lane keeps from the edge
@@ -197,25 +198,34 @@ def feel_held_up(view: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def choose_target(view: Any, mind: Any) -> None:
-    """Begin to overtake whoever is close ahead where it is straight and turbo will do; leave off past it, or late."""
+    """Begin to overtake whoever is close ahead where turbo will do; leave off when past it, or late."""
     if mind.target >= 0:
         mind.target_for += PERIOD
         other = view.others[mind.target]
         if other.ahead < -CLEAR or other.distance > FAR or mind.target_for > PASSING or not view.on:
             mind.target = -1
         return
-    if view.straight < RUNWAY or view.turbo < FUEL or mind.boost > 1.0:
+    if view.turbo < FUEL or mind.boost > 1.0:
         return
     for i in range(OTHERS):
         other = view.others[i]
-        if not other.present or not 0.0 < other.ahead < REACH or other.distance > REACH:
-            continue
-        room, away = view.ahead.half - EDGE - CLEAR - SPARE, view.aside - other.aside
-        if 1.3 * view.speed - other.speed > QUICKER and (other.aside > -room or other.aside < room):
-            mind.target, mind.target_for = i, 0
-            mind.side = 1.0 if away > 0.0 else -1.0
-            if mind.side * other.aside > room:  # no room on that side
-                mind.side = -mind.side
+        if other.present and 0.0 < other.ahead < REACH and other.distance < REACH:
+            side = free_side(view, other)
+            if side and 1.3 * view.speed - other.speed > QUICKER:
+                mind.target, mind.target_for, mind.side = i, 0, side
+
+
+@kernel
+def free_side(view: Any, other: Any) -> float:
+    """On which side another can be overtaken: in a bend only on the inside; 1: to the right of it, 0: on neither."""
+    side = 1.0 if view.aside > other.aside else -1.0
+    room = view.ahead.half - EDGE
+    if view.straight < RUNWAY:
+        side = 1.0 if view.turn > 0.0 else -1.0
+        return side if room - side * other.aside > INSIDE else 0.0
+    if room - side * other.aside < CLEAR + SPARE:
+        side = -side
+    return side if room - side * other.aside > CLEAR + SPARE else 0.0
 
 
 @kernel

@@ -19,7 +19,7 @@ WALL = RADIUS + 6.0  # px that it keeps from the outer walls
 LEVELS = (  # points of the course to one of the line; how broad bumps are, in points; how high, in px; rounds at most
     (4, (8, 4, 2, 1), (32.0, 16.0, 8.0, 4.0, 2.0, 1.0), 6),
     (2, (8, 4, 2, 1), (4.0, 2.0, 1.0, 0.5), 6),
-    (1, (8, 4, 2), (4.0, 2.0, 1.0, 0.5), 3),
+    (1, (8, 4, 2), (2.0, 1.0, 0.5), 2),
 )
 ENOUGH = 1e-3  # s saved in a round, below which it stops
 EASE = 2  # points over which a slower pace begins and ends
