@@ -1,55 +1,38 @@
 """The hand-written driver of Robot Race.
 
-It drives for a point ahead on the fastest line (pure pursuit), shifted aside where another robot is in the way, as fast
-as the line allows; turbo goes where the way is straight. Held up it backs out; past a line that it has not crossed it
-goes back to before it.
+It drives for a point ahead on the fastest line (pure pursuit), shifted aside where another robot is in the way (see
+`passing`), as fast as the line allows; turbo goes where the way is straight. Held up it backs out; past a line that it
+has not crossed it goes back to before it.
 
 The strengths differ in speed, in how much of the fastest line they use and how steadily they keep it, in turbo, and in
-how late they see others.
+how late they see others. Those below hard keep nearer to the middle, so that there is room inside to pass them.
 """
 
 from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain import Kind
+from pigaming_app.ai.passing import EDGE, choose_lane, choose_target, held_to
 from pigaming_app.games.race.view import OTHERS, Eyes, View, see
 from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.robots import RADIUS
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
-LANES = 9  # ways to pass that are thought of, from one edge to the other
-CLEAR = 2.0 * RADIUS + 2.0  # px between the middles of two robots that pass each other
-SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
-OWN, STEADY = 0.08, 0.1  # what a px costs away from the own line, and from the lane chosen last
-FAR = 300.0  # px from which others matter
-SOON = 2.5  # s in which it would run into another, from which on that is in the way
-SLOW = 0.5  # of full speed: whoever is slower is in the way, others are overtaken
-LEEWAY = 32.0  # px of two robots that it takes for granted when they pass
-RUNWAY = 300.0  # px of about straight course in which it begins to overtake
-FUEL = 0.6  # of the turbo meter for that
-REACH = 110.0  # px that the other may be ahead
-QUICKER = 110.0  # px/s by which turbo must be faster than the other
-PASSING = 160  # ticks after which it leaves off
-INSIDE = 45.0  # px that another must leave on the inside of a bend: it is shorter there, and who is beside makes way
-SPARE = 2.0  # px more than it takes to pass
-SWING = 50.0  # px that a lane may be changed for it while it drives to the point ahead
-SAVE = 120.0  # px to somebody ahead, for whom it saves its turbo
-TAIL = 12.0  # px behind another at which it drives no faster than that
-SHIFT = 60.0  # px that a lane may be changed while it drives to the point ahead
+LOOK = 115.0  # px along the course to the point that it drives for
+LATE = 0.05  # s until the motors follow
+GRIP = 1.8  # of the full turn rate that is asked for before it slows down
+SHIFT = 60.0  # px that a lane may be changed while it drives to that point
+SWING = 50.0  # px of that while it overtakes
 OUT = 30.0  # px from the edge for which it makes when it is off the course
-EDGE = 2.0  # px that a lane keeps from the edge
+SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
+SAVE = 120.0  # px to somebody ahead, for whom it saves its turbo
 NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 40
 FREEING = 20  # ticks of backing out, one way or the other
-
-LOOK = 115.0  # px along the course to the point that it drives for
-LATE = 0.05  # s until the motors follow
-GRIP = 1.8  # of the full turn rate that is asked for before it slows down
 
 RACE, GO_BACK, BREAK_FREE = range(3)
 
@@ -115,12 +98,8 @@ def race(view: Any, mind: Any, action: Any) -> int:
     if view.past > SLACK:
         return go_back(view, action)
     mark = view.ahead
-    choose_target(view, mind)
-    if mind.target >= 0:
-        other = view.others[mind.target]
-        mind.lane = other.aside + mind.side * (CLEAR + SPARE)
-    else:
-        choose_lane(view, mind)
+    choose_target(view, mind, PERIOD)
+    choose_lane(view, mind)
     room = mark.half - (EDGE if view.on else OUT)
     lane = mind.lane + mind.stray
     keep = view.aside - view.ideal + mark.ideal  # the lane that leads along beside the fastest line
@@ -197,89 +176,6 @@ def feel_held_up(view: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def choose_target(view: Any, mind: Any) -> None:
-    """Begin to overtake whoever is close ahead where turbo will do; leave off when past it, or late."""
-    if mind.target >= 0:
-        mind.target_for += PERIOD
-        other = view.others[mind.target]
-        if other.ahead < -CLEAR or other.distance > FAR or mind.target_for > PASSING or not view.on:
-            mind.target = -1
-        return
-    if view.turbo < FUEL or mind.boost > 1.0:
-        return
-    for i in range(OTHERS):
-        other = view.others[i]
-        if other.present and 0.0 < other.ahead < REACH and other.distance < REACH:
-            side = free_side(view, other)
-            if side and 1.3 * view.speed - other.speed > QUICKER:
-                mind.target, mind.target_for, mind.side = i, 0, side
-
-
-@kernel
-def free_side(view: Any, other: Any) -> float:
-    """On which side another can be overtaken: in a bend only on the inside; 1: to the right of it, 0: on neither."""
-    side = 1.0 if view.aside > other.aside else -1.0
-    room = view.ahead.half - EDGE
-    if view.straight < RUNWAY:
-        side = 1.0 if view.turn > 0.0 else -1.0
-        return side if room - side * other.aside > INSIDE else 0.0
-    if room - side * other.aside < CLEAR + SPARE:
-        side = -side
-    return side if room - side * other.aside > CLEAR + SPARE else 0.0
-
-
-@kernel
-def choose_lane(view: Any, mind: Any) -> None:
-    """The lane that costs the fewest px: those lost behind others, and those of a longer way round a bend."""
-    mark = view.ahead
-    wanted = mind.line * mark.ideal
-    best, least = wanted, blocked(view, mind, wanted)
-    if least > 0.0:
-        least += STEADY * abs(wanted - mind.lane)
-        room, away = mark.half - EDGE, OWN + abs(view.turn)
-        for i in range(LANES):
-            lane = room * (2.0 * i / (LANES - 1) - 1.0)
-            cost = blocked(view, mind, lane) + away * abs(lane - wanted) + STEADY * abs(lane - mind.lane)
-            if cost < least:
-                best, least = lane, cost
-    mind.lane = best
-
-
-@kernel
-def blocked(view: Any, mind: Any, lane: float) -> float:
-    """The px that others on a lane cost; 0: nobody is in the way."""
-    cost = 0.0
-    for i in range(OTHERS):
-        other = view.others[i]
-        if not other.present or other.ahead < -CLEAR or other.distance > FAR:
-            continue
-        gap = abs(other.aside - lane)
-        if other.ahead < CLEAR:
-            if (other.aside - view.aside) * (other.aside - lane) < 0.0:
-                cost += 400.0  # through it
-            if gap < CLEAR:
-                cost += 3.0 * (CLEAR - gap)
-        elif gap < CLEAR:
-            closing = mind.speed * view.speed - other.speed
-            if other.speed < SLOW * view.speed and other.distance - CLEAR < SOON * closing:
-                cost += 150.0 * (1.0 + (CLEAR - gap) / CLEAR)
-    return cost
-
-
-@kernel
-def held_to(view: Any, mind: Any) -> float:
-    """The speed of a robot right ahead on the own lane, as a share of full speed; above 1 if there is none."""
-    share = 2.0
-    for i in range(OTHERS):
-        other = view.others[i]
-        near = other.present and other.ahead > 15.0 and other.distance < CLEAR + TAIL
-        if near and other.speed > 100.0 and abs(other.aside - mind.lane) < CLEAR - LEEWAY:
-            ahead = 0.98 * other.speed / view.speed
-            share = ahead if ahead < share else share
-    return share
-
-
-@kernel
 def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
     """Drive the arc that leads to a point, as fast as it can be turned along.
 
@@ -295,10 +191,8 @@ def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
         return
     bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
     held = held_to(view, mind)
-    if mind.target >= 0:
-        held = 2.0
     dash = use_turbo(view, mind, bend) if held > 1.0 else 0
-    full = view.speed * (1.3 if dash else 1.0)
+    full = view.speed * (view.turbo_factor if dash else 1.0)
     speed, most = mind.speed * view.pace, GRIP * view.turn_rate / (abs(bend) * full + 1e-9)
     speed = speed if speed < most else most
     speed = speed if speed < held else held
@@ -308,7 +202,7 @@ def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
 @kernel
 def use_turbo(view: Any, mind: Any, bend: float) -> int:
     """1 where the way is straight enough, the meter full enough to begin, and it is not wanted for somebody ahead."""
-    if not view.on or abs(bend) * 1.3 * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
+    if not view.on or abs(bend) * view.turbo_factor * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
         return 0
     if mind.target >= 0:
         return 1

@@ -69,7 +69,8 @@ class View:
     angular: float
     speed: float  # full speed, px/s
     turn_rate: float
-    turbo: float
+    turbo: float  # what is left in the meter, 0..1
+    turbo_factor: float  # of speed, while it is on
     boosting: int
     along: float  # share of the way round
     aside: float
@@ -100,7 +101,7 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     view.x, view.y, view.heading = robot.x, robot.y, robot.heading
     view.linear, view.angular = robot.linear, robot.angular
     view.speed, view.turn_rate = rules.speed, rules.turn_rate
-    view.turbo, view.boosting = robot.turbo, robot.boosting
+    view.turbo, view.turbo_factor, view.boosting = robot.turbo, rules.turbo_factor, robot.boosting
     view.along, view.aside = along / course.length, place.aside
     view.half, view.on = place.half, place.on
     view.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
