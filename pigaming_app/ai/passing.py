@@ -1,7 +1,7 @@
 """How a driver gets past others: which lane it takes, whom it overtakes, and whom it follows.
 
 Robots that stand or crawl are driven round like any obstacle. Those that race are followed until turbo will do: on a
-straight it takes the free side, in a bend only the inside, where the way is shorter. Whoever is beside another makes way.
+straight it takes the free side, in a bend only the inside: the way is shorter there. Who is beside another makes way.
 """
 
 from typing import Any
