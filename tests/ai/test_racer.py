@@ -1,5 +1,6 @@
 """The hand-written driver: as fast as it is meant to be, past whoever is in the way, never stuck, never lost."""
 
+import re
 from collections import deque
 from math import hypot, pi
 
@@ -7,7 +8,7 @@ import pytest
 
 from pigaming_app.ai import make
 from pigaming_app.ai.league import duel
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.course import spot
@@ -26,6 +27,14 @@ def race(brains, track="classic", seed=1, laps=3):
         if brain != "off":
             match.sit(seat, make("race", brain, seed * 4 + seat))
     return match
+
+
+def the_other_way_round(track):
+    """A track with its corners in the opposite order, and new lines."""
+    source = load("race", track).source
+    head, *corners = source.split("[[corner]]")
+    turned = "[[corner]]".join([head, *(corner.rstrip() + "\n\n" for corner in reversed(corners))])
+    return parse("race", re.sub(r"lines = .*", "lines = [0.1, 0.35, 0.6, 0.85]", turned), "turned.toml")
 
 
 def alone(strength, track="classic", laps=3):
@@ -59,6 +68,21 @@ def test_a_hard_driver_stays_on_the_course(track):
     while not match.over:
         match.tick()
         assert match.state.racers[0].place.on
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_courses_can_be_driven_anticlockwise(track):
+    arena = the_other_way_round(track)
+    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hard", "normal", "easy", "hard")))
+    match = Match(Setup("race", track, (one, two, three, four), 10.0, 1, "standard", 2), arena=arena)
+    for seat, brain in enumerate(("hard", "normal", "easy", "hard")):
+        match.sit(seat, make("race", brain, seat))
+    while not match.over:
+        match.tick()
+        assert not any(racer.missed for racer in match.state.racers)
+    assert all(racer.finished for racer in match.state.racers)
+    best = match.game.facts(match.state, 0)["best"]
+    assert best == pytest.approx(REFERENCE[track] / 1.07, rel=0.05)
 
 
 @pytest.mark.parametrize("mixture", MIXTURES)
