@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
+from pigaming_app.scenes.views.factory import FactoryView
 from pigaming_app.scenes.views.picture import Picture, Taste, Words
 from pigaming_app.scenes.views.pitanks import PiTanksView
+from pigaming_app.scenes.views.race import RaceView
 from pigaming_app.sim.arena import Arena
 
 View = Callable[[Arena, Any, list[str], Taste, Words | None], Picture]
 
-VIEWS: dict[str, View] = {"pitanks": PiTanksView}
+VIEWS: dict[str, View] = {"pitanks": PiTanksView, "factory": FactoryView, "race": RaceView}

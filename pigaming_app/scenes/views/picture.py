@@ -6,6 +6,7 @@ A view looks at the match and never touches it; what happened it finds by compar
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
+from pathlib import Path
 from time import perf_counter
 from typing import Any, Protocol
 
@@ -46,6 +47,9 @@ class Picture:
         self.treads = [Treads(i) for i in range(len(state.robots))]
         self.before = self.now = _poses(state)
         self.jobs: Iterator[Job] = driving(self.seats)
+
+    def for_real(self, folder: Path) -> None:
+        """People play this match: what it may leave behind, such as a best lap, is kept in this folder for data."""
 
     def watch(self, state: Any) -> list[Heard]:
         """See what the last tick did; answers what is to be heard."""
