@@ -144,7 +144,7 @@ def broken(change):
     return source.replace(old, new, 1)
 
 
-CORNER = "[[corner]]\nat = [{}, {}]\nradius = {}\nwidth = 160\n"
+CORNER = "[[corner]]\nat = [{}, {}]\nradius = {}\nwidth = 150\n"
 HEAD = '[title]\nen = "A"\npt = "A"\n[track]\nlines = [0.1, 0.3, 0.5, 0.7]\n'
 
 
@@ -180,6 +180,21 @@ def test_a_broken_file_is_refused_in_one_line(change, key, reason):
         ([(300, 200, 100), (1000, 200, 100)], "corner", "at least 3 are needed"),
         ([(300, 200, 100), (300, 200, 100), (900, 700, 100)], "corner[1].at", "same point as its neighbour"),
         ([(300, 200, 80), (1300, 200, 80), (200, 200, 80)], "corner[2].at", "turns back on itself"),
+        (  # a clover leaf with three narrow leaves
+            [
+                (911, 792, 85),
+                (689, 792, 85),
+                (722, 495, 80),
+                (448, 375, 85),
+                (559, 182, 85),
+                (800, 360, 80),
+                (1041, 182, 85),
+                (1152, 375, 85),
+                (878, 495, 80),
+            ],
+            "corner",
+            "three stretches of the course meet near (800, 450)",
+        ),
         (  # a figure of eight
             [(200, 200, 100), (1400, 700, 100), (1400, 200, 100), (200, 700, 100)],
             "corner",
