@@ -138,6 +138,45 @@ def shield() -> Samples:
     return together([(0.0, 0.7 * pluck(hz, 0.35, 0.06, 0.3)) for hz in (1320.0, 1873.0, 2671.0)])
 
 
+def mud() -> Samples:
+    return together(
+        [(0.0, burst("mud", 0.22, 0.05, 90.0, 900.0)), (0.05, 0.6 * burst("clod", 0.16, 0.03, 140.0, 700.0))]
+    )
+
+
+def finish() -> Samples:
+    """A run up to a chord, shorter than that of the winner."""
+    chord = [(0.24, pluck(pitch(note), 0.6, 0.14, 0.5)) for note in ("E4", "B4", "G#5")]
+    return together([(0.0, melody("E4 G#4 B4", 0.08, half=0.06)), *chord])
+
+
+def lift() -> Samples:
+    return together([(0.0, sweep(220.0, 520.0, 0.14, 0.06, glide=0.06)), (0.1, 0.5 * pluck(pitch("E5"), 0.1, 0.02))])
+
+
+def set_down() -> Samples:
+    return together([(0.0, sweep(180.0, 90.0, 0.16, 0.04)), (0.0, 0.5 * burst("set_down", 0.08, 0.012, 300.0, 2500.0))])
+
+
+def machine_done() -> Samples:
+    return together([(0.0, pluck(pitch("B5"), 0.3, 0.08, 0.3)), (0.1, pluck(pitch("E6"), 0.35, 0.09, 0.3))])
+
+
+def spoiled() -> Samples:
+    crash = together([(0.0, burst("spoiled", 0.3, 0.05, 300.0, 4500.0)), (0.0, sweep(300.0, 70.0, 0.4, 0.1))])
+    return together([(0.0, np.tanh(1.5 * crash)), (0.25, 0.6 * melody("C4 F#3", 0.12, half=0.08, bright=0.7))])
+
+
+def delivered() -> Samples:
+    return together([(0.0, melody("E4 B4 E5", 0.07)), (0.21, pluck(pitch("G#5"), 0.45, 0.11, 0.4))])
+
+
+def freeze() -> Samples:
+    return together(
+        [(0.05 * i, 0.8 * pluck(hz, 0.4, 0.07, 0.2)) for i, hz in enumerate((2671.0, 1873.0, 1320.0, 660.0))]
+    )
+
+
 def join(player: int) -> Samples:
     hz = pitch(PLAYERS[player])
     return together([(0.0, pluck(hz, 0.25)), (0.07, pluck(2.0 * hz, 0.3, 0.06))])
@@ -254,6 +293,21 @@ SOUNDS: dict[str, tuple[Callable[[], Samples], float]] = {  # how it is made, an
     "win": (win, -14.0),
     "tie": (lambda: melody("B4 B4 A4", 0.16, last=0.6, half=0.14), -15.0),
     "lose": (lambda: melody("B4 G4 F#4 E4", 0.15, last=0.6, half=0.12), -15.0),
+    "lap": (lambda: melody("B4 E5", 0.08), -17.0),
+    "best_lap": (lambda: melody("E5 G#5 B5 E6", 0.06), -15.0),
+    "last_lap": (lambda: melody("E5 E5 E5 B5", 0.09), -15.0),
+    "missed": (lambda: melody("F4 C4", 0.12, half=0.09, bright=0.8), -17.0),
+    "wrong_way": (lambda: melody("A4 A4 A4", 0.1, last=0.14, half=0.05, bright=0.8), -18.0),
+    "mud": (mud, -21.0),
+    "finish": (finish, -15.0),
+    "lift": (lift, -20.0),
+    "set_down": (set_down, -20.0),
+    "refused": (lambda: melody("A3 A3", 0.08, last=0.1, half=0.03, bright=0.8), -21.0),
+    "machine_done": (machine_done, -19.0),
+    "spoiled": (spoiled, -16.0),
+    "delivered": (delivered, -15.0),
+    "freeze": (freeze, -17.0),
+    "arrived": (lambda: melody("E4 G4", 0.09, bright=0.3), -20.0),
     "move": (lambda: pluck(pitch("E5"), 0.06, 0.012, 0.3), -23.0),
     "accept": (lambda: melody("B4 E5", 0.07), -18.0),
     "back": (lambda: melody("E5 B4", 0.07), -19.0),

@@ -17,7 +17,9 @@ from pigaming_app.scenes.sounds import FOLDER, Sounds, stereo
 PITCHED = [f"{name}{player}" for name in ("fire", "join", "ready") for player in (1, 2, 3, 4)]
 GAME = ["hit", "wall", "crumble", "shield", "pickup", "power_end", "drop", "mine"]
 MATCH = ["count", "go", "tick", "win", "lose", "tie"]
-CONTRACT = [*PITCHED, *GAME, *MATCH, "move", "accept", "back", "error"]
+RACE = ["lap", "best_lap", "last_lap", "missed", "wrong_way", "mud", "finish"]
+FACTORY = ["lift", "set_down", "refused", "machine_done", "spoiled", "delivered", "freeze", "arrived"]
+CONTRACT = [*PITCHED, *GAME, *MATCH, *RACE, *FACTORY, "move", "accept", "back", "error"]
 
 
 def script() -> ModuleType:
