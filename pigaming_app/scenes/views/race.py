@@ -111,7 +111,7 @@ class RaceView(Picture):
         robot, racer = state.robots[seat], state.racers[seat]
         self.light_up(under, seat, pose, bool(robot.boosting))
         if not racer.place.on:
-            put(over, race_signs.splash(state.tick // 6 % 3 if abs(robot.linear) > SPRAYED else seat % 3), x, y)
+            put(under, race_signs.splash(state.tick // 6 % 3 if abs(robot.linear) > SPRAYED else seat % 3), x, y)
         put(over, tank(seat, step(heading, HEADINGS)), x, y)
         if robot.turbo < 1.0 and not racer.finished:
             put(light, effects.timer_ring(FOCUS, math.ceil(48 * robot.turbo), 52, THIN), x, y)

@@ -14,7 +14,6 @@ from pigaming_app.scenes.ink import (
     BODY,
     FOCUS,
     ICE,
-    LABEL,
     LINE,
     MIST,
     PLAYERS,
@@ -36,11 +35,11 @@ from pigaming_app.scenes.things import number_width
 from pigaming_app.scenes.views.ground import Bit
 from pigaming_app.scenes.views.hud import number_bits
 
-Y, W, H, EDGE = 18, 336, 108, 24  # px: top and size of the cards, margin round their sprites
+Y, W, H, EDGE = 18, 352, 110, 24  # px: top and size of the cards, margin round their sprites
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # of a time that is better, or worse; a sign says it too
 CELLS, CELL = 8, 17.75  # of the turbo bar, and px from one to the next
-MIDDLE, TIMES, RIGHT = 144, 192, W - 16  # px: of badge and laps, of the signs before times, where times end
-ROWS = (25, 60, 90)  # px: middles of the three times
+MIDDLE, TIMES, RIGHT = 154, 206, W - 18  # px: of badge and laps, of the signs before times, where times end
+ROWS = (23, 54, 85)  # px: middles of the three times
 FOOT = W - 40  # px: length of the bar of laps
 
 
@@ -69,21 +68,21 @@ def card_bits(card: Card, x: int) -> list[Bit]:
     """The pieces of a card whose left edge is at x."""
     corner = (x - EDGE, Y - EDGE)
     bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done), corner, None)]
-    number = FOCUS if card.done else WHITE
+    number = FOCUS if card.done and card.place == 1 else WHITE
     text = str(card.place)
-    bits += number_bits(text, TITLE, x + 44 - number_width(text, TITLE) / 2, Y + 42, number)
-    bits.append((word(card.ending, number), (x + 76 - EDGE, Y + 26 - EDGE), None))
+    bits += number_bits(text, TITLE, x + 43 - number_width(text, TITLE) / 2, Y + 42, number)
+    bits.append((word(card.ending, number), (x + 75 - EDGE, Y + 25 - EDGE), None))
     bits += number_bits(card.lap, BODY, x + MIDDLE - number_width(card.lap, BODY) / 2, Y + 70, ICE)
     if card.moved:
-        bits.append((mover(card.moved > 0), (x + 96 - EDGE, Y + 62 - EDGE), None))
+        bits.append((mover(card.moved > 0), (x + 97 - EDGE, Y + 62 - EDGE), None))
     bits += _part_lit(turbo(card.seat, True), turbo(card.seat, False), (x + 20, Y + 92), card.turbo * CELLS * CELL / 64)
     bits += _part_lit(
         foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
     )
     if card.sign == "missed":
-        bits.append((missed_mark(card.missed), (x + 176 - EDGE, Y - EDGE), None))
+        bits.append((missed_mark(card.missed), (x + 190 - EDGE, Y - EDGE), None))
     elif card.sign:
-        bits.append((wrong_mark(), (x + 176 - EDGE, Y - EDGE), None))
+        bits.append((wrong_mark(), (x + 190 - EDGE, Y - EDGE), None))
     else:
         bits += _times(card, x)
     return bits
@@ -93,9 +92,9 @@ def _times(card: Card, x: int) -> list[Bit]:
     """The time that runs, the last and the best; each after its sign."""
     bits: list[Bit] = [(signs(card.done), (x + TIMES - EDGE, Y - EDGE), None)]
     text, color = card.first
-    rows = ((text, LABEL, color), (card.last, BODY, MIST), (card.best, BODY, FOCUS))
-    for (said, size, tone), y in zip(rows, ROWS, strict=True):
-        bits += number_bits(said, size, x + RIGHT - number_width(said, size), Y + y, tone)
+    rows = ((text, color), (card.last, MIST), (card.best, FOCUS))
+    for (said, tone), y in zip(rows, ROWS, strict=True):
+        bits += number_bits(said, BODY, x + RIGHT - number_width(said, BODY), Y + y, tone)
     return bits
 
 

@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
-from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, LABEL, MIST, TITLE, WHITE, Color, Ink
+from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, MIST, SUB, TITLE, WHITE, Color, Ink
 from pigaming_app.scenes.things import glyph, number_width
 from pigaming_app.scenes.views import race_cards
 from pigaming_app.scenes.views.ground import Ground
@@ -21,7 +21,7 @@ from pigaming_app.scenes.views.race_happenings import SHOWN_FROM
 from pigaming_app.scenes.views.warming import Job
 from pigaming_app.sim.world import DT, HZ
 
-PLACES = {1: (492,), 2: (492, 1092), 3: (148, 492, 1092), 4: (148, 492, 1092, 1436)}
+PLACES = {1: (520,), 2: (520, 1048), 3: (160, 520, 1048), 4: (160, 520, 1048, 1408)}
 HIGH = 138  # px of the canvas that the cards may use
 TELLS = int(2.5 * HZ)  # ticks for which a difference is shown
 MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
@@ -65,11 +65,12 @@ class Cards:
             for full in (True, False):
                 yield partial(race_cards.turbo, seat, full)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
-        for size, colors in ((TITLE, (WHITE, FOCUS, ICE, ALARM)), (LABEL, (ICE, GAIN, LOSS, FOCUS))):
-            for char in "0123456789" + (":" if size == TITLE else ".+−"):
-                yield from (partial(glyph, char, size, color) for color in colors)
-        for char in "0123456789.–/":
-            yield from (partial(glyph, char, BODY, color) for color in (ICE, MIST, FOCUS))
+        for char in "0123456789:":
+            yield from (partial(glyph, char, SUB, color) for color in (ICE, ALARM))
+        for char in "1234":
+            yield from (partial(glyph, char, TITLE, color) for color in (WHITE, FOCUS))
+        for char in "0123456789.+−–/":
+            yield from (partial(glyph, char, BODY, color) for color in (ICE, MIST, FOCUS, GAIN, LOSS))
         for line in range(LINES):
             yield partial(race_cards.missed_mark, line)
             yield from (partial(race_cards.word, self.endings[line], color) for color in (WHITE, FOCUS))
@@ -106,12 +107,12 @@ class Cards:
 
     def _bake_clock(self, kind: str, seconds: int) -> None:
         text = f"{seconds // 60}:{seconds % 60:02}" if kind == "time" else str(seconds)
-        lead = 0 if kind == "time" else 70
-        x = 960 - (number_width(text, TITLE) + lead) / 2
-        bits = number_bits(text, TITLE, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
+        lead = 0 if kind == "time" else 58
+        x = 960 - (number_width(text, SUB) + lead) / 2
+        bits = number_bits(text, SUB, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
         if lead:
-            bits.append((small_flag(), (round(x) - 24, Y + H // 2 - 52), None))
-        self.ground.bake(pygame.Rect(840, 0, 240, HIGH), bits)
+            bits.append((small_flag(), (round(x) - 28, Y + H // 2 - 52), None))
+        self.ground.bake(pygame.Rect(872, 0, 176, HIGH), bits)
 
 
 def _left(state: Race) -> int | None:
@@ -148,5 +149,5 @@ def _time(ticks: float) -> str:
 def small_flag() -> pygame.Surface:
     """The flag beside the clock once somebody has finished."""
     ink = Ink(104, 104)
-    race_cards.flag(ink, 48, 52, 24, WHITE)
+    race_cards.flag(ink, 50, 52, 20, WHITE)
     return ink.lit(0.7)

@@ -105,11 +105,13 @@ class Reactions:
         match one.kind:
             case "line":
                 moments.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
-                self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
-            case "lap":
+                if not racer.finished:
+                    self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
+            case "lap" if not racer.finished:
                 self._say(one.seat, f"{one.number:.2f}", ICE)
             case "best":
-                self._say(one.seat, f"{one.number:.2f}", FOCUS)
+                if not racer.finished:
+                    self._say(one.seat, f"{one.number:.2f}", FOCUS)
                 moments.burst(x, y, FOCUS, 16, 44, 80)
             case "last_lap" if self.words:
                 self._say(one.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
