@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.scenes.ink import BODY, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix
+from pigaming_app.scenes.ink import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix
 from pigaming_app.scenes.pane import Lit, Pane
 
 Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
@@ -75,7 +75,13 @@ class Plot:
             points = [(x, y + APART * (i - middle)) for x, y in self.corners(curve.series)]
             if points:
                 pane.hot.line(points, PLAYERS[curve.players[0]], 5)
+        for x, y in self.marked():
+            pane.hot.ring(x, y, 16, FOCUS, THIN)
         return pane.done()
+
+    def marked(self) -> list[Point]:
+        """What stands out."""
+        return []
 
     def ends(self) -> Lit:
         """The badges where the curves end, none over another."""
@@ -123,6 +129,15 @@ class LapPlot(Plot):
         """Where a lap and its time lie on the canvas: laps stand in the middle of their share of the axis."""
         share = (score - self.low) / (self.high - self.low)
         return self.x + self.w * min(1.0, max(0.0, (seconds - 0.5) / self.seconds)), self.y + self.h * (1.0 - share)
+
+    def marked(self) -> list[Point]:
+        """The best lap of all."""
+        laps = [(time, lap, i) for i, curve in enumerate(self.curves) for lap, time in curve.series]
+        if not laps:
+            return []
+        time, lap, i = min(laps)
+        x, y = self.to(lap, time)
+        return [(x, y + APART * (i - (len(self.curves) - 1) / 2))]
 
     def marks(self) -> list[tuple[float, str]]:
         """The numbers of the laps."""

@@ -295,4 +295,4 @@ def summary(house: House, game: str) -> str:
 
 def measure(words: Words, game: Game, minutes: float, goal: int) -> str:
     """How long a match is: its laps or pallets, or its minutes."""
-    return f"{words('setup.' + game.goal)} {goal}" if game.goal else words("setup.min", minutes=f"{minutes:g}")
+    return words(f"setup.count_{game.goal}", count=goal) if game.goal else words("setup.min", minutes=f"{minutes:g}")

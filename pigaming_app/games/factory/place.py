@@ -81,7 +81,9 @@ def stock_up(match: Any, team: int) -> None:
 
 @kernel
 def ship(match: Any, team: int) -> None:
-    """If all slots of a team's exit are full, the pallet that has lain there longest drives off."""
+    """If all slots of a team's exit are full and more will come, the pallet that has lain there longest drives off."""
+    if match.delivered[team] == match.rules.pallets:
+        return
     first = first_slot(team, ENTRY) + SHELVES
     oldest, longest = -1, -1
     for s in range(first, first + SHELVES):

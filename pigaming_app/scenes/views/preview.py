@@ -8,10 +8,13 @@ from collections.abc import Callable
 
 import pygame
 
+from pigaming_app.games.factory.floor import Floor
 from pigaming_app.games.race.start import Track
+from pigaming_app.scenes.crates import TEAMS
 from pigaming_app.scenes.ink import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
 from pigaming_app.scenes.views.raceway import GLOW, earth
 from pigaming_app.scenes.views.roadway import draw_track
+from pigaming_app.scenes.views.shopfloor import draw_floor
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 
@@ -56,10 +59,24 @@ def track(arena: Arena, w: int, h: int) -> pygame.Surface:
     return out
 
 
+def floor(arena: Arena, w: int, h: int) -> pygame.Surface:
+    """A floor as it is worked on: warehouses, machines, the aisle, and where the robots of each team begin."""
+    left, top, k = fitted(w, h)
+    hot, cold = Ink(w, h, 3).to(left, top, 0.0, k), Ink(w, h, 3).to(left, top, 0.0, k)
+    draw_floor((hot, cold), arena.plan)
+    hot.line(cut(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
+    for i, start in enumerate(arena.starts):
+        hot.ring(start.x, start.y, 36, TEAMS[i % 2], 8)
+    out = hot.lit(GLOW)
+    cold.onto(out)
+    return out
+
+
 def fitted(w: int, h: int) -> tuple[float, float, float]:
     """Where an arena lies in the middle of w x h px, and its scale."""
     k = min((w - 2 * MARGIN) / WIDTH, (h - 2 * MARGIN) / HEIGHT)
     return (w - k * WIDTH) / 2, (h - k * HEIGHT) / 2, k
 
 
-PREVIEWS: dict[type, Callable[[Arena, int, int], pygame.Surface]] = {Track: track}  # by what an arena's plan is
+# by what the plan of an arena is
+PREVIEWS: dict[type, Callable[[Arena, int, int], pygame.Surface]] = {Track: track, Floor: floor}
