@@ -23,6 +23,7 @@ from pigaming_app.scenes.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.results import Results
 from pigaming_app.scenes.stack import Push, Scene, Swap, Turn
 from pigaming_app.scenes.stage import Stage
+from pigaming_app.settings import folders
 
 LEAD = 0.8  # seconds in which one looks round before the countdown
 RESUME = 0.5  # seconds for each number after an interruption
@@ -49,6 +50,8 @@ class MatchScene:
         self.results: Results | None = None
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
+        if self.humans:
+            self.stage.view.for_real(folders().data)
 
     # ---- what happens to it
 

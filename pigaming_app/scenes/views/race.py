@@ -23,9 +23,10 @@ from pigaming_app.scenes.views.race_warming import jobs, void_words
 from pigaming_app.scenes.views.raceway import Raceway
 from pigaming_app.scenes.views.roadway import Frame, frame
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import WIDTH
+from pigaming_app.sim.world import HZ, WIDTH
 
 VOID_LASTS = 3.5  # s for which it is said that a lap did not count
+PLACE_LASTS = 6 * HZ  # ticks for which the place of a robot is shown that has finished
 TROUBLE_LASTS = 6.0  # s for which it is said that a ghost was dropped
 DASH, MARCH = 34.0, 70.0  # px from one dash to the next, px/s
 ENTRY, STOP = 170.0, 52.0  # px before a line: where the way back leads to, and where it ends
@@ -87,10 +88,9 @@ class RaceView(Picture):
         self._ghost(light, state, blend)
         for seat in self.seats:
             self._robot(under, over, light, state, seat, poses[seat])
-        for seat in self.seats:
-            self._sign(top, state, seat, poses[seat])
+        signed = {seat for seat in self.seats if self._sign(top, state, seat, poses[seat])}
         self.moments.draw_light(light)
-        self.notes.draw(light, top, poses, self.moments.clock)
+        self.notes.draw(light, top, poses, self.moments.clock, signed)
         self.paint(screen, under, over, light, top)
         self._trouble(screen)
 
@@ -122,14 +122,18 @@ class RaceView(Picture):
             sprite = race_signs.ghost(step(pose[2], race_signs.GHOST_TURNS))
             put(light, sprite, LEFT + pose[0], TOP + pose[1])
 
-    def _sign(self, top: Batch, state: Race, seat: int, pose: Pose) -> None:
-        racer, said = state.racers[seat], self.moments.clock - self.voided[seat] < VOID_LASTS
-        below = pose[1] - TOP < (260.0 if said and racer.missed else 165.0)
+    def _sign(self, top: Batch, state: Race, seat: int, pose: Pose) -> bool:
+        """Put up a robot's sign, above it or, near the upper edge, below; false: it has none."""
+        racer = state.racers[seat]
+        said = bool(racer.missed) and self.moments.clock - self.voided[seat] < VOID_LASTS
+        below = pose[1] - TOP < (260.0 if said else 165.0)
         sprite = self._sign_of(racer, seat, said, below)
-        if sprite:
-            half = sprite.image.get_width() / 2
-            x = min(max(pose[0], LEFT + half), LEFT + WIDTH - half)
-            put(top, sprite, x, pose[1] + (race_signs.SIGN_AT if below else -race_signs.SIGN_AT))
+        if sprite is None or (racer.finished and not self._placed(state, racer)):
+            return False
+        half = sprite.image.get_width() / 2
+        x = min(max(pose[0], LEFT + half), LEFT + WIDTH - half)
+        put(top, sprite, x, pose[1] + (race_signs.SIGN_AT if below else -race_signs.SIGN_AT))
+        return True
 
     def _sign_of(self, racer: Racer, seat: int, said: bool, below: bool) -> Sprite | None:
         if racer.finished:
@@ -138,6 +142,10 @@ class RaceView(Picture):
         if racer.missed:
             return race_signs.missed(racer.missed - 1, below, self.void if said else ())
         return race_signs.wrong_way(below) if racer.wrong > SHOWN_FROM else None
+
+    def _placed(self, state: Race, racer: Racer) -> bool:
+        """A place is shown for a while, and again in the end; in between it would hide who still races."""
+        return bool(state.over) or state.tick - racer.finish < PLACE_LASTS
 
     def _way_back(self, over: Batch, seat: int, pose: Pose, line: Frame) -> None:
         """Dashes that march from a robot to the side of a line on which it must be entered."""

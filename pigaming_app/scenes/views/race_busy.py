@@ -4,17 +4,11 @@ Four robots drive, cut through mud, swap places, miss lines, turn round, end lap
 """
 
 import math
-from time import perf_counter
-
-import pygame
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.race.start import start
 from pigaming_app.games.race.state import LINES, Race
-from pigaming_app.scenes.views.busy import PARTICLES, Full
-from pigaming_app.scenes.views.race import RaceView
-from pigaming_app.scenes.words import Words
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.course import locate, spot
 from pigaming_app.sim.world import DT, HZ, ROBOTS
@@ -77,33 +71,3 @@ class Busy:
         if passed == 1 + LINES * laps:
             racer.finished, racer.finish = 1, float(state.tick)
             state.first = state.first or state.tick
-
-
-def busy_frames(screen: pygame.Surface, frames: int) -> list[float]:
-    """Times of so many frames of a busy race at 60 a second, warm, in milliseconds."""
-    scene = Busy(laps=9)
-    view = RaceView(scene.arena, scene.state, ["human", "human", "easy", "hard"], Full(), Words("en"))
-    while not view.warm(1000.0):
-        pass
-    times, owed = [], 0.0
-    for frame in range(frames + 60):
-        owed += 1 / 60
-        while owed >= DT:
-            scene.tick()
-            view.watch(scene.state)
-            owed -= DT
-        missing = PARTICLES - len(view.moments.particles)
-        if missing > 0:
-            view.moments.burst(960, 540, (60, 160, 255), missing, 40, 300)
-        began = perf_counter()
-        view.draw(screen, scene.state, owed / DT, 1 / 60)
-        if frame >= 60:
-            times.append(1000.0 * (perf_counter() - began))
-    return times
-
-
-def unseen_frames(frames: int) -> list[float]:
-    """The same on a display of the dummy driver, which the caller has chosen."""
-    pygame.display.init()
-    pygame.font.init()
-    return busy_frames(pygame.display.set_mode((1920, 1080)), frames)

@@ -53,9 +53,9 @@ class Notes:
         """Let something rise over a robot."""
         self.notes.append(Note(now, seat, sprite, text, color))
 
-    def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float) -> None:
-        """Add what has not gone yet."""
-        self.notes = [note for note in self.notes if now - note.born < LASTS]
+    def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
+        """Add what has not gone yet; over those who wear a sign, nothing."""
+        self.notes = [note for note in self.notes if now - note.born < LASTS and note.seat not in busy]
         above: dict[int, int] = {}
         for note in self.notes:
             x, y, _ = poses[note.seat]
