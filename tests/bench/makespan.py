@@ -1,0 +1,182 @@
+"""How well the drivers of Robot Factory do: deadlocks, wrong machines, people driven over, who wins, how fast.
+
+    python -m tests.bench.makespan [MATCHES]
+
+1000 matches of four hard drivers if nothing is said, over all floors, and as many in all of easy against normal, hard
+against normal and hard against easy; exit code 1 where a target is missed.
+
+A deadlock is a minute in which no team gets on (no machine finishes anything, nothing is delivered) while pallets
+remain, or a match of hard drivers that nobody has won when the time is up.
+
+The reference for the makespan, the time in which a team has delivered everything, is relaxed: robots are points that
+lift and set down at once, never turn, and are in nobody's way; machines and people are free whenever they are needed.
+What remains is driving from slot to slot, through walls too, at full speed with turbo as often as the meter allows,
+loaded for each pallet by the shortest way, and empty from where one pallet was set down to where another is lifted. The
+trips are shared out evenly; and no less can it take than the first pallet's way to a machine A, the work of the two
+machines A on half the pallets each, and the last one's way on through a machine B to the exit.
+"""
+
+import sys
+from collections.abc import Iterator
+from itertools import product
+from math import hypot
+from typing import Any
+
+import numpy as np
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.ai.rollout import Batch
+from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.factory.start import PALLETS, set_rules
+from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, Rules, A, B
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.sim.world import DT, HZ, ROBOTS
+
+TEAMS = (0, 1, 0, 1)
+MINUTES = 5.0
+STUCK = 60  # s without any progress
+MOST_HITS, LEAST_WINS = 0.3, 0.9
+Point = tuple[float, float]
+
+
+def setup(floor: str, strengths: tuple[str, ...], seed: int) -> Setup:
+    """A match of these drivers, "off" for an empty seat."""
+    one, two, three, four = (Seat(brain, team) for brain, team in zip(strengths, TEAMS, strict=True))
+    return Setup("factory", floor, (one, two, three, four), MINUTES, seed, "standard", PALLETS)
+
+
+def play(floor: str, strengths: tuple[str, ...], seeds: range) -> tuple[Any, Any]:
+    """The ended matches as records, and for each the longest s without progress."""
+    kinds = [BRAINS["factory"].get(brain) for brain in strengths]
+    batch = Batch([setup(floor, strengths, seed) for seed in seeds], kinds, True)
+    matches = batch.matches
+    before, since, longest = progress(matches), np.zeros(len(seeds), int), np.zeros(len(seeds), int)
+    while not matches["over"].all():
+        batch.play(HZ)
+        now = progress(matches)
+        since = np.where(matches["over"].astype(bool) | (now != before), 0, since + 1)
+        longest, before = np.maximum(longest, since), now
+    return matches, longest
+
+
+def progress(matches: Any) -> Any:
+    """Deliveries and finished work of both teams."""
+    return matches["delivered"].sum(axis=1) + matches["loads"]["steps"].sum(axis=1)
+
+
+def count(matches: Any, longest: Any) -> dict[str, Any]:
+    """What there is to report about some matches."""
+    loads = matches["loads"]
+    return {
+        "matches": len(matches),
+        "stuck": int((longest >= STUCK).sum()),
+        "unfinished": int((matches["winner"] == 0).sum()),
+        "spoiled": int(loads["spoiled"].sum()),
+        "median hits": float(np.median(loads["hits"])),
+        "mean hits": round(float(loads["hits"].mean()), 3),
+        "median s": float(np.median(matches["tick"])) * DT,
+        "longest s": float(matches["tick"].max()) * DT,
+    }
+
+
+def wins(better: str, worse: str, each: int) -> tuple[int, int, int]:
+    """Wins, ties and losses of one strength against another, sides swapped, over all floors."""
+    won, tied, lost = 0, 0, 0
+    for floor in arenas("factory"):
+        for side in (0, 1):
+            strengths = tuple(better if team == side else worse for team in TEAMS)
+            matches, _ = play(floor, strengths, range(1, each + 1))
+            loads = matches["loads"]["steps"]
+            mine = matches["delivered"][:, side] * 1000 + loads[:, side] + loads[:, side + 2]
+            theirs = matches["delivered"][:, 1 - side] * 1000 + loads[:, 1 - side] + loads[:, 3 - side]
+            won += int((mine > theirs).sum())
+            tied += int((mine == theirs).sum())
+            lost += int((mine < theirs).sum())
+    return won, tied, lost
+
+
+# ----------------------------------------------------------------------------------------------------------- reference
+
+
+def reference(floor: str, robots: int, pallets: int) -> float:
+    """The s below which no team of so many robots can deliver so many pallets, by the relaxed reckoning above."""
+    plan, starts = load("factory", floor).plan, load("factory", floor).starts
+    nobody = Seat("off", 0)
+    rules = Rules()
+    set_rules(rules, Setup("factory", floor, (nobody,) * 4, MINUTES, 1, "standard", pallets))
+    resting = rules.turbo_refill / (rules.turbo_refill + rules.turbo_drain)
+    speed = rules.speed * (1.0 + (rules.turbo_factor - 1.0) * resting)
+    best = 0.0
+    for team in (0, 1):
+        entry, leave = ([(s.x, s.y) for s in plan.slots if s.team == team and s.kind == kind] for kind in (ENTRY, EXIT))
+        first = [(start.x, start.y) for start in starts[team::2]][:robots]
+        loaded, ends, begins = [], [], []
+        for a, b in product(range(4), repeat=2):
+            if plan.machines[a].kind != A or plan.machines[b].kind != B:
+                continue
+            in_a, out_a, in_b, out_b = (slot_of(plan, m, kind) for m, kind in product((a, b), (INPUT, OUTPUT)))
+            loaded.append(nearest(entry, [in_a]) + nearest([out_a], [in_b]) + nearest([out_b], leave))
+            ends += [in_a, in_b]
+            begins += [out_a, out_b]
+        way = min(loaded)
+        empty = sum(nearest(kind, [*entry, *begins]) for kind in (ends[0::2], ends[1::2], leave))
+        work = pallets * (way + empty) + robots * nearest(first, entry) - robots * empty
+        rounds = -(-pallets // 2) + 1
+        chain = (nearest(first, entry) + way) / speed + rounds * rules.process * DT
+        best = max(best, chain, work / robots / speed)
+    return best
+
+
+def slot_of(plan: Any, m: int, kind: int) -> Point:
+    """Where a slot of machine m lies."""
+    return next((slot.x, slot.y) for slot in plan.slots if slot.machine == m and slot.kind == kind)
+
+
+def nearest(some: list[Point], others: list[Point]) -> float:
+    """The px between the nearest two points of two groups."""
+    return min(hypot(x - u, y - v) for (x, y), (u, v) in product(some, others))
+
+
+# ------------------------------------------------------------------------------------------------------------- reports
+
+
+def reports(matches: int) -> Iterator[bool]:
+    """Print each report; whether its target was met."""
+    floors = arenas("factory")
+    each = -(-matches // len(floors))
+    parts = []
+    for floor in floors:
+        played, longest = play(floor, ("hard",) * ROBOTS, range(1, each + 1))
+        found = count(played, longest)
+        alone, _ = play(floor, ("hard", "off", "hard", "off"), range(1, 21))
+        least, took = reference(floor, 2, PALLETS), float(np.median(alone["tick"])) * DT
+        print(f"{floor}: {found}")
+        print(
+            f"  makespan: reference {least:.1f} s; two hard drivers alone {took:.1f} s ({took / least:.2f} x);"
+            f" the winners against two others {found['median s']:.1f} s ({found['median s'] / least:.2f} x)",
+            flush=True,
+        )
+        parts.append(played["loads"]["hits"].ravel())
+        yield not (found["stuck"] or found["unfinished"] or found["spoiled"])
+    median = float(np.median(np.concatenate(parts)))
+    print(f"people driven over: median {median:g} a robot")
+    yield median <= MOST_HITS
+    few = -(-matches // (len(floors) * 2 * 3))
+    for better, worse, least in (("hard", "easy", LEAST_WINS), ("hard", "normal", 0.5), ("normal", "easy", 0.5)):
+        won, tied, lost = wins(better, worse, few)
+        print(f"{better} against {worse}: {won} won, {tied} tied, {lost} lost", flush=True)
+        yield won / (won + tied + lost) >= least
+    for strength in ("easy", "normal"):
+        for floor in floors:
+            found = count(*play(floor, (strength,) * ROBOTS, range(1, few + 1)))
+            print(f"{strength}, {floor}: {found}", flush=True)
+            yield not found["stuck"]
+
+
+def main(matches: int) -> int:
+    """Print all reports; the exit code."""
+    return 0 if all([*reports(matches)]) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
