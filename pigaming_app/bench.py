@@ -41,7 +41,7 @@ def measure(game: str) -> dict[str, Any]:
         compiled_ticks(game, 0)
         one = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
         both = max(1.0 / one, *(_two_processes(game) for _ in range(3)))
-    frames = _frames()
+    frames = _frames(game)
     return {
         "game": game,
         "plain_us_per_tick": 1e6 * plain,
@@ -110,12 +110,12 @@ def _two_processes(game: str) -> float:
     return ticks / (max(end for _, end, _ in spans) - min(begin for begin, _, _ in spans))
 
 
-def _frames() -> list[float]:
+def _frames(game: str) -> list[float]:
     """Milliseconds of each frame of a busy match, sorted, on a display that nobody sees."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
-    from pigaming_app.scenes.views.busy import unseen_frames
+    from pigaming_app.scenes.views.measure import frame_times
 
-    return sorted(unseen_frames(FRAMES))
+    return sorted(frame_times(game, FRAMES))
 
 
 def _start() -> float:

@@ -1,23 +1,18 @@
-"""The busiest second of a match, made up: every number moves. For measuring frames and for looking at them.
+"""The busiest second of a match of PiTanks, made up: every number moves. For measuring frames and for looking at them.
 
-Four robots, thirty bullets, two hundred particles, powers, pick-ups, mines, walls that break, and a HUD that changes.
+Four robots, thirty bullets, powers, pick-ups, mines, walls that break, and a HUD that changes.
 """
 
 import math
 import random
 from dataclasses import dataclass
-from time import perf_counter
-
-import pygame
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.pitanks.state import OWN_BULLETS, PICKUPS, PiTanks
-from pigaming_app.scenes.views.pitanks import PiTanksView
 from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.world import DT, HZ
 
 BULLETS = 30
-PARTICLES = 200
 
 
 @dataclass
@@ -104,33 +99,3 @@ class Busy:
             mine = state.mines[i]
             mine.alive, mine.age = 30 * HZ, state.tick
             mine.x, mine.y = 200.0 + 160 * i, 820.0 - 90 * i
-
-
-def busy_frames(screen: pygame.Surface, frames: int) -> list[float]:
-    """Times of so many frames of a busy match at 60 a second, warm, in milliseconds."""
-    scene = Busy()
-    view = PiTanksView(scene.arena, scene.state, ["human", "human", "easy", "hard"], Full())
-    while not view.warm(1000.0):
-        pass
-    times, owed = [], 0.0
-    for frame in range(frames + 60):
-        owed += 1 / 60
-        while owed >= DT:
-            scene.tick()
-            view.watch(scene.state)
-            owed -= DT
-        missing = PARTICLES - len(view.moments.particles)
-        if missing > 0:
-            view.moments.burst(960, 540, (60, 160, 255), missing, 40, 300)
-        began = perf_counter()
-        view.draw(screen, scene.state, owed / DT, 1 / 60)
-        if frame >= 60:
-            times.append(1000.0 * (perf_counter() - began))
-    return times
-
-
-def unseen_frames(frames: int) -> list[float]:
-    """The same on a display of the dummy driver, which the caller has chosen."""
-    pygame.display.init()
-    pygame.font.init()
-    return busy_frames(pygame.display.set_mode((1920, 1080)), frames)
