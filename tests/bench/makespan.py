@@ -28,7 +28,7 @@ from pigaming_app.ai import BRAINS
 from pigaming_app.ai.rollout import Batch
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.factory.start import PALLETS, set_rules
-from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, Rules, A, B
+from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, A, B, Rules
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
