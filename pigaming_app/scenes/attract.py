@@ -33,6 +33,7 @@ class Attract:
     def __init__(self, house: House) -> None:
         self.house = house
         self.age = 0.0
+        self.lessons = cycle(GAMES)
         self.shows: Iterator[Callable[[], Scene | None]] = cycle((self._match, self._howto, self._best))
         self.show: Scene | None = None
         self._next()
@@ -72,7 +73,7 @@ class Attract:
     def _howto(self) -> Scene:
         from pigaming_app.scenes.howto import HowTo
 
-        page = HowTo(self.house)
+        page = HowTo(self.house, next(self.lessons))
         return Page(page, page.draw)
 
     def _best(self) -> Scene | None:

@@ -1,4 +1,4 @@
-"""How to play, in four moving pictures: one idea each, a few words under it, and the keys of the device used last."""
+"""How to play, in four moving pictures a game: one idea each, a few words under it, keys of the device used last."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -20,7 +20,7 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.lessons import LESSONS
-from pigaming_app.scenes.page import blacked, heading, text
+from pigaming_app.scenes.page import blacked, button_light, chip, chip_width, heading, text
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, lines_of, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Home, Pop, Turn
@@ -28,11 +28,12 @@ from pigaming_app.scenes.stack import Home, Pop, Turn
 TOP, HIGH = 220, 620
 CAPTION_Y, FOOT_Y = TOP + 546, 924
 IDLE = 90.0  # seconds without a press until the title
+FIRES = {"pitanks": "hint_fire", "factory": "hint_lift"}  # what FIRE does, in games in which it does something
 LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
 
 
 class HowTo:
-    """The page of one game; almost any press leaves it."""
+    """The page of one game; left and right, or a click on a name, show another's, almost any other press leaves."""
 
     def __init__(self, house: House, game: str = "pitanks") -> None:
         self.house, self.game = house, game
@@ -43,8 +44,14 @@ class HowTo:
         self.clock = 0.0
 
     def on(self, press: Press) -> Turn:
-        """Leave."""
-        if press.act in LEAVE:
+        """Show another game, or leave."""
+        named = next((game for game, box in self._names() if press.at and box.collidepoint(press.at)), None)
+        if press.act in (Act.LEFT, Act.RIGHT):
+            games = list(LESSONS)
+            self._show(games[(games.index(self.game) + (1 if press.act is Act.RIGHT else -1)) % len(games)])
+        elif press.act is Act.CLICK and named:
+            self._show(named)
+        elif press.act in LEAVE:
             self.house.sounds.play("back")
             return Pop()
         return None
@@ -58,28 +65,48 @@ class HowTo:
         """Paint panels, pictures and keys."""
         words = self.house.words
         screen.blit(backdrop(), (0, 0))
-        heading(words("title.howto"), words(f"games.{self.game}")).draw(screen)
+        heading(words("title.howto")).draw(screen)
+        for game, box in self._names():
+            chip(words(f"games.{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)
+        button_light("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         blacked(screen, *boxes)
         for i, (box, (name, picture)) in enumerate(zip(boxes, LESSONS[self.game].items(), strict=True)):
-            frame(i + 1, box.w).draw(screen, *box.topleft)
+            screen.set_clip(box.inflate(-8, -8))
             said = picture(screen, box.centerx, TOP + 268, self.clock)
+            screen.set_clip(None)
+            frame(i + 1, box.w).draw(screen, *box.topleft)
             if said:
                 text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
         keys(self._keys()).draw(screen)
+
+    def _show(self, game: str) -> None:
+        if game != self.game:
+            self.house.sounds.play("move")
+            self.game, self.clock = game, 0.0
+
+    def _names(self) -> list[tuple[str, pygame.Rect]]:
+        """The games by name and where these stand, at the right end of the heading."""
+        boxes, right = [], RIGHT
+        for game in reversed(LESSONS):
+            w = chip_width(self.house.words(f"games.{game}"))
+            boxes.append((game, pygame.Rect(right - w, 80, w, 64)))
+            right -= w + 16
+        return boxes[::-1]
 
     def _keys(self) -> tuple[tuple[str, str], ...]:
         """What is printed on the device used last, and what it does; the last one stands at the right end."""
         words, controls = self.house.words, self.house.controls
         device = controls.last
         turbo = Act.LEAVE if device.kind == "keys" else Act.BACK
-        found = (
+        found = [
             (controls.moves(device) or "<>", words("howto.hint_drive")),
-            (words.printed(controls.label(device, Act.FIRE)), words("howto.hint_fire")),
             (controls.label(device, turbo), words("howto.hint_turbo")),
             (controls.label(device, Act.BACK), words("howto.hint_back")),
-        )
+        ]
+        if self.game in FIRES:
+            found.insert(1, (words.printed(controls.label(device, Act.FIRE)), words(f"howto.{FIRES[self.game]}")))
         return tuple((label, what) for label, what in found if label)
 
 

@@ -120,6 +120,14 @@ def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
     return pane.done()
 
 
+@lru_cache(maxsize=16)
+def button_light(label: str) -> Lit:
+    """A button as it is printed on the device, its left edge at x = 0."""
+    pane = Pane(0, -32, button_width(label), 64)
+    button(pane.page, 0, 0, label)
+    return pane.done()
+
+
 def blacked(screen: pygame.Surface, *boxes: pygame.Rect) -> pygame.Surface:
     """Hide the dots of the floor inside boxes of the house shape."""
     for box in boxes:

@@ -20,7 +20,6 @@ from pigaming_app.scenes.ink import (
     MIST,
     STEEL,
     SUB,
-    button,
     button_width,
     dim,
     panel,
@@ -29,6 +28,7 @@ from pigaming_app.scenes.logo import dot_of, logo, vignette
 from pigaming_app.scenes.operator import Combination
 from pigaming_app.scenes.page import (
     blacked,
+    button_light,
     calling,
     calling_width,
     chip,
@@ -56,6 +56,7 @@ class Title:
         self.clock = 0.0
         self.combination = Combination(house)
         self.focus = Focus(self._spots())
+        self.game = next(iter(GAMES))  # whose tile had the focus last
 
     def entered(self) -> None:
         """Shown, or shown again."""
@@ -69,6 +70,7 @@ class Title:
             self._speak(self.house.words.other)
         elif self.focus.on(press):
             self.house.sounds.play("move")
+        self.game = self.focus.name if self.focus.name in GAMES else self.game
         chosen = self.focus.chosen(press)
         return self._open(chosen) if chosen else None
 
@@ -119,7 +121,7 @@ class Title:
         if name == "howto":
             from pigaming_app.scenes.howto import HowTo
 
-            return HowTo(self.house, next(iter(GAMES)))
+            return HowTo(self.house, self.game)
         if name == "options":
             from pigaming_app.scenes.options import OptionsPage
 
@@ -209,11 +211,3 @@ def _picture(game: str) -> Lit:
     pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
     vignette(game, pane.hot, MARGIN, MARGIN)
     return Lit(pane.done().image, (-MARGIN, -MARGIN))
-
-
-@lru_cache(maxsize=16)
-def button_light(label: str) -> Lit:
-    """A button as it is printed on the device, its left edge at x = 0."""
-    pane = Pane(0, -32, button_width(label), 64)
-    button(pane.page, 0, 0, label)
-    return pane.done()

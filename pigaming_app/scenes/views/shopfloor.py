@@ -67,10 +67,10 @@ def _warehouse(inks: Inks, slots: tuple[SlotSpec, ...]) -> None:
     box = cut(x - 54, top - 56, 108, bottom - top + 112, 16)
     hot.fill(box, dim(color, 0.05)).neon(box, color, LINE, True)
     for slot in slots:
-        _slot(cold, slot.x, slot.y, dim(color, 0.6))
+        draw_slot(cold, slot.x, slot.y, dim(color, 0.6))
 
 
-def _slot(ink: Ink, x: float, y: float, color: Color) -> None:
+def draw_slot(ink: Ink, x: float, y: float, color: Color) -> None:
     """The four corners of a place for a pallet."""
     h, k = SLOT / 2, 18
     for sx in (-1, 1):
@@ -80,16 +80,22 @@ def _slot(ink: Ink, x: float, y: float, color: Color) -> None:
             )
 
 
-def _machine(inks: Inks, floor: Floor, m: int, kind: int, x: float, y: float) -> None:
+def draw_machine(inks: Inks, kind: int, x: float, y: float) -> None:
+    """The body of a machine, without its slots."""
     hot, cold = inks
     body = cut(x - BODY, y - BODY, 2 * BODY, 2 * BODY, 20)
     hot.fill(body, (10, 14, 22)).neon(body, dim(WALL, 0.55), LINE, True)
     hot.ring(x, y, 44, dim(STEEL, 0.38), 10)
     cold.text("A" if kind == A else "B", 62, x, y, ICE, "hero", "c")
+
+
+def _machine(inks: Inks, floor: Floor, m: int, kind: int, x: float, y: float) -> None:
+    _, cold = inks
+    draw_machine(inks, kind, x, y)
     takes, gives = (RAW, HALF) if kind == A else (HALF, DONE)
     for slot in floor.slots[MACHINE_SLOTS + 2 * m : MACHINE_SLOTS + 2 * m + 2]:
         into = slot.kind == INPUT
-        _slot(cold, slot.x, slot.y, WALL)
+        draw_slot(cold, slot.x, slot.y, WALL)
         state_icon(cold, takes if into else gives, slot.x, slot.y, 13, dim(STATES[takes if into else gives], 0.55))
         a = math.atan2(y - slot.y, x - slot.x)
         cx, cy = slot.x + 47 * math.cos(a), slot.y + 47 * math.sin(a)
@@ -107,7 +113,7 @@ def _beside(inks: Inks, slots: tuple[SlotSpec, ...]) -> None:
     if entry:
         _shelf(hot, x, y - 20, color)
     else:
-        _lorry(hot, x, y - 20, color, -1 if left else 1)
+        draw_lorry(hot, x, y - 20, color, -1 if left else 1)
     way = (1 if left else -1) * (1 if entry else -1)
     for k in (-1, 0, 1):
         tip = [(x + way * (k * 20 - 6), y + 52), (x + way * (k * 20 + 8), y + 66), (x + way * (k * 20 - 6), y + 80)]
@@ -123,7 +129,8 @@ def _shelf(ink: Ink, x: float, y: float, color: Color) -> None:
         ink.disc(x + u, y + v, 11, STATES[RAW])
 
 
-def _lorry(ink: Ink, x: float, y: float, color: Color, way: int) -> None:
+def draw_lorry(ink: Ink, x: float, y: float, color: Color, way: int) -> None:
+    """What takes pallets away, heading left (`way` -1) or right (1)."""
     box = [(-46, -30), (12, -30), (12, 16), (-46, 16)]
     cab = [(12, -14), (30, -14), (42, 2), (42, 16), (12, 16)]
     for part in (box, cab):
