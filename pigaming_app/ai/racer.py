@@ -12,7 +12,7 @@ from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain import Kind
-from pigaming_app.ai.passing import EDGE, choose_lane, choose_target, held_to
+from pigaming_app.ai.passing import EDGE, choose_lane, held_to
 from pigaming_app.games.race.view import OTHERS, Eyes, View, see
 from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
@@ -24,11 +24,10 @@ PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # px along the course to the point that it drives for
 LATE = 0.05  # s until the motors follow
 GRIP = 1.8  # of the full turn rate that is asked for before it slows down
-SHIFT = 60.0  # px that a lane may be changed while it drives to that point
-SWING = 50.0  # px of that while it overtakes
+SHIFT = 20.0  # px that a lane may be changed while it drives to that point
 OUT = 30.0  # px from the edge for which it makes when it is off the course
 SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
-SAVE = 120.0  # px to somebody ahead, for whom it saves its turbo
+SAVE = 80.0  # px to somebody ahead, for whom it saves its turbo
 NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
 HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 40
@@ -53,9 +52,6 @@ class RacerMind:
     stray: float  # px, the present error of its line
     stray_left: int
     lane: float  # px aside of the middle, where it wants to be
-    target: int  # which of the others it overtakes now; -1: none
-    side: float  # on which side: 1: to the right of it
-    target_for: int  # ticks for which it has been at it
     anchor_x: float  # where it was when it last got anywhere
     anchor_y: float
     held_up: int  # ticks since
@@ -98,13 +94,11 @@ def race(view: Any, mind: Any, action: Any) -> int:
     if view.past > SLACK:
         return go_back(view, action)
     mark = view.ahead
-    choose_target(view, mind, PERIOD)
     choose_lane(view, mind)
     room = mark.half - (EDGE if view.on else OUT)
     lane = mind.lane + mind.stray
     keep = view.aside - view.ideal + mark.ideal  # the lane that leads along beside the fastest line
-    shift = SHIFT if mind.target < 0 else SWING
-    lane = keep + shift if lane > keep + shift else keep - shift if lane < keep - shift else lane
+    lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
     lane = room if lane > room else -room if lane < -room else lane
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
     pursue(view, mind, action, x, y)
@@ -204,8 +198,6 @@ def use_turbo(view: Any, mind: Any, bend: float) -> int:
     """1 where the way is straight enough, the meter full enough to begin, and it is not wanted for somebody ahead."""
     if not view.on or abs(bend) * view.turbo_factor * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
         return 0
-    if mind.target >= 0:
-        return 1
     for i in range(OTHERS):
         other = view.others[i]
         if other.present and other.ahead > 0.0 and other.distance < SAVE:
@@ -219,11 +211,11 @@ def wake(speed: float, line: float, spread: float, boost: float, delay: float) -
     def fill(mind: RacerMind, seed: int) -> None:
         mind.eyes.delay, mind.eyes.look = delay, LOOK
         mind.speed, mind.line, mind.spread, mind.boost = speed, line, spread, boost
-        mind.random, mind.target = seeded(seed), -1
+        mind.random = seeded(seed)
 
     return fill
 
 
-EASY = Kind("easy", RacerMind, think, wake(speed=0.98, line=0.2, spread=10.0, boost=0.9, delay=0.35))
-NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.45, spread=5.0, boost=0.5, delay=0.2))
+EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=0.9, delay=0.35))
+NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
 HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))

@@ -16,8 +16,6 @@ from pigaming_app.sim.world import ROBOTS
 OTHERS = ROBOTS - 1
 BACK = 160.0  # px at a time that lead back to a missed line
 PACE = 40.0  # px for which the pace of the fastest line must be kept
-STRAIGHT = 500.0  # px ahead that are looked at for bends
-AS_STRAIGHT = 0.94  # cosine of the angle up to which it is about straight: 20 degrees
 RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 
@@ -80,7 +78,6 @@ class View:
     ideal: float  # where the fastest line is here, px aside of the centre line
     pace: float  # least speed of that line in the next PACE px, as a share of full speed
     turn: float  # sine of the angle by which the course turns from here to twice as far ahead, positive to the right
-    straight: float  # px for which the course goes on about straight from here, up to STRAIGHT
     left: float  # px to the finish
     past: float  # px by which it is past the line that it must cross next; negative: the way to it
     return_x: float  # where to drive to get back before that line, if it is past it
@@ -124,15 +121,8 @@ def see_way(match: Any, place: Any, look: float, view: Any) -> None:
         pace = match.pace[i % course.count]
         if pace < view.pace:
             view.pace = pace
-    soon, far = int(2.0 * look / course.step), int(STRAIGHT / course.step)
-    x, y = leg_way(course, k + soon)
+    x, y = leg_way(course, k + int(2.0 * look / course.step))
     view.turn = place.tangent_x * y - place.tangent_y * x
-    view.straight = STRAIGHT
-    for i in range(2, far, 2):
-        x, y = leg_way(course, k + i)
-        if place.tangent_x * x + place.tangent_y * y < AS_STRAIGHT:
-            view.straight = i * course.step
-            break
 
 
 @kernel
