@@ -128,7 +128,7 @@ class Wild:
 
 
 @pytest.mark.parametrize("track", TRACKS)
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_wild_robots_that_push_each_other(track, seed):
     one, two, three, four = (Seat("idle", seat) for seat in range(4))
     match = Match(Setup("race", track, (one, two, three, four), 3.0, seed, "standard", 2))
@@ -146,7 +146,7 @@ def test_wild_robots_that_push_each_other(track, seed):
 
 
 @pytest.mark.parametrize("track", TRACKS)
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(4))
 def test_any_path_at_all(track, seed):
     """Random walks over the lines, sideways too, along the course and back, through the infield, and carried about."""
     ride = Ride(track, laps=9)
