@@ -53,10 +53,10 @@ def think(match: Any, seat: int, mind: Any) -> None:
     """Look and decide every PERIOD ticks; in between the stick stays as it is."""
     if (match.tick + seat) % PERIOD:
         return
-    load = match.loads[seat]
-    load.aim, load.told = mind.target + 1, 4 * PERIOD
+    action = match.actions[seat]
     see(match, seat, mind.eyes, mind.sight)
-    act(mind.sight, mind, match.actions[seat])
+    act(mind.sight, mind, action)
+    action.aim = mind.target + 1
 
 
 @kernel

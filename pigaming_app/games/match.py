@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.sim.action import press
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS, Action
@@ -25,8 +26,7 @@ class Nobody:
     """An empty seat, or a robot that stands still."""
 
     def think(self, state: Any, seat: int) -> None:
-        action = state.actions[seat]
-        action.linear, action.angular, action.fire, action.turbo = 0.0, 0.0, 0, 0
+        press(state.actions[seat], 0.0, 0.0, 0, 0)
 
 
 class Match:
@@ -102,7 +102,7 @@ class Match:
 
 
 class Log:
-    """What every seat did on every tick, three bytes a seat: stick in 64ths, buttons."""
+    """What every seat did on every tick, three bytes a seat: stick in 64ths, buttons and aim."""
 
     def __init__(self) -> None:
         self.ticks = bytearray()
@@ -114,6 +114,6 @@ class Log:
                 (
                     int(action.linear * 64.0) + 64,
                     int(action.angular * 64.0) + 64,
-                    action.fire + 2 * action.turbo,
+                    action.fire + 2 * action.turbo + 4 * action.aim,
                 )
             )

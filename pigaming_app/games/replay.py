@@ -99,7 +99,9 @@ class Player:
         """Set the seat's action for this tick."""
         at = state.tick * BYTES + 3 * seat
         linear, angular, buttons = self.ticks[at : at + 3] or (int(STEPS), int(STEPS), 0)
-        press(state.actions[seat], linear / STEPS - 1.0, angular / STEPS - 1.0, buttons & 1, buttons & 2)
+        action = state.actions[seat]
+        press(action, linear / STEPS - 1.0, angular / STEPS - 1.0, buttons & 1, buttons & 2)
+        action.aim = buttons >> 2
 
 
 def _check(head: Mapping[str, Any], packed: bytes) -> str:

@@ -10,11 +10,12 @@ STEPS = 64.0  # of a stick, from its middle to its edge: a file keeps it as a wh
 
 @kernel
 def press(action: Any, linear: float, angular: float, fire: int, turbo: int) -> None:
-    """Set an action: the stick is held within [-1, 1] and rounded to 64ths."""
+    """Set an action that makes for nothing: the stick is held within [-1, 1] and rounded to 64ths."""
     action.linear = notch(linear)
     action.angular = notch(angular)
     action.fire = 1 if fire else 0
     action.turbo = 1 if turbo else 0
+    action.aim = 0
 
 
 @kernel

@@ -62,6 +62,7 @@ class Action:
     angular: float  # -1..1, clockwise positive
     fire: int
     turbo: int
+    aim: int  # what it says it makes for, as its game counts that from 1, up to 63; 0: it does not say
 
 
 @record

@@ -67,11 +67,7 @@ def grip(match: Any, k: int) -> None:
     """Each press of fire lifts a pallet or sets one down; none does anything while the robot is frozen."""
     load, fire = match.loads[k], match.actions[k].fire
     pressed = fire and not load.pressed
-    if load.told:
-        load.told -= 1
-    else:
-        load.aim = 0
-    load.pressed = fire
+    load.aim, load.pressed = match.actions[k].aim, fire
     if load.refused:
         load.refused += 1
     if not pressed or load.frozen:

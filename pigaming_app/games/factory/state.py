@@ -124,7 +124,6 @@ class Load:
     spoiled: int  # pallets put into a wrong machine
     hits: int  # workers driven over
     aim: int  # 1 + the slot that an AI is making for, shown to its mate; 0: none, or a person
-    told: int  # ticks for which that is still so, unless it is said again
 
 
 @record
