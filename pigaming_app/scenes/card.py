@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Iterator
 from functools import lru_cache, partial
 
+from pigaming_app.scenes.crates import TEAMS, emblem
 from pigaming_app.scenes.ink import (
     ARROWS,
     BODY,
@@ -131,19 +132,31 @@ def strength(said: str, upright: bool) -> Lit:
 
 
 @lru_cache(maxsize=8)
-def team(said: str, number: int, arrows: bool) -> Lit:
+def team(said: str, number: int) -> Lit:
     """Which team, with the bars that its robots wear, between the arrows that change it."""
-    pane = Pane(24, TEAM_Y - 34, W - 48, 68)
-    size = fitted(said, BODY, W - 240)
-    wide = text_width(said, size) + 44
-    x = MIDDLE - wide / 2
+    pane, x, size = _team(said)
     for i in range(number + 1):
         pane.hot.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
     pane.page.cold.text(said, size, x + 44, TEAM_Y, ICE, "head")
-    if arrows:
-        for name, cx in (("left", 60), ("right", W - 60)):
-            icon(pane.hot, name, cx, TEAM_Y, 18, MIST, LINE)
     return pane.done()
+
+
+@lru_cache(maxsize=8)
+def side(said: str, number: int) -> Lit:
+    """Which of the two sides of the factory, with its emblem and in its colour, between the arrows that change it."""
+    pane, x, size = _team(said)
+    emblem(pane.hot, number, x + 10, TEAM_Y, 24)
+    pane.page.cold.text(said, size, x + 48, TEAM_Y, TEAMS[number], "head")
+    return pane.done()
+
+
+def _team(said: str) -> tuple[Pane, float, int]:
+    """A pane with the arrows that change a team; where its sign begins, px, and the size of its name."""
+    pane = Pane(24, TEAM_Y - 34, W - 48, 68)
+    size = fitted(said, BODY, W - 240)
+    for name, cx in (("left", 60), ("right", W - 60)):
+        icon(pane.hot, name, cx, TEAM_Y, 18, MIST, LINE)
+    return pane, MIDDLE - (text_width(said, size) + 44) / 2, size
 
 
 @lru_cache(maxsize=128)

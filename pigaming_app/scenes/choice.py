@@ -23,7 +23,8 @@ from pigaming_app.scenes.pane import Lit, Pane, fitted, lines_of, span
 
 W = span(8, 4)[1]
 PAD = 32  # px between a row's edge and what is in it
-CHIP, APART = 112, 16  # px
+CHIP, APART, CLOSE = 112, 16, 8  # px: a chip at most, between a few chips, between many
+FEW = 4  # chips that have all the room they want
 
 
 @lru_cache(maxsize=64)
@@ -45,30 +46,44 @@ def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
 def chips(name: str, values: tuple[str, ...], value: str) -> Lit:
     """All values side by side, the chosen one lit; upper left at (0, 0)."""
     pane = _named(name, 140)
+    wide, pitch = chip_size(len(values))
     for i, said in enumerate(values):
-        x, on = PAD + i * (CHIP + APART), said == value
-        pane.hot.line(cut(x, 66, CHIP, 60, 12), ICE if on else STEEL, THIN, True)
-        pane.page.cold.text(said, BODY, x + CHIP / 2, 96, ICE if on else MIST, "head", "c")
+        x, on = PAD + i * pitch, said == value
+        pane.hot.line(cut(x, 66, wide, 60, 12 if wide == CHIP else 10), ICE if on else STEEL, THIN, True)
+        pane.page.cold.text(said, BODY, x + wide / 2, 96, ICE if on else MIST, "head", "c")
     return pane.done()
+
+
+def chip_size(count: int) -> tuple[int, int]:
+    """How wide each of so many chips is, and how far it is from one to the next, px."""
+    apart = APART if count <= FEW else CLOSE
+    wide = min(CHIP, (W - 2 * PAD + apart) // count - apart)
+    return wide, wide + apart
 
 
 def chip_at(count: int, x: float) -> int | None:
     """Which of so many chips lies x px from the left edge of its row."""
-    i, rest = divmod(x - PAD, CHIP + APART)
-    return int(i) if 0 <= i < count and rest < CHIP else None
+    wide, pitch = chip_size(count)
+    i, rest = divmod(x - PAD, pitch)
+    return int(i) if 0 <= i < count and rest < wide else None
 
 
 @lru_cache(maxsize=16)
 def records(lines: tuple[tuple[str, str, str], ...]) -> Lit:
     """The best so far: what, how much and whose, a line for each; upper left at (0, 0)."""
-    pane = Pane(0, 0, W, 20 + 56 * len(lines))
+    pane = Pane(0, 0, W, records_high(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
         y = 38 + 56 * i
         icon(pane.hot, "crown", PAD + 18, y - 2, 16, FOCUS, 3)
-        pane.page.body(name, PAD + 52, y, MIST, "l", fitted(name, BODY, W - 2 * PAD - 340, "body"))
+        pane.page.body(name, PAD + 52, y, MIST, "l", fitted(name, BODY, W - 2 * PAD - 364, "body"))
         pane.page.text(value, BODY, W - PAD - 110, y, ICE, "head", "r")
         pane.page.text(initials, BODY, W - PAD, y, FOCUS, "head", "r")
     return pane.done()
+
+
+def records_high(lines: int) -> int:
+    """How much room they take, px."""
+    return 20 + 56 * lines
 
 
 @lru_cache(maxsize=8)
@@ -100,6 +115,14 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> Lit:
         x = -pitch * (len(seats) - k)
         badge(pane.hot, seat, x + 50, 0, 30)
         icon(pane.hot, sign, x + 124, 0, 30, MIST, THIN)
+    return pane.done()
+
+
+@lru_cache(maxsize=4)
+def mark(seat: int) -> Lit:
+    """Who begins here; round (0, 0)."""
+    pane = Pane(-24, -24, 48, 48)
+    badge(pane.hot, seat, 0, 0, 17)
     return pane.done()
 
 

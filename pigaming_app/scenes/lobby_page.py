@@ -84,9 +84,10 @@ class LobbyPage:
         card.frame(seat, said, place.ready or place.kind == AI).draw(screen, x, y)
         self._robot(screen, seat)
         if self.seats.teams:
-            pairs = self.seats.sides == PAIRS
-            team = words(f"lobby.side_{place.team + 1}") if pairs else words("lobby.team", team=place.team + 1)
-            card.team(team, place.team, True).draw(screen, x, y)
+            if self.seats.sides == PAIRS:
+                card.side(words(f"lobby.side_{place.team + 1}"), place.team).draw(screen, x, y)
+            else:
+                card.team(words("lobby.team", team=place.team + 1), place.team).draw(screen, x, y)
         if place.device:
             controls = self.house.controls
             name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")

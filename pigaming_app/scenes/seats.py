@@ -117,14 +117,15 @@ class Seats:
             place.ready = False
 
     def fill(self) -> list[int]:
-        """One person alone gets company: an AI to play against, or in games for four all seats; answers which."""
-        if self.robots != 1:
+        """Company for one person alone, or for a pair without rivals: an AI, or in games for four all seats; which."""
+        lonely = self.robots == 1 or (self.sides == PAIRS and self.robots > 1 and self.one_team)
+        if not lonely:
             return []
-        alone = next(i for i, place in enumerate(self.places) if place.kind != EMPTY)
-        wanted = 1 if self.sides == FREE else PLACES - 1
+        first = next(place for place in self.places if place.kind != EMPTY)
+        wanted = 1 if self.sides == FREE else len(self.like(EMPTY))
         added = [seat for seat in (self.add() for _ in range(wanted)) if seat is not None]
         if self.sides == FREE:
-            self.places[added[0]].team = 1 - self.places[alone].team
+            self.places[added[0]].team = 1 - first.team
         return added
 
     def change_team(self, seat: int) -> None:

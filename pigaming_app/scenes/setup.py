@@ -12,7 +12,7 @@ import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.game import Game, Seat, Setup
+from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
 from pigaming_app.scenes.feats import table_of, told
@@ -41,7 +41,6 @@ ROW_X, ROW_W = span(8, 4)
 HIGH = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px
 GAP = 16  # px between rows
 GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
-RECORDS = 132  # px, of the best so far, where there is room
 log = logging.getLogger(__name__)
 
 
@@ -134,7 +133,7 @@ class SetupPage:
             where = title(load_kept(game.name, now.arena), words.language)
             return choice.row(words(f"setup.arena_{game.name}"), where, place)
         if name == "goal":
-            return choice.row(words(f"setup.{game.goal}"), str(now.goal))
+            return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, game.goals)), str(now.goal))
         if name == "minutes":
             return choice.chips(words("setup.minutes"), tuple(map(str, game.minutes)), str(now.minutes))
         if name == "rules":
@@ -165,10 +164,12 @@ class SetupPage:
         at = press.at or (0.0, 0.0)
         if name == "go":
             return self._go()
-        if name == "minutes":
-            minutes = choice.chip_at(len(self.game.minutes), at[0] - self.rows[name].left)
-            if minutes is not None:
-                self._change(name, minutes - self.game.minutes.index(self.chosen.minutes))
+        if name in ("goal", "minutes"):
+            values = self.game.goals if name == "goal" else self.game.minutes
+            now = self.chosen.goal if name == "goal" else self.chosen.minutes
+            chip = choice.chip_at(len(values), at[0] - self.rows[name].left)
+            if chip is not None:
+                self._change(name, chip - values.index(now))
         elif name:
             self._change(name, 1 if at[0] > self.rows[name].centerx else -1)
         elif FRAME.collidepoint(at):
@@ -182,14 +183,9 @@ class SetupPage:
         for feat in self.game.feats:
             best = self.house.scores.best(self.game.name, table_of(self.chosen.arena, feat, self.chosen.goal))
             if best:
-                lines.append(
-                    (
-                        self.house.words(f"results.best_{feat.name}", goal=self.chosen.goal),
-                        told(best[0].score, feat),
-                        best[0].initials,
-                    )
-                )
-        if lines and low + RECORDS <= GO.top - GAP:
+                name = self.house.words(f"setup.best_{feat.name}")
+                lines.append((name, told(best[0].score, feat), best[0].initials))
+        if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
     def _signs(self) -> tuple[tuple[int, str], ...]:
@@ -217,6 +213,8 @@ class SetupPage:
                     (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
                     special_flags=pygame.BLEND_RGB_ADD,
                 )
+            if self.game.sides == PAIRS:  # where a robot begins depends on its team
+                choice.mark(i).draw(screen, round(x0 + dx + k * starts[i][0]), round(y0 + k * starts[i][1]))
         screen.set_clip(None)
 
 
