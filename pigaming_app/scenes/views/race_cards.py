@@ -72,10 +72,10 @@ def card_bits(card: Card, x: int) -> list[Bit]:
     text = str(card.place)
     bits += number_bits(text, TITLE, x + 43 - number_width(text, TITLE) / 2, Y + 42, number)
     bits.append((word(card.ending, number), (x + 75 - EDGE, Y + 25 - EDGE), None))
-    bits += number_bits(card.lap, BODY, x + MIDDLE - number_width(card.lap, BODY) / 2, Y + 70, ICE)
+    bits += number_bits(card.lap, BODY, x + MIDDLE - number_width(card.lap, BODY) / 2, Y + 67, ICE)
     if card.moved:
         bits.append((mover(card.moved > 0), (x + 97 - EDGE, Y + 62 - EDGE), None))
-    bits += _part_lit(turbo(card.seat, True), turbo(card.seat, False), (x + 20, Y + 92), card.turbo * CELLS * CELL / 64)
+    bits += _part_lit(turbo(card.seat, True), turbo(card.seat, False), (x + 20, Y + 94), card.turbo * CELLS * CELL / 64)
     bits += _part_lit(
         foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
     )
@@ -116,7 +116,7 @@ def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
         ink.fill(outline, dim(edge, 0.16))
     ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
     ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
-    badge(ink, seat, MIDDLE, 32, 22)
+    badge(ink, seat, MIDDLE, 29, 20)
     if ai:
         ink.solid(cut(78, -16, 40, 26, 4))
         icon(ink, "ai", 98, -2, 14, mix(color, WHITE, 0.5), 3)

@@ -63,7 +63,7 @@ class Watcher:
             found.append(Happening("void", seat, racer.missed - 1))
         elif racer.missed and racer.missed != missed:
             found.append(Happening("missed", seat, racer.missed - 1))
-        if racer.wrong > SHOWN_FROM and not wrong:
+        if racer.wrong > SHOWN_FROM and not wrong and not racer.finished:
             found.append(Happening("wrong", seat))
         if on and not racer.place.on and not racer.finished:
             found.append(Happening("mud", seat))

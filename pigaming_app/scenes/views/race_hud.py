@@ -68,7 +68,7 @@ class Cards:
         for char in "0123456789:":
             yield from (partial(glyph, char, SUB, color) for color in (ICE, ALARM))
         for char in "1234":
-            yield from (partial(glyph, char, TITLE, color) for color in (WHITE, FOCUS))
+            yield from (partial(glyph, char, TITLE, color) for color in (WHITE, FOCUS, ICE))
         for char in "0123456789.+−–/":
             yield from (partial(glyph, char, BODY, color) for color in (ICE, MIST, FOCUS, GAIN, LOSS))
         for line in range(LINES):

@@ -31,6 +31,7 @@ SOUNDS = {
 BY_WEIGHT = list(SOUNDS)
 LASTS, RISE = 1.7, 46.0  # s and px of what rises
 OVER = 70.0  # px from a robot to what rises
+HIGH = 76.0  # px from one that rises to another over it
 
 
 class Note(NamedTuple):
@@ -44,7 +45,7 @@ class Note(NamedTuple):
 
 
 class Notes:
-    """All that rises at the moment; what comes together stands one over the other."""
+    """All that rises at the moment; what would lie over another stands above it."""
 
     def __init__(self) -> None:
         self.notes: list[Note] = []
@@ -56,15 +57,16 @@ class Notes:
     def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
         """Add what has not gone yet; over those who wear a sign, nothing."""
         self.notes = [note for note in self.notes if now - note.born < LASTS and note.seat not in busy]
-        above: dict[int, int] = {}
+        placed: list[tuple[float, float, float]] = []
         for note in self.notes:
-            x, y, _ = poses[note.seat]
-            t, level = (now - note.born) / LASTS, above.get(note.seat, 0)
-            above[note.seat] = level + 1
             wide = note.sprite.image.get_width() if note.sprite else number_width(note.text, SUB) + 70
-            x = min(max(x, LEFT + wide / 2), LEFT + WIDTH - wide / 2)
-            y -= OVER + 78 * level + RISE * (1.0 - (1.0 - t) ** 2)
+            t = (now - note.born) / LASTS
+            x = min(max(poses[note.seat][0], LEFT + wide / 2), LEFT + WIDTH - wide / 2)
+            y = poses[note.seat][1] - OVER - RISE * (1.0 - (1.0 - t) ** 2)
+            while any(abs(x - px) < (wide + w) / 2 and abs(y - py) < HIGH for px, py, w in placed):
+                y -= HIGH
             y = max(y, TOP + 60)
+            placed.append((x, y, wide))
             if note.sprite:
                 put(top, note.sprite, x, y)
             else:
@@ -105,7 +107,7 @@ class Reactions:
         match one.kind:
             case "line":
                 moments.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
-                if not racer.finished:
+                if int(one.number) != one.seat:
                     self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
             case "lap" if not racer.finished:
                 self._say(one.seat, f"{one.number:.2f}", ICE)
