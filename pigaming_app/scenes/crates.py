@@ -9,8 +9,8 @@ from functools import cache
 
 import pygame
 
-from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW
-from pigaming_app.scenes.ink import ALARM, BLACK, THIN, WHITE, Color, Ink, Points, cut, dim, regular
+from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW, A
+from pigaming_app.scenes.ink import ALARM, BLACK, LINE, THIN, WHITE, Color, Ink, Points, cut, dim, regular
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, trim, turned
 
 TEAMS: tuple[Color, Color] = ((70, 210, 255), (255, 150, 40))
@@ -115,16 +115,17 @@ def flame(x: float, y: float, r: float) -> Points:
 
 @cache
 def forks(team: int, turn: int) -> Sprite:
-    """The two prongs of a robot at heading `turn` of HEADINGS, and the ring of its team, open in front."""
+    """The two prongs of a robot at heading `turn` of HEADINGS, and the ring of its team, open in front. They lie below
+    the robot and what it carries, and hide the floor."""
     return turned(painted(_forks, (team,)), turn, HEADINGS, 24)
 
 
 def _forks(team: int) -> pygame.Surface:
     ink = master(76, 24)
-    for side in (-19, 19):
-        ink.line([(34, side), (88, side)], TEAMS[team], 7)
-    ink.arc(0, 0, 45, 0.62, math.tau - 0.62, TEAMS[team], THIN)
-    return ink.lit(0.5)
+    for side in (-20, 20):
+        ink.solid(cut(26, side - 7, 69, 14, 5)).line([(30, side), (90, side)], TEAMS[team], 8)
+    ink.arc(0, 0, 45, 0.66, math.tau - 0.66, TEAMS[team], LINE)
+    return ink.sprite(0.5)
 
 
 @cache
@@ -165,11 +166,13 @@ def progress(state: int, part: int) -> Sprite:
 
 
 @cache
-def busy(team: int) -> Sprite:
-    """A machine wears the outline of the team whose pallet it holds."""
-    ink = Ink(230, 230).to(115, 115)
-    ink.neon(cut(-66, -66, 132, 132, 20), TEAMS[team], 7, True)
-    return trim(ink.lit(0.9), 115, 115)
+def busy(team: int, kind: int) -> Sprite:
+    """A machine of a kind while it holds a team's pallet: it wears the team's outline."""
+    ink, body = Ink(230, 230).to(115, 115), cut(-66, -66, 132, 132, 20)
+    ink.solid(cut(-69, -69, 138, 138, 21)).fill(body, dim(TEAMS[team], 0.10)).line(body, TEAMS[team], 8, True)
+    ink.ring(0, 0, 44, dim(TEAMS[team], 0.26), 10)
+    ink.text("A" if kind == A else "B", 62, 0, 0, WHITE, "hero", "c")
+    return trim(ink.sprite(0.8), 115, 115)
 
 
 @cache
@@ -203,18 +206,19 @@ def exclaim() -> Sprite:
 @cache
 def cross() -> Sprite:
     """Not here."""
-    ink = Ink(100, 100, 3).to(50, 50)
+    ink = Ink(110, 110, 3).to(55, 55)
+    ink.solid(regular(32, 30)).ring(0, 0, 27, ALARM, 5)
     for side in (-1, 1):
-        ink.line([(-18, -18 * side), (18, 18 * side)], ALARM, 9)
-    return trim(ink.lit(0.9), 50, 50)
+        ink.line([(-11, -11 * side), (11, 11 * side)], ALARM, 8)
+    return trim(ink.sprite(0.8), 55, 55)
 
 
 @cache
 def digit(number: int) -> Sprite:
     """A big number over a robot that must wait."""
-    ink = Ink(120, 140, 3).to(60, 70)
-    ink.text(str(number), 84, 0, 0, WHITE, "hero", "c")
-    return trim(ink.lit(0.7), 60, 70)
+    ink = Ink(130, 140, 3).to(65, 70)
+    ink.solid(regular(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, WHITE, "hero", "c")
+    return trim(ink.sprite(0.6), 65, 70)
 
 
 @cache

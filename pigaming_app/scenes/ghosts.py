@@ -107,6 +107,12 @@ def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
     return thread
 
 
+def forget(folder: Path) -> None:
+    """Drop the ghosts of all tracks, as the best scores are cleared. Raises OSError."""
+    for path in (folder / FOLDER).glob("*.json*"):
+        path.unlink(missing_ok=True)
+
+
 def _parsed(text: str) -> tuple[str, Ghost]:
     """Engine and ghost of a file. Raises ValueError."""
     match json.loads(text):

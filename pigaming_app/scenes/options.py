@@ -13,6 +13,7 @@ import pygame
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import dials
 from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.ghosts import forget
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import LABEL
 from pigaming_app.scenes.page import blacked, calling, glow_bar, heading
@@ -226,6 +227,10 @@ class OptionsPage:
         self.house.scores.reset()
         self.sure, self.cleared = 0.0, True
         self._keep(scores=True)
+        try:
+            forget(folders().data)
+        except OSError as trouble:
+            log.warning("%s", trouble)
 
     def _keep(self, scores: bool = False) -> None:
         """Save, or say in one sentence that it could not be saved."""

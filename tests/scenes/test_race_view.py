@@ -371,6 +371,16 @@ def test_a_kept_ghost_comes_back_and_another_track_of_that_name_has_none(tmp_pat
     assert call(tmp_path, other) == (None, "")
 
 
+def test_ghosts_are_cleared_with_the_scores(tmp_path):
+    arena = Busy(2).arena
+    for seconds in (12.0, 10.0):  # the second leaves a .bak
+        ghosts.write(tmp_path, arena, a_ghost(seconds)).join()
+    ghosts.forget(tmp_path)
+    assert call(tmp_path, arena) == (None, "")
+    assert list((tmp_path / "ghosts").iterdir()) == []
+    ghosts.forget(tmp_path / "nowhere")
+
+
 def test_a_ghost_of_another_engine_is_dropped_with_a_word(screen, tmp_path):
     scene = Busy(2)
     ghosts.write(tmp_path, scene.arena, a_ghost()).join()

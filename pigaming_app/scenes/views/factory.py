@@ -37,7 +37,7 @@ from pigaming_app.sim.world import HZ
 
 SHOWN_REFUSED = 14  # ticks for which a cross says that there is nothing to do
 HANDS = 40.0  # px from a worker to what it carries
-LONG = 5 * HZ  # ticks after which one sees how long an output has still to wait
+BESIDE = 102.0  # px from a robot to the number that counts down
 
 
 class FactoryView(Picture):
@@ -89,7 +89,7 @@ class FactoryView(Picture):
         for machine in state.machines:
             x, y = LEFT + machine.x, TOP + machine.y
             if machine.keeps:
-                put(light, crates.busy(state.pallets[machine.keeps - 1].team), x, y)
+                put(over, crates.busy(state.pallets[machine.keeps - 1].team, machine.kind), x, y)
             if machine.pallet:
                 part = round(crates.COUNTS * (1.0 - machine.left / rules.process))
                 put(light, crates.progress(HALF if machine.kind == A else DONE, part), x, y)
@@ -127,7 +127,7 @@ class FactoryView(Picture):
         if refused and self.taste.shake:
             x += 4 * (-1) ** (load.refused // 2)
         self.light_up(under, seat, (x, y, heading), bool(robot.boosting))
-        put(light, crates.forks(robot.team, fine), x, y)
+        put(over, crates.forks(robot.team, fine), x, y)
         put(over, tank.tank(seat, fine), x, y)
         fork_x, fork_y = x + FORK * math.cos(heading), y + FORK * math.sin(heading)
         if load.pallet:
@@ -136,7 +136,7 @@ class FactoryView(Picture):
             put(top, crates.cross(), fork_x, fork_y)
         if load.frozen:
             put(light, crates.frozen(-(-crates.COUNTS * load.frozen // state.rules.freeze)), x, y)
-            put(top, crates.digit(-(-load.frozen // HZ)), x, y - 92)
+            put(top, crates.digit(-(-load.frozen // HZ)), x, y + (BESIDE if y < TOP + BESIDE else -BESIDE))
 
     def _counts(self, light: Batch, state: Factory) -> None:
         """What waits outside, what has driven off, and when a new pallet comes."""

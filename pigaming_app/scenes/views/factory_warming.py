@@ -3,10 +3,11 @@
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, TEAMS
+from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MOST_PALLETS, SHELVES, TEAMS, A, B
 from pigaming_app.scenes import crates, effects, things
-from pigaming_app.scenes.ink import ALARM, ICE, PLAYERS, TITLE
+from pigaming_app.scenes.ink import ALARM, ICE, PLAYERS, TITLE, dim
 from pigaming_app.scenes.sprites import HEADINGS
+from pigaming_app.scenes.views.next_step import AIMS
 from pigaming_app.scenes.views.warming import Job
 
 
@@ -18,7 +19,8 @@ def jobs(seats: Sequence[int]) -> Iterator[Job]:
         for state in range(DELIVERED + 1):
             for tenths in (10, 13, 12, 11):
                 yield partial(crates.crate, team, state, tenths)
-        yield partial(crates.busy, team)
+        yield from (partial(crates.busy, team, kind) for kind in (A, B))
+        yield from (partial(crates.count, number, team) for number in range(1, MOST_PALLETS + 1 - SHELVES))
     for working in (False, True):
         for stride in range(crates.STRIDE):
             for turn in range(crates.PERSON_TURNS):
@@ -31,6 +33,8 @@ def jobs(seats: Sequence[int]) -> Iterator[Job]:
         for color in (ICE, ALARM):
             yield partial(things.glyph, char, TITLE, color)
     for seat in seats:
+        yield partial(crates.target, PLAYERS[seat], False)
+        yield partial(crates.target, dim(PLAYERS[seat], AIMS), True)
         for turn in range(HEADINGS):
             yield partial(crates.dash, PLAYERS[seat], turn)
             yield partial(crates.arrow, PLAYERS[seat], turn)

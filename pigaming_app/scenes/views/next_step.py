@@ -14,6 +14,7 @@ from pigaming_app.scenes.views.picture import Pose
 
 EVERY = 10  # ticks between two looks
 PITCH, SPEED = 34.0, 50.0  # px from dash to dash, px/s at which they run
+AIMS = 0.8  # of a driver's colour, for what it is making for
 STAY = 120.0  # px by which another slot must be nearer before the arrow turns to it
 
 
@@ -40,7 +41,7 @@ class Guide:
         if s < 0 or state.over:
             return
         x, y = LEFT + state.slots[s].x, TOP + state.slots[s].y
-        put(light, crates.target(PLAYERS[seat] if human else dim(PLAYERS[seat], 0.7), not human), x, y)
+        put(light, crates.target(PLAYERS[seat] if human else dim(PLAYERS[seat], AIMS), not human), x, y)
         from_x, from_y = pose[0] + FORK * math.cos(pose[2]), pose[1] + FORK * math.sin(pose[2])
         way = math.dist((from_x, from_y), (x, y))
         if not human or way < 90.0:
