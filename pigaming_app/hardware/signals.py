@@ -1,6 +1,6 @@
 """What passes between the parts of the robot loop: frames, fixes, wheels, telemetry. Nothing here knows cv2 or serial.
 
-Camera -> Frame -> markers -> Mark -> ground -> Fix -> tracker -> Sighting -> match -> twist -> safety -> Wheels -> link.
+Camera -> Frame -> markers -> Mark -> ground -> Fix -> tracker -> Sighting -> match -> twist -> safety -> Wheels, link.
 Every time is in seconds of one clock, which is handed in: `time.monotonic` in the arena, simulated time in the tests.
 """
 
@@ -65,7 +65,7 @@ class Telemetry(NamedTuple):
 
 
 class Port(Protocol):
-    """The part of a serial port that the link uses; pyserial's Serial has it. When the peer is gone, all raise OSError."""
+    """The part of a serial port that the link uses, as pyserial has it. When the peer is gone, all raise OSError."""
 
     @property
     def in_waiting(self) -> int: ...
