@@ -1,20 +1,44 @@
-"""What a brain is: a function that sees and decides, and a record of what it remembers; both work in both bodies."""
+"""What a brain is: a function that sees and decides, and a record of what it remembers; both work in both bodies.
+
+What a brain has learned (a table, the weights of a network) may be big: it is one more record, which all seats share,
+which no match copies, and which play never changes.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Protocol
 
 from pigaming_app.sim.action import press
+from pigaming_app.sim.record import packed, record
+
+
+@record
+class Nothing:
+    """What a hand-written brain has learned."""
+
+    nothing: int
+
+
+@cache
+def nothing(fast: bool) -> Any:
+    """Nothing learned, in either body."""
+    return packed([Nothing()]) if fast else [Nothing()]
 
 
 @dataclass(frozen=True)
 class Kind:
-    """One sort of brain: `think(match, seat, mind)` sets the seat's action; `wake(mind, seed)` fills a fresh mind."""
+    """One sort of brain: `think(match, seat, mind, known)` sets the seat's action; `wake(mind, seed)` fills a fresh mind.
+
+    `known(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
+    same one; it may read a file when it is first asked.
+    """
 
     name: str
     mind: type
-    think: Callable[[Any, int, Any], None]
+    think: Callable[[Any, int, Any, Any], None]
     wake: Callable[[Any, int], None]
+    known: Callable[[bool], Any] = nothing
 
 
 class Thinker:
@@ -23,11 +47,12 @@ class Thinker:
     def __init__(self, kind: Kind, seed: int) -> None:
         self.kind = kind
         self.mind = kind.mind()
+        self.known = kind.known(False)[0]
         kind.wake(self.mind, seed)
 
     def think(self, state: Any, seat: int) -> None:
         """Set the seat's action for this tick."""
-        self.kind.think(state, seat, self.mind)
+        self.kind.think(state, seat, self.mind, self.known)
 
 
 class Held(Protocol):

@@ -60,7 +60,7 @@ class RacerMind:
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any) -> None:
+def think(match: Any, seat: int, mind: Any, known: Any) -> None:
     """Look and decide every PERIOD ticks; in between the stick stays as it is."""
     if (match.tick + seat) % PERIOD:
         return

@@ -18,24 +18,39 @@ from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import packed, unpack
 from pigaming_app.sim.world import ROBOTS
 
-Loop = Callable[[Any, Any, Any, Any, Any, int], None]
-Think = Callable[[Any, int, Any], None]
+Loop = Callable[..., None]
+Think = Callable[[Any, int, Any, Any], None]
 
 
 def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think, Think]) -> Loop:
-    """A loop over matches that plays each on for `ticks`, or to its end."""
+    """A loop over matches that plays each on for `ticks`, or to its end.
+
+    `ones` to `fours` are the minds of the seats, one for each match; `know_1` to `know_4` what they have learned.
+    """
     first, second, third, fourth = think
 
-    def rollout(matches: Any, ones: Any, twos: Any, threes: Any, fours: Any, ticks: int) -> None:
+    def rollout(
+        matches: Any,
+        ones: Any,
+        twos: Any,
+        threes: Any,
+        fours: Any,
+        know_1: Any,
+        know_2: Any,
+        know_3: Any,
+        know_4: Any,
+        ticks: int,
+    ) -> None:
+        known_1, known_2, known_3, known_4 = know_1[0], know_2[0], know_3[0], know_4[0]
         for i in range(len(matches)):
             match, one, two, three, four = matches[i], ones[i], twos[i], threes[i], fours[i]
             for _ in range(ticks):
                 if match.over:
                     break
-                first(match, 0, one)
-                second(match, 1, two)
-                third(match, 2, three)
-                fourth(match, 3, four)
+                first(match, 0, one, known_1)
+                second(match, 1, two, known_2)
+                third(match, 2, three, known_3)
+                fourth(match, 3, four, known_4)
                 judge(match)
                 drive(match)
 
@@ -66,6 +81,7 @@ class Batch:
         states = started(setups)
         self.matches: Any = packed(states) if fast else states
         self.minds = [packed(column) for column in columns] if fast else columns
+        self.known = [kind.known(fast) for kind in self.kinds]
         one, two, three, four = (kind.think for kind in self.kinds)
         think = one, two, three, four
         game = setups[0].game
@@ -74,8 +90,7 @@ class Batch:
 
     def play(self, ticks: int) -> None:
         """Play every match on."""
-        ones, twos, threes, fours = self.minds
-        self.loop(self.matches, ones, twos, threes, fours, ticks)
+        self.loop(self.matches, *self.minds, *self.known, ticks)
 
     def scores(self) -> list[list[int]]:
         """For each match the scores of its seats."""

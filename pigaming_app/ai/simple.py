@@ -24,13 +24,13 @@ def wake(mind: Any, seed: int) -> None:
 
 
 @kernel
-def stand_still(match: Any, seat: int, mind: Any) -> None:
+def stand_still(match: Any, seat: int, mind: Any, known: Any) -> None:
     """Nothing at all."""
     press(match.actions[seat], 0.0, 0.0, 0, 0)
 
 
 @kernel
-def do_anything(match: Any, seat: int, mind: Any) -> None:
+def do_anything(match: Any, seat: int, mind: Any, known: Any) -> None:
     """Every fifth of a second another of the 3 x 3 x 2 x 2 actions."""
     if match.tick % HOLD == 0:
         linear = float(int(chance(mind) * 3.0)) - 1.0
