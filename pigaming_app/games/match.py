@@ -4,6 +4,7 @@ The plant says where the robots are; the brain on each seat says what it wants; 
 plant drives. A game never moves a robot, and a seat can change hands between any two ticks.
 """
 
+from collections.abc import Callable
 from typing import Any, Protocol
 
 from pigaming_app.games import GAMES
@@ -32,13 +33,16 @@ class Nobody:
 class Match:
     """A match of any game. All brains are `Nobody` until somebody sits down."""
 
-    def __init__(self, setup: Setup, plant: Plant | None = None, arena: Arena | None = None) -> None:
+    def __init__(
+        self, setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, arena: Arena | None = None
+    ) -> None:
+        """`plant`: a plant, or what makes one for the match's state."""
         self.setup = setup
         self.game = GAMES[setup.game]
         self.arena = arena or load(setup.game, setup.arena)
         self.state: Any = self.game.state()
         self.game.start(self.state, self.arena, setup)
-        self.plant = plant or SimPlant(self.state)
+        self.plant = plant(self.state) if callable(plant) else plant
         self.plant.place([(robot.x, robot.y, robot.heading) for robot in self.state.robots])
         self.brains: list[Brain] = [Nobody() for _ in range(ROBOTS)]
         self.log = Log()
