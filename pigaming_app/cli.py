@@ -8,7 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NoReturn
 
-JOBS = "play, replay, duel, bench, doctor, test"
+JOBS = "play, replay, duel, league, bench, doctor, test"
 
 
 class Wrong(Exception):
@@ -63,13 +63,11 @@ def parser() -> argparse.ArgumentParser:
     duel.add_argument("game")
     duel.add_argument("left")
     duel.add_argument("right")
-    duel.add_argument("--matches", type=number, default=100)
-    duel.add_argument("--seed", type=int, default=1)
-    duel.add_argument("--minutes", type=float)
-    duel.add_argument("--arena", help="left out: the game's first")
-    duel.add_argument("--variant")
-    _goals(duel)
-    duel.add_argument("--json", action="store_true")
+    _duel_options(duel)
+    league = jobs.add_parser("league", help="every brain against every other")
+    league.add_argument("game")
+    league.add_argument("brains", nargs="*", metavar="brain")
+    _duel_options(league)
     bench = jobs.add_parser("bench", help="how fast it all is here")
     bench.add_argument("game", nargs="?", default="pitanks")
     bench.add_argument("--json", action="store_true")
@@ -96,6 +94,16 @@ def _play_options(play: argparse.ArgumentParser) -> None:
     play.add_argument("--kiosk", action="store_true")
     play.add_argument("--display", type=number)
     play.add_argument("--json", action="store_true", help="print the result as one JSON object")
+
+
+def _duel_options(job: argparse.ArgumentParser) -> None:
+    job.add_argument("--matches", type=number, default=100, help="of each two brains")
+    job.add_argument("--seed", type=int, default=1)
+    job.add_argument("--minutes", type=float)
+    job.add_argument("--arena", help="left out: the game's first")
+    job.add_argument("--variant")
+    _goals(job)
+    job.add_argument("--json", action="store_true")
 
 
 def _goals(job: argparse.ArgumentParser) -> None:
@@ -185,6 +193,13 @@ def duel(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def league(arguments: argparse.Namespace) -> int:
+    """Every brain against every other."""
+    from pigaming_app import ranking
+
+    return ranking.rank(arguments, goal(arguments))
+
+
 def bench(arguments: argparse.Namespace) -> int:
     """How fast it all is here."""
     from pigaming_app import bench as benches
@@ -223,4 +238,12 @@ def _open(options: Any) -> int:
         raise Wrong(str(missing)) from None
 
 
-JOB = {"arcade": arcade, "play": play, "replay": replay, "duel": duel, "bench": bench, "doctor": doctor}
+JOB = {
+    "arcade": arcade,
+    "play": play,
+    "replay": replay,
+    "duel": duel,
+    "league": league,
+    "bench": bench,
+    "doctor": doctor,
+}

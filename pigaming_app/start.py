@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PROJECT = ROOT / "pyproject.toml"
 ARCADE = "arcade"  # the group of packages that every job needs; the others are the extras of pyproject.toml
 NEEDED = {"test": {"test"}}
-WISHED = {"test": {"train"}, "bench": {"train"}, "duel": {"train"}, "train": {"train"}}  # the job goes on without
+WISHED = {job: {"train"} for job in ("test", "bench", "duel", "league", "train")}  # the job goes on without
 WINDOWS = sys.platform == "win32"
 HANDED_OVER = "pigaming"  # python -X pigaming: main.py need not ask again
 

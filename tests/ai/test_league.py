@@ -98,3 +98,46 @@ def test_compiled_or_plain_the_scores_are_the_same():
 def test_a_brain_that_is_not_there_is_refused():
     with pytest.raises(ChoiceError, match="no seat 'genius'"):
         duel("pitanks", "genius", "random", matches=2, seed=1)
+
+
+# ------------------------------------------------------------------------------------------------------------- leagues
+
+
+def test_a_league_is_every_pairs_duel_over_the_same_seeds(monkeypatch):
+    monkeypatch.setattr(league, "Batch", Rigged)
+    Rigged.seen = []
+    found = league.league("pitanks", ["easy", "hard", "idle"], matches=4, seed=7, fast=False)
+    pairs = [("easy", "hard"), ("easy", "idle"), ("hard", "idle")]
+    assert [(one.left, one.right) for one in found.duels] == pairs
+    both = [([a, b], [7, 8]) for left, right in pairs for a, b in ((left, right), (right, left))]
+    assert Rigged.seen == both
+    assert [(one.wins, one.ties, one.losses, one.mean_score) for one in found.standings] == [(4, 0, 4, 2.0)] * 3
+    assert [one.rating.rating for one in found.standings] == [0.0] * 3
+
+
+@pytest.mark.parametrize(("game", "minutes"), [("pitanks", 0.5), ("race", 0.5), ("factory", 1.5)])
+def test_a_league_puts_who_plays_before_who_stands_still(game, minutes):
+    found = league.league(game, ["idle", "hard", "random"], matches=2, seed=1, minutes=minutes, fast=False)
+    assert found.standings[0].brain == "hard"
+    assert {one.brain for one in found.standings} == {"idle", "hard", "random"}
+    for standing in found.standings:
+        assert standing.rating.low <= standing.rating.rating <= standing.rating.high
+        assert standing.wins + standing.ties + standing.losses == 4
+    alone = duel(game, "idle", "hard", matches=2, seed=1, minutes=minutes, fast=False)
+    first = found.duels[0]
+    assert (alone.wins, alone.ties, alone.losses) == (first.wins, first.ties, first.losses)
+    assert alone.mean_score_right == first.mean_score_right
+
+
+@pytest.mark.parametrize(
+    ("brains", "said"),
+    [
+        ([], "two brains or more"),
+        (["hard"], "two brains or more"),
+        (["hard", "idle", "hard"], "'hard' is named twice"),
+        (["hard", "genius"], "no brain 'genius'"),
+    ],
+)
+def test_what_is_no_league_is_refused(brains, said):
+    with pytest.raises(ChoiceError, match=said):
+        league.league("pitanks", brains, matches=2, seed=1)
