@@ -27,6 +27,10 @@ class Pen:
         """A line through points of the square."""
         self.ink.line(self.at(points), self.color, self.w, closed)
 
+    def fill(self, *points: Point) -> None:
+        """A filled polygon of the square."""
+        self.ink.fill(self.at(points), self.color)
+
     def dot(self, x: float, y: float, r: float) -> None:
         """A filled circle of the square."""
         self.ink.disc(self.x + x * self.r, self.y + y * self.r, r * self.r, self.color)
@@ -153,6 +157,66 @@ def _clock(pen: Pen) -> None:
     pen.line((0, -0.5), (0, 0), (0.38, 0.22))
 
 
+def _shoot(pen: Pen) -> None:
+    """A cross-hair."""
+    pen.ring(0.66)
+    for k in range(4):
+        c, s = math.cos(k * math.tau / 4), math.sin(k * math.tau / 4)
+        pen.line((0.42 * c, 0.42 * s), (1.0 * c, 1.0 * s))
+
+
+def _arrow(pen: Pen, up: float) -> None:
+    pen.line((0, 0.9 * up), (0, -0.4 * up))
+    pen.fill((0, -1.0 * up), (0.68, -0.12 * up), (-0.68, -0.12 * up))
+
+
+def _ahead(pen: Pen) -> None:
+    _arrow(pen, 1.0)
+
+
+def _behind(pen: Pen) -> None:
+    _arrow(pen, -1.0)
+
+
+def _hook(pen: Pen, side: float) -> None:
+    """An arrow that goes up, over and down on one side: it turns round."""
+    arc = [math.pi * (0.95 + 1.05 * i / 14) for i in range(15)]
+    pen.line(*((side * 0.66 * math.cos(a), 0.1 + 0.66 * math.sin(a)) for a in arc))
+    pen.fill((side * 0.16, 0.1), (side * 1.16, 0.1), (side * 0.66, 0.84))
+
+
+def _turn_left(pen: Pen) -> None:
+    _hook(pen, -1.0)
+
+
+def _turn_right(pen: Pen) -> None:
+    _hook(pen, 1.0)
+
+
+def _stay(pen: Pen) -> None:
+    for x in (-0.34, 0.34):
+        pen.line((x, -0.6), (x, 0.6))
+
+
+def _unknown(pen: Pen) -> None:
+    for x in (-0.6, 0.0, 0.6):
+        pen.dot(x, 0, 0.17)
+
+
+def _faster(pen: Pen) -> None:
+    for x in (-0.85, 0.0):
+        pen.fill((x, -0.66), (x + 0.85, 0.0), (x, 0.66))
+
+
+def _play(pen: Pen) -> None:
+    pen.fill((-0.45, -0.66), (0.55, 0.0), (-0.45, 0.66))
+
+
+def _fastest(pen: Pen) -> None:
+    for x in (-0.95, -0.32, 0.31):
+        pen.fill((x, -0.6), (x + 0.66, 0.0), (x, 0.6))
+
+
 ICONS: dict[str, Callable[[Pen], None]] = {
     "shield": _shield,
     "speed": _speed,
@@ -175,4 +239,14 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "square": _square,
     "triangle": _triangle,
     "clock": _clock,
+    "shoot": _shoot,
+    "ahead": _ahead,
+    "behind": _behind,
+    "turn_left": _turn_left,
+    "turn_right": _turn_right,
+    "stay": _stay,
+    "unknown": _unknown,
+    "play": _play,
+    "faster": _faster,
+    "fastest": _fastest,
 }
