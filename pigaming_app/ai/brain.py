@@ -28,7 +28,7 @@ def nothing(fast: bool) -> Any:
 
 @dataclass(frozen=True)
 class Kind:
-    """One sort of brain: `think(match, seat, mind, known)` sets the seat's action; `wake(mind, seed)` fills a fresh mind.
+    """A sort of brain: `think(match, seat, mind, known)` sets the seat's action, `wake(mind, seed)` fills a fresh mind.
 
     `known(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
     same one; it may read a file when it is first asked.
