@@ -1,0 +1,95 @@
+"""The emulated arena: four true robots on a mat, a camera and a projector over it, and a radio, in simulated time.
+
+It stands in for everything outside the computer, and shares no calibration and no protocol code with what it proves.
+The same seed and the same calls give the same run. Poses go in and out in arena px, as the games have them; inside,
+all is in mm on the mat.
+"""
+
+from collections import deque
+from math import atan2, cos, sin
+from random import Random
+
+import numpy as np
+
+from pigaming_app.hardware.emulator.camera import EmulatedCamera, Pace
+from pigaming_app.hardware.emulator.optics import CANVAS, Optics
+from pigaming_app.hardware.emulator.picture import Painter, Scene
+from pigaming_app.hardware.emulator.robots import STEP, Robot, drawn, part
+from pigaming_app.hardware.emulator.things import BODY_HEIGHT, LID_HEIGHT, Placing, Thing, body, lid
+from pigaming_app.hardware.signals import Image
+from pigaming_app.sim.plant import Pose
+
+ARENA_AT = (160.0, 140.0)  # px: where the arena lies on the canvas
+STARTS: tuple[Pose, ...] = ((200, 200, 0.8), (1400, 200, 2.4), (1400, 700, 3.9), (200, 700, 5.5))
+OPEN = 3  # steps that the shutter is open
+SHOWS_AFTER = 0.025  # s from a picture being drawn to its light
+LIGHT_TURN = 40.0  # s that the wandering light needs for its way
+
+
+class EmulatedArena:
+    """The mat and all that is around it. `camera` is an Eye, `radio` a Port."""
+
+    def __init__(self, seed: int = 1, pace: Pace | None = None, refresh: int = 1) -> None:
+        random = Random(f"arena {seed}")
+        self.ticks = 0  # of STEP
+        self.optics = Optics()
+        self.robots = [
+            Robot(drawn(random), *self._on_mat(pose), Random(f"{seed} {i}")) for i, pose in enumerate(STARTS)
+        ]
+        self.camera = EmulatedCamera(Painter(self.optics, seed, refresh), pace or Pace(), self.clock, seed)
+        self.gain = 1.0
+        self._shown: Image = np.zeros((CANVAS[1], CANVAS[0]), dtype=np.uint8)
+        self._coming: deque[tuple[float, Image]] = deque()
+        self._past: deque[list[Placing]] = deque(maxlen=OPEN)
+
+    def clock(self) -> float:
+        """Simulated time in s."""
+        return self.ticks * STEP
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass, rounded to whole steps."""
+        for _ in range(round(seconds / STEP)):
+            self._step()
+
+    def project(self, image: Image) -> None:
+        """Show a grey picture (1080, 1920). The array is kept: hand in another next time."""
+        self._coming.append((self.clock() + SHOWS_AFTER, image))
+
+    def poses(self) -> list[Pose]:
+        """Where the robots truly are, in arena px."""
+        ahead = [(robot.x + 0.5 * cos(robot.heading), robot.y + 0.5 * sin(robot.heading)) for robot in self.robots]
+        behind = [(robot.x - 0.5 * cos(robot.heading), robot.y - 0.5 * sin(robot.heading)) for robot in self.robots]
+        front, back = self.optics.canvas(np.array(ahead)), self.optics.canvas(np.array(behind))
+        middle, along = 0.5 * (front + back) - ARENA_AT, front - back
+        return [(float(x), float(y), atan2(dy, dx)) for (x, y), (dx, dy) in zip(middle, along, strict=True)]
+
+    def place(self, robot: int, pose: Pose) -> None:
+        """Put a robot somewhere, in arena px."""
+        body = self.robots[robot]
+        body.x, body.y, body.heading = self._on_mat(pose)
+
+    def _on_mat(self, pose: Pose) -> tuple[float, float, float]:
+        x, y, heading = pose
+        on_canvas = np.array([(x, y), (x + cos(heading), y + sin(heading))]) + ARENA_AT
+        (x, y), (further, lower) = self.optics.mat(on_canvas).tolist()
+        return x, y, atan2(lower - y, further - x)
+
+    def _step(self) -> None:
+        for robot in self.robots:
+            robot.roll()
+        part(self.robots)
+        self.ticks += 1
+        now = self.clock()
+        while self._coming and self._coming[0][0] <= now:
+            self._shown = self._coming.popleft()[1]
+        self._past.append([(robot.x, robot.y, robot.heading) for robot in self.robots])
+        if now >= self.camera.due:
+            self.camera.expose(self._scene(now), now - 0.5 * STEP * (OPEN - 1))
+
+    def _scene(self, now: float) -> Scene:
+        things = []
+        for i in range(len(self.robots)):
+            poses = tuple(moment[i] for moment in self._past)
+            things.append(Thing(body(), BODY_HEIGHT, poses[-1:]))
+            things.append(Thing(lid(i), LID_HEIGHT, poses))
+        return Scene(self._shown, tuple(things), now / LIGHT_TURN, self.gain, self.camera.exposed)

@@ -1,0 +1,76 @@
+"""The emulated camera: it exposes on time, and hands each picture out late, or never.
+
+A picture is painted only when somebody takes it. What it says about when it was taken is what a real reader can know:
+the moment it arrived less the usual delay, wrong by the jitter of the driver.
+"""
+
+from collections import deque
+from dataclasses import dataclass
+from random import Random
+from typing import NamedTuple
+
+from pigaming_app.hardware.emulator.picture import Painter, Scene
+from pigaming_app.hardware.signals import Clock, Frame
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How the camera delivers."""
+
+    fps: float = 60.0
+    delay: float = 0.040  # s from the middle of the exposure to the program, usually
+    jitter: float = 0.0015  # s, standard deviation
+    drops: float = 0.0  # share of the pictures that never arrive
+
+
+class Exposure(NamedTuple):
+    """A picture under way."""
+
+    scene: Scene
+    arrives: float  # s
+
+
+class EmulatedCamera:
+    """An Eye over the emulated mat."""
+
+    def __init__(self, painter: Painter, pace: Pace, clock: Clock, seed: int) -> None:
+        self.painter, self.pace, self.clock = painter, pace, clock
+        self.due = 0.0  # s, when the next exposure ends
+        self.frozen = self.stuck = self.gone = False
+        self.more_drops = 0.0
+        self.exposed = self.delivered = 0
+        self._random = Random(f"camera {seed}")
+        self._under_way: deque[Exposure] = deque()
+        self._last: Frame | None = None
+
+    def expose(self, scene: Scene, middle: float) -> None:
+        """The shutter closes; `middle` (s) is the middle of the time that it was open."""
+        pace, random = self.pace, self._random
+        self.exposed += 1
+        self.due += 1.0 / pace.fps
+        lost = random.random() < pace.drops + self.more_drops
+        arrives = middle + max(0.5 * pace.delay, random.gauss(pace.delay, pace.jitter))
+        if self._under_way:
+            arrives = max(arrives, self._under_way[-1].arrives)
+        if not (lost or self.frozen or self.gone):
+            self._under_way.append(Exposure(scene, arrives))
+
+    def newest(self) -> Frame | None:
+        """The newest picture that arrived by now and was not given out before, or None."""
+        taken = None
+        while self._under_way and self._under_way[0].arrives <= self.clock():
+            taken = self._under_way.popleft()
+        if taken is None or self.gone:
+            return None
+        self.delivered += 1
+        captured = taken.arrives - self.pace.delay
+        if self.stuck and self._last is not None:
+            self._last = Frame(self._last.image, captured, taken.scene.number)
+        else:
+            self._last = Frame(self.painter.paint(taken.scene), captured, taken.scene.number)
+        return self._last
+
+    def close(self) -> None:
+        """Nothing arrives any more."""
+        self.gone = True
+        self._under_way.clear()

@@ -1,0 +1,135 @@
+"""How light goes in the emulated arena: from the projector to the mat, and from there through the lens to a pixel.
+
+Lengths are mm on the mat, x right and y down from the middle of the projected image; height is up. The lens has more
+terms than a calibration fits, its centre is not that of the sensor, and the picture of the projector is not quite a
+rectangle: so what is found there is never exact for free.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Map = NDArray[np.float32]
+
+CANVAS = (1920, 1080)  # px of the projected image
+SENSOR = (1920, 1080)  # px of the camera
+CORNERS = np.array([[-1274.0, -715.0], [1271.5, -719.0], [1277.0, 718.0], [-1275.0, 714.0]])  # mm, of the image
+LAMP = np.array([-120.0, -500.0, 2700.0])  # mm: where the projector's light comes from, with its height
+COARSE = 4  # px between the rays that are found by iteration
+
+
+@dataclass(frozen=True)
+class Lens:
+    """A camera over the mat: where it hangs, what it looks at, and its glass."""
+
+    eye: tuple[float, float, float] = (90.0, 270.0, 2480.0)  # mm, with its height
+    aim: tuple[float, float] = (5.0, 26.0)  # mm: the point of the mat in the middle of its view
+    roll: float = 0.021  # rad
+    focal: float = 1780.0  # px
+    centre: tuple[float, float] = (963.5, 537.0)  # px
+    radial: tuple[float, float, float] = (-0.28, 0.09, -0.01)
+    tangential: tuple[float, float] = (0.0004, -0.0003)
+
+
+class Optics:
+    """The maps between canvas, mat and sensor."""
+
+    def __init__(self, lens: Lens | None = None) -> None:
+        self.lens = lens or Lens()
+        self.turn = _look_at(self.lens)
+        self.to_mat = _homography(np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]], dtype=float), CORNERS)
+        self.to_canvas = np.linalg.inv(self.to_mat)
+        self.rays = _rays(self.lens, self.turn.tobytes())
+
+    def mat(self, canvas: Floats) -> Floats:
+        """Where on the mat points (n, 2) of the projected image lie, in mm."""
+        return _mapped(self.to_mat, canvas)
+
+    def canvas(self, mat: Floats, height: float = 0.0) -> Floats:
+        """Which px of the projected image light points (n, 2) of the mat, or that far (mm) above it."""
+        lit: Floats = LAMP[:2] + (mat - LAMP[:2]) * (LAMP[2] / (LAMP[2] - height))
+        return _mapped(self.to_canvas, lit)
+
+    def sensor(self, mat: Floats, height: float = 0.0) -> Floats:
+        """Where points (n, 2) of the mat, or that far (mm) above it, appear to the camera, in px."""
+        x, y, up = self.lens.eye
+        rays = np.column_stack([mat[:, 0] - x, mat[:, 1] - y, np.full(len(mat), up - height)]) @ self.turn.T
+        return _distorted(self.lens, rays[:, :2] / rays[:, 2:])
+
+    def plane(self, height: float, rows: slice, columns: slice) -> tuple[Map, Map]:
+        """The points, in mm, that a window of the sensor sees of the plane at `height` mm: x and y."""
+        x, y, up = self.lens.eye
+        rays = self.rays[rows, columns]
+        return x + rays[..., 0] * np.float32(up - height), y + rays[..., 1] * np.float32(up - height)
+
+    def lit_by(self, height: float) -> tuple[Map, Map]:
+        """For every px of the sensor, the px of the canvas that lights what it sees of the plane at `height` mm."""
+        x, y = self.plane(height, slice(None), slice(None))
+        lamp, grow = LAMP.astype(np.float32), np.float32(LAMP[2] / (LAMP[2] - height))
+        x, y = lamp[0] + (x - lamp[0]) * grow, lamp[1] + (y - lamp[1]) * grow
+        h = self.to_canvas.astype(np.float32)
+        below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
+        # Pixel i of the image covers i to i + 1, and cv2.remap counts from the middles of pixels.
+        half = np.float32(0.5)
+        return (
+            (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below - half,
+            (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below - half,
+        )
+
+
+def _look_at(lens: Lens) -> Floats:
+    """The rotation from mat (z down) to camera (x right, y down, z ahead)."""
+    ahead = np.array([lens.aim[0] - lens.eye[0], lens.aim[1] - lens.eye[1], lens.eye[2]])
+    ahead /= np.linalg.norm(ahead)
+    right = np.cross(np.array([0.0, 1.0, 0.0]), ahead)
+    right /= np.linalg.norm(right)
+    down = np.cross(ahead, right)
+    cosine, sine = np.cos(lens.roll), np.sin(lens.roll)
+    return np.stack([cosine * right + sine * down, cosine * down - sine * right, ahead])
+
+
+def _distorted(lens: Lens, rays: Floats) -> Floats:
+    """Rays (n, 2), as x/z and y/z, to px: Brown's model (Brown 1971, as OpenCV's documentation writes it)."""
+    x, y = rays[:, 0], rays[:, 1]
+    (k1, k2, k3), (p1, p2) = lens.radial, lens.tangential
+    r2 = x * x + y * y
+    radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
+    u = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)
+    v = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
+    return np.column_stack([lens.centre[0] + lens.focal * u, lens.centre[1] + lens.focal * v])
+
+
+@lru_cache(maxsize=2)
+def _rays(lens: Lens, turn: bytes) -> Map:
+    """For every px of the sensor, the ray through it: how far it goes right and down for each mm it goes down to the
+    mat, (1080, 1920, 2)."""
+    import cv2
+
+    wide, high = SENSOR[0] // COARSE + 1, SENSOR[1] // COARSE + 1
+    rows, columns = np.mgrid[0:high, 0:wide] * COARSE
+    pixels = np.column_stack([columns.ravel(), rows.ravel()]).astype(float)
+    rays = (pixels - lens.centre) / lens.focal
+    for _ in range(60):
+        rays += (pixels - _distorted(lens, rays)) / lens.focal
+    world = np.column_stack([rays, np.ones(len(rays))]) @ np.frombuffer(turn).reshape(3, 3)
+    coarse = (world[:, :2] / world[:, 2:]).reshape(high, wide, 2).astype(np.float32)
+    v, u = np.mgrid[0 : SENSOR[1], 0 : SENSOR[0]].astype(np.float32) / np.float32(COARSE)
+    fine = cv2.remap(coarse, u, v, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return np.asarray(fine, dtype=np.float32)
+
+
+def _homography(points: Floats, images: Floats) -> Floats:
+    """The projective map that takes four points to four others."""
+    rows = []
+    for (x, y), (u, v) in zip(points, images, strict=True):
+        rows.append([x, y, 1, 0, 0, 0, -u * x, -u * y])
+        rows.append([0, 0, 0, x, y, 1, -v * x, -v * y])
+    return np.append(np.linalg.solve(np.array(rows), images.ravel()), 1.0).reshape(3, 3)
+
+
+def _mapped(homography: Floats, points: Floats) -> Floats:
+    image = np.column_stack([points, np.ones(len(points))]) @ homography.T
+    return np.asarray(image[:, :2] / image[:, 2:], dtype=np.float64)

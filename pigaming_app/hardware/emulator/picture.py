@@ -1,0 +1,192 @@
+"""One exposure of the emulated camera becomes a grey picture: projected light, lids, lens, light of the room, noise.
+
+The picture is exact around everything that stands on the mat. The rest of it is painted anew only every `refresh`
+pictures, because that takes ten times as long as all the rest and a tracker hardly looks there; 1 leaves nothing out.
+"""
+
+from math import pi, sin
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.emulator.optics import SENSOR, Map, Optics
+from pigaming_app.hardware.emulator.things import LID_HEIGHT, TEXELS, Placing, Print, Thing
+from pigaming_app.hardware.signals import Image
+
+LAMP_LIGHT, ROOM_LIGHT = 130.0, 55.0  # grey levels of white paper under white of the projector, and in the room's light
+BLUR = 0.7  # px, of the lens
+REACH = 56.0  # mm from the middle of a print to its edge
+SPARE = 6  # px around what is painted
+NOISE = 2.5  # grey levels, standard deviation
+
+Floats = NDArray[np.float32]
+
+
+class Scene(NamedTuple):
+    """What the sensor gathered in one exposure."""
+
+    image: Image  # (1080, 1920), what the projector showed
+    things: tuple[Thing, ...]
+    light: float  # phase of the light that wanders through the room, in turns
+    gain: float  # 1 as the camera was set
+    number: int
+
+
+class Window(NamedTuple):
+    """A part of the sensor: from row and column to row and column."""
+
+    top: int
+    left: int
+    bottom: int
+    right: int
+
+    def cut(self) -> tuple[slice, slice]:
+        return slice(self.top, self.bottom), slice(self.left, self.right)
+
+    def meets(self, other: "Window") -> bool:
+        return (
+            self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
+        )
+
+    def joined(self, other: "Window") -> "Window":
+        return Window(
+            min(self.top, other.top),
+            min(self.left, other.left),
+            max(self.bottom, other.bottom),
+            max(self.right, other.right),
+        )
+
+
+WHOLE = Window(0, 0, SENSOR[1], SENSOR[0])
+
+
+class Painter:
+    """Paints scenes as one camera sees them. Two painters with the same seed paint the same."""
+
+    def __init__(self, optics: Optics, seed: int, refresh: int = 1, noise: float = NOISE) -> None:
+        self.optics, self.refresh = optics, refresh
+        self._seed = seed
+        random = np.random.default_rng(seed)
+        self._noise = np.clip(np.rint(random.normal(0.0, noise, (1400, 2300))), -127, 127).astype(np.int8)
+        self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
+        self._mat = _cloth(random)
+        self._shade = _vignette()
+        self._room: Image | None = None
+        self._age = 0
+
+    def paint(self, scene: Scene) -> Image:
+        """The picture, (1080, 1920)."""
+        random = np.random.default_rng((self._seed, scene.number))
+        windows = [(thing, self._window(thing)) for thing in scene.things]
+        if self.refresh == 1:
+            return self._painted(scene, WHOLE, windows, random)
+        self._age += 1
+        if self._room is None or self._age >= self.refresh:
+            self._room, self._age = self._painted(scene, WHOLE, [], random), 0
+        picture = self._room.copy()
+        for window in _apart([window for _, window in windows]):
+            picture[window.cut()] = self._painted(scene, window, windows, random)
+        return picture
+
+    def _painted(
+        self, scene: Scene, window: Window, things: list[tuple[Thing, Window]], random: np.random.Generator
+    ) -> Image:
+        import cv2
+
+        room = _room_light(scene.light, window)
+        light = self._lit(scene, self._floor, window, room) * self._mat[window.cut()]
+        for thing, place in sorted(things, key=lambda pair: pair[0].height):
+            if place.meets(window):
+                self._lay(scene, thing, place, window, room, light)
+        light *= self._shade[window.cut()]
+        soft = cv2.GaussianBlur(light, (5, 5), BLUR)
+        height, width = light.shape
+        top, left = int(random.integers(1400 - height)), int(random.integers(2300 - width))
+        noise = self._noise[top : top + height, left : left + width]
+        return np.asarray(cv2.addWeighted(soft, scene.gain, noise.astype(np.float32), 1.0, 0.0, dtype=cv2.CV_8U))
+
+    def _lay(self, scene: Scene, thing: Thing, place: Window, window: Window, room: Floats, light: Floats) -> None:
+        """Paint one thing into the light of a window, in the mean over its poses."""
+        part = Window(
+            max(place.top, window.top),
+            max(place.left, window.left),
+            min(place.bottom, window.bottom),
+            min(place.right, window.right),
+        )
+        x, y = self.optics.plane(thing.height, *part.cut())
+        look = np.mean([_look(thing.look, x, y, pose) for pose in thing.poses], axis=0)
+        rows = slice(part.top - window.top, part.bottom - window.top)
+        columns = slice(part.left - window.left, part.right - window.left)
+        lit = self._lit(scene, self._lids if thing.height else self._floor, part, room[rows, columns])
+        light[rows, columns] = light[rows, columns] * (1.0 - look[..., 1]) + look[..., 0] * lit
+
+    def _lit(self, scene: Scene, maps: tuple[Map, Map], window: Window, room: Floats) -> Floats:
+        """How much light falls on white paper."""
+        import cv2
+
+        cut = window.cut()
+        shown = cv2.remap(scene.image, maps[0][cut], maps[1][cut], cv2.INTER_LINEAR)
+        return np.asarray(shown * np.float32(LAMP_LIGHT / 255.0) + room, dtype=np.float32)
+
+    def _window(self, thing: Thing) -> Window:
+        """Where on the sensor a thing may be seen."""
+        points = np.array([(pose[0], pose[1]) for pose in thing.poses])
+        pixels = self.optics.sensor(points, thing.height)
+        lens = self.optics.lens
+        reach = REACH * 1.1 * lens.focal / (lens.eye[2] - thing.height) + SPARE
+        left, top = np.floor(pixels.min(axis=0) - reach).astype(int)
+        right, bottom = np.ceil(pixels.max(axis=0) + reach).astype(int)
+        wide, high = SENSOR
+        top, left = min(max(int(top), 0), high - 1), min(max(int(left), 0), wide - 1)
+        return Window(top, left, min(max(int(bottom), top + 1), high), min(max(int(right), left + 1), wide))
+
+
+def _look(look: Print, x: Map, y: Map, pose: Placing) -> Floats:
+    """A print at a pose, as seen at points of its plane: (rows, columns, 2)."""
+    import cv2
+
+    cosine, sine = np.float32(np.cos(pose[2])), np.float32(np.sin(pose[2]))
+    dx, dy = x - np.float32(pose[0]), y - np.float32(pose[1])
+    middle, scale = np.float32(len(look) / 2 - 0.5), np.float32(TEXELS)
+    u = (dy * cosine - dx * sine) * scale + middle
+    v = middle - (dx * cosine + dy * sine) * scale
+    return np.asarray(cv2.remap(look, u, v, cv2.INTER_LINEAR), dtype=np.float32)
+
+
+def _apart(windows: list[Window]) -> list[Window]:
+    """Windows that overlap become one."""
+    apart: list[Window] = []
+    for window in windows:
+        meeting = [other for other in apart if other.meets(window)]
+        while meeting:
+            for other in meeting:
+                apart.remove(other)
+                window = window.joined(other)
+            meeting = [other for other in apart if other.meets(window)]
+        apart.append(window)
+    return apart
+
+
+def _room_light(turn: float, window: Window) -> Floats:
+    """The room's light in a window: a bright spot wanders over the mat."""
+    u, v = SENSOR[0] * (0.5 + 0.35 * sin(2 * pi * turn)), SENSOR[1] * (0.5 + 0.35 * sin(2 * pi * 1.7 * turn + 1.0))
+    across = np.exp(-(((np.arange(window.left, window.right) - u) / 500.0) ** 2)).astype(np.float32)
+    down = np.exp(-(((np.arange(window.top, window.bottom) - v) / 400.0) ** 2)).astype(np.float32)
+    spot = down[:, None] * across[None, :]
+    return np.asarray(np.float32(ROOM_LIGHT) * (1.0 + np.float32(0.4) * spot), dtype=np.float32)
+
+
+def _cloth(random: np.random.Generator) -> Floats:
+    """How much light the mat throws back at each px: white cloth with clouds in it."""
+    import cv2
+
+    clouds = random.normal(0.85, 0.02, (34, 60)).astype(np.float32)
+    return np.asarray(cv2.resize(clouds, SENSOR, interpolation=cv2.INTER_CUBIC), dtype=np.float32)
+
+
+def _vignette() -> Floats:
+    """Less light towards the corners of the sensor: 30 % less in them."""
+    v, u = np.mgrid[0 : SENSOR[1], 0 : SENSOR[0]].astype(np.float32)
+    r2 = ((u - SENSOR[0] / 2) ** 2 + (v - SENSOR[1] / 2) ** 2) / np.float32((SENSOR[0] ** 2 + SENSOR[1] ** 2) / 4)
+    return np.asarray(1.0 - np.float32(0.3) * r2, dtype=np.float32)
