@@ -1,141 +1,164 @@
-"""One robot, followed: a pose at the newest correction, the gains of its wheels learnt on the way, commands since.
+"""One robot, followed: its pose at the newest correction, what its wheels make of commands, and the commands since.
 
-An extended Kalman filter over (x, y, heading, gain of the left wheel, gain of the right): the gains differ from robot
-to robot and with its batteries, and a prediction over 80 ms of dead time needs them.
+An extended Kalman filter over (x, y, heading, gain of the left wheel, of the right, of turning, delay): wheels differ
+from robot to robot and with its batteries, and a prediction over 80 ms of dead time needs to know by how much.
 """
 
 from collections import deque
-from math import cos, hypot, inf, pi, sin, sqrt, tau
+from collections.abc import Iterator
+from math import cos, hypot, inf, pi, sin, tau
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.drivetrain import STEP, Drivetrain, Rolling
+from pigaming_app.hardware.rolling import Rolling
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.sim.angles import wrap
+from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
+
+FASTEST = 1000.0  # mm/s: a 3pi flat out
+LEEWAY = 30.0  # mm by which a marker may be further than that (HARDWARE.md)
+PATIENCE = 3  # sights elsewhere that agree with each other, after which the robot is believed to be there
+MEMORY = 2.0  # s for which commands are kept
+COAST = 1.0  # s for which a robot that is not seen is predicted; then it takes PATIENCE sights to believe again
+STEP = 0.02  # s, the longest step of a prediction
+NEVER = 1e9  # s since a robot was seen that never was
+
+FIX_PX, FIX_RAD = 0.8, 0.013  # noise of a fix, standard deviations
+SLIP_PX, SLIP_RAD = 3.0, 0.06  # what the model does not know of: random walk, per root of a second
+LEARNT = 7  # numbers in the filter
+START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02]))
+WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001]))  # per second
+LOW = np.array([0.6, 0.6, 0.6, -0.06])  # of gains, gains, turning, delay (s)
+HIGH = np.array([1.4, 1.4, 1.4, 0.06])
+SURPRISE = 25.0  # squared standard deviations: beyond, it was pushed or lifted, which teaches nothing about wheels
+NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
 
 Matrix = NDArray[np.float64]
 
-FASTEST = 1000.0  # mm/s: a 3pi flat out
-LEEWAY = 30.0  # mm a marker may jump beyond that (HARDWARE.md)
-PATIENCE = 3  # rejections that agree with each other, after which the robot is believed to be there
-MEMORY = 2.0  # s for which commands are kept
-FIX_PX, FIX_RAD = 0.8, 0.015  # noise of a fix, standard deviations
-SLIP_PX, SLIP_RAD = 25.0, 0.35  # per s and root of the frame's share: what the model does not know of
-GAIN_START, GAIN_WALK = 0.1, 0.01  # of the wheels' gains: at the beginning, and per root of a second
-GAIN_LIMITS = 0.6, 1.4
-
 
 class Follower:
-    """The filter of one robot; `mm`: of one arena px."""
+    """The filter of one robot; `mm` of the mat to an arena px."""
 
-    def __init__(self, train: Drivetrain, mm: float) -> None:
-        self.train, self.base, self.mm = train, train.base / mm, mm
-        self._told: deque[tuple[float, float, float]] = deque([(-inf, 0.0, 0.0)])  # when it acts, wheels in px/s
+    def __init__(self, drivetrain: Drivetrain, mm: float) -> None:
+        self.drivetrain, self.mm = drivetrain, mm
+        self._told: deque[tuple[float, float, float]] = deque()  # when it was sent, wheels in px/s
         self._rolling = Rolling(0.0, 0.0, 0.0)
-        self._gains = (train.left, train.right)
-        self._spread = np.zeros((5, 5))
-        self._time = -inf  # of the newest correction
-        self._rejected: list[Fix] = []
+        self._learnt = np.array([1.0, 1.0, 1.0, 0.0])
+        self._spread = START.copy()
+        self._seen = -inf
+        self._elsewhere: list[Fix] = []  # where it was seen and not believed
 
     def told(self, time: float, twist: Twist) -> None:
         """Remember what was sent to the robot."""
-        turn = 0.5 * self.base * twist[1]
-        self._told.append((time + self.train.dead, twist[0] + turn, twist[0] - turn))
-        while len(self._told) > 1 and self._told[1][0] < max(self._time, time - MEMORY):
+        turn = 0.5 * self.drivetrain.base * twist[1]
+        self._told.append((time, twist[0] + turn, twist[0] - turn))
+        oldest = min(max(self._seen, time - MEMORY), time) - self.drivetrain.dead_time - HIGH[3]
+        while len(self._told) > 1 and self._told[1][0] <= oldest:
             self._told.popleft()
 
     def unseen(self, now: float) -> float:
-        """Seconds since it was seen."""
-        return min(now - self._time, 1e9)
+        """Seconds since it was seen and believed; NEVER if it never was."""
+        return min(now - self._seen, NEVER)
 
     def at(self, now: float) -> Sighting:
         """Where it is at a time, by the commands sent since it was seen."""
         rolling = self._rolling.copy()
-        if self._time > -inf:
-            self._replay(rolling, self._time, now)
+        if self._seen > -inf:
+            gains, base = self._gains()
+            for left, right, dt in self._acting(self._seen, min(now, self._seen + COAST)):
+                rolling.roll(left, right, gains, base, self.drivetrain.lag, dt)
         return Sighting(rolling.x, rolling.y, wrap(rolling.heading % tau), self.unseen(now))
 
     def correct(self, fix: Fix) -> bool:
         """Take in where the camera saw it; false if that is not believed."""
-        if self._time == -inf:
+        dt = fix.captured - self._seen
+        if dt == inf:
             self._begin(fix)
             return True
-        dt = fix.captured - self._time
         if dt <= 0.0:
             return False
+        if dt > COAST:
+            return self._again(fix)
         rolling = self._rolling.copy()
-        flow = self._replay(rolling, self._time, fix.captured)
-        away = hypot(fix.x - rolling.x, fix.y - rolling.y)
-        if away * self.mm > FASTEST * dt + LEEWAY:
-            return self._reject(fix)
-        self._rejected.clear()
-        self._time, self._rolling = fix.captured, rolling
-        self._blend(fix, flow, dt)
+        flow = self._predict(rolling, fix.captured)
+        if hypot(fix.x - rolling.x, fix.y - rolling.y) * self.mm > FASTEST * dt + LEEWAY:
+            return self._again(fix)
+        self._elsewhere.clear()
+        self._seen, self._rolling = fix.captured, rolling
+        self._blend(fix, flow @ self._spread @ flow.T + WALK * dt)
         return True
 
-    def _replay(self, rolling: Rolling, since: float, until: float) -> Matrix:
-        """Move a robot by the commands that acted in this time; how its pose there depends on its state before."""
-        flow = np.eye(5)
-        told = self._told
-        for i, (acts, left, right) in enumerate(told):
-            end = told[i + 1][0] if i + 1 < len(told) else inf
-            begin, end = max(acts, since), min(end, until)
-            while begin < end - 1e-9:
-                dt = min(STEP, end - begin)
-                self._roll(rolling, left, right, dt, flow)
-                begin += dt
+    def _gains(self) -> tuple[tuple[float, float], float]:
+        """Of the wheels, and the effective base."""
+        left, right, turning, _ = self._learnt.tolist()
+        return (left, right), self.drivetrain.base / turning
+
+    def _acting(self, since: float, until: float) -> Iterator[tuple[float, float, float]]:
+        """What the wheels were told in this time (px/s, px/s) and for how long: steps of at most STEP."""
+        dead, told = self.drivetrain.dead_time + float(self._learnt[3]), self._told
+        at = since
+        for i in range(-1, len(told)):
+            left, right = told[i][1:] if i >= 0 else (0.0, 0.0)
+            end = min(told[i + 1][0] + dead, until) if i + 1 < len(told) else until
+            while at < end - 1e-9:
+                dt = min(STEP, end - at)
+                yield left, right, dt
+                at += dt
+
+    def _predict(self, rolling: Rolling, until: float) -> Matrix:
+        """Move it to a time; how the numbers of the filter there depend on those of the newest correction."""
+        gains, base = self._gains()
+        flow = np.eye(LEARNT)
+        for left, right, dt in self._acting(self._seen, until):
+            x, y, heading, was_left, was_right = rolling.x, rolling.y, rolling.heading, rolling.left, rolling.right
+            rolling.roll(left, right, gains, base, self.drivetrain.lag, dt)
+            mean_left, mean_right = 0.5 * (was_left + rolling.left) * dt, 0.5 * (was_right + rolling.right) * dt
+            faster_left, faster_right = gains[0] * (rolling.left - was_left), gains[1] * (rolling.right - was_right)
+            c, s = 0.5 * cos(heading), 0.5 * sin(heading)
+            step = np.eye(LEARNT)
+            step[0, 2:] = y - rolling.y, c * mean_left, c * mean_right, 0.0, -c * (faster_left + faster_right)
+            step[1, 2:] = rolling.x - x, s * mean_left, s * mean_right, 0.0, -s * (faster_left + faster_right)
+            turn = (rolling.heading - heading) * base / self.drivetrain.base
+            step[2, 3:] = mean_left / base, -mean_right / base, turn, (faster_right - faster_left) / base
+            flow = step @ flow
         return flow
 
-    def _roll(self, rolling: Rolling, left: float, right: float, dt: float, flow: Matrix) -> None:
-        x, y = rolling.x, rolling.y
-        rolling.roll(left, right, self._gains, self.base, self.train.lag, dt)
-        dx, dy = rolling.x - x, rolling.y - y
-        half_c, half_s = 0.5 * dt * cos(rolling.heading), 0.5 * dt * sin(rolling.heading)
-        step = np.eye(5)
-        step[0, 2], step[1, 2] = -dy, dx
-        step[0, 3], step[0, 4] = half_c * rolling.left, half_c * rolling.right
-        step[1, 3], step[1, 4] = half_s * rolling.left, half_s * rolling.right
-        step[2, 3], step[2, 4] = rolling.left / self.base * dt, -rolling.right / self.base * dt
-        flow[:] = step @ flow
-
     def _begin(self, fix: Fix) -> None:
-        """It is there, standing."""
+        """It is there, standing; what was learnt about its wheels stays."""
         self._rolling = Rolling(fix.x, fix.y, fix.heading)
-        self._time = fix.captured
-        self._spread = np.diag([FIX_PX**2, FIX_PX**2, FIX_RAD**2, GAIN_START**2, GAIN_START**2])
-        self._rejected.clear()
+        self._seen = fix.captured
+        self._spread[:3, :], self._spread[:, :3] = 0.0, 0.0
+        self._spread[:3, :3] = NOISE
+        self._elsewhere.clear()
 
-    def _reject(self, fix: Fix) -> bool:
-        """Not believed, unless that is the third time that it was seen about there: then it begins anew."""
-        if self._rejected:
-            last = self._rejected[-1]
+    def _again(self, fix: Fix) -> bool:
+        """It was seen where it cannot have driven: believed the third time that it is about there, else not."""
+        if self._elsewhere:
+            last = self._elsewhere[-1]
             way = hypot(fix.x - last.x, fix.y - last.y) * self.mm
             if way > FASTEST * (fix.captured - last.captured) + LEEWAY:
-                self._rejected.clear()
-        self._rejected.append(fix)
-        if len(self._rejected) < PATIENCE:
+                self._elsewhere.clear()
+        self._elsewhere.append(fix)
+        if len(self._elsewhere) < PATIENCE:
             return False
         self._begin(fix)
         return True
 
-    def _blend(self, fix: Fix, flow: Matrix, dt: float) -> None:
-        """Kalman's correction of the pose and the gains."""
-        spread = flow @ self._spread @ flow.T
-        slip, turn = (SLIP_PX * sqrt(dt) * 0.2) ** 2, (SLIP_RAD * sqrt(dt) * 0.2) ** 2
-        spread += np.diag([slip, slip, turn, GAIN_WALK**2 * dt, GAIN_WALK**2 * dt])
+    def _blend(self, fix: Fix, spread: Matrix) -> None:
+        """Kalman's correction; what surprises too much moves the pose only."""
         rolling = self._rolling
-        miss = np.array([fix.x - rolling.x, fix.y - rolling.y, (fix.heading - rolling.heading + pi) % tau - pi])
-        known = spread[:3, :3] + np.diag([FIX_PX**2, FIX_PX**2, FIX_RAD**2])
-        share = spread[:, :3] @ np.linalg.inv(known)
+        turned = (fix.heading - rolling.heading + pi) % tau - pi
+        miss = np.array((fix.x - rolling.x, fix.y - rolling.y, turned))
+        doubt = np.linalg.inv(spread[:3, :3] + NOISE)
+        if miss @ doubt @ miss > SURPRISE:
+            rolling.x, rolling.y, rolling.heading = fix.x, fix.y, rolling.heading + turned
+            self._spread = spread
+            return
+        share = spread[:, :3] @ doubt
         change = share @ miss
-        rolling.x += change[0]
-        rolling.y += change[1]
-        rolling.heading += change[2]
-        low, high = GAIN_LIMITS
-        self._gains = (
-            min(max(self._gains[0] + change[3], low), high),
-            min(max(self._gains[1] + change[4], low), high),
-        )
+        x, y, heading = change[:3].tolist()
+        rolling.x, rolling.y, rolling.heading = rolling.x + x, rolling.y + y, rolling.heading + heading
+        self._learnt = np.clip(self._learnt + change[3:], LOW, HIGH)
         self._spread = spread - share @ spread[:3, :]

@@ -5,12 +5,13 @@ since that time. Nothing here moves a robot or stops one: `safety` judges `lost`
 """
 
 from collections.abc import Sequence
+from math import inf
 
-from pigaming_app.hardware.drivetrain import Drivetrain
 from pigaming_app.hardware.follower import Follower
 from pigaming_app.hardware.ground import Ground
 from pigaming_app.hardware.markers import ROBOT_IDS, Markers
 from pigaming_app.hardware.signals import Clock, Fix, Frame, Mark
+from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robots import RADIUS
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
@@ -25,9 +26,10 @@ class Tracker:
     def __init__(self, ground: Ground, clock: Clock, drivetrains: Sequence[Drivetrain] | None = None) -> None:
         self.ground, self.clock = ground, clock
         self._markers = Markers(ROBOT_IDS)
-        trains = drivetrains or [Drivetrain()] * ROBOTS
+        trains = drivetrains or [NOMINAL] * ROBOTS
         self._followers = [Follower(train, ground.mm) for train in trains]
         self._doubled: dict[int, float] = {}
+        self.looked = -inf  # s, when the newest picture was taken that was looked at
         self.refused: dict[int, str] = {}  # by robot: why a marker of the last picture is not on a robot
 
     def sent(self, time: float, twists: Sequence[Twist | None]) -> None:
@@ -43,13 +45,16 @@ class Tracker:
 
     def correct(self, marks: Sequence[Mark], captured: float) -> list[Fix]:
         """Correct the robots by the markers of one picture; the fixes that were believed."""
+        self.looked = -inf  # s, when the newest picture was taken that was looked at
+        self.looked = captured
         self.refused = {}
         believed = []
         for robot, follower in enumerate(self._followers):
             fixes = self._credible(robot, marks, captured)
             if len(fixes) > 1:
                 self._doubled[robot] = captured
-                self.refused[robot] = "doubled"
+                self.looked = -inf  # s, when the newest picture was taken that was looked at
+        self.refused[robot] = "doubled"
             elif fixes and follower.correct(fixes[0]):
                 believed.append(fixes[0])
         return believed
@@ -74,9 +79,11 @@ class Tracker:
                 continue
             fix = self.ground.fix(mark, captured)
             if isinstance(fix, str):
-                self.refused[robot] = fix
+                self.looked = -inf  # s, when the newest picture was taken that was looked at
+        self.refused[robot] = fix
             elif not (-OUTSIDE < fix.x < WIDTH + OUTSIDE and -OUTSIDE < fix.y < HEIGHT + OUTSIDE):
-                self.refused[robot] = "outside"
+                self.looked = -inf  # s, when the newest picture was taken that was looked at
+        self.refused[robot] = "outside"
             else:
                 fixes.append(fix)
         return fixes
