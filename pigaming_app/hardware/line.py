@@ -1,0 +1,183 @@
+"""A serial line to a radio, which may be absent, in use, forbidden or pulled out at any moment.
+
+Opening says in one sentence what is wrong. A `Line` never raises: it reads and writes what it can, and when the port
+is gone it tries again, at longer and longer intervals. pyserial is imported when a port is opened, not before.
+"""
+
+import errno
+import re
+from collections.abc import Callable
+from contextlib import suppress
+from typing import NamedTuple
+
+from pigaming_app.hardware.signals import Clock, Port
+
+try:
+    from termios import error as termios_error
+except ImportError:  # Windows
+    FAILURES: tuple[type[Exception], ...] = (OSError,)
+else:
+    FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is none
+CANNOT_OPEN: tuple[type[Exception], ...] = (
+    *FAILURES,
+    ImportError,
+    ValueError,
+)  # no pyserial; a baud rate that the port cannot have
+
+BAUD = 57600  # bit/s, of the radios and of our firmware
+FIRST, LONGEST = 0.25, 2.0  # s between two attempts to open: doubled every time
+WRITE_TIMEOUT = 0.05  # s
+
+OpenPort = Callable[[], Port]
+
+SENTENCES = {  # by reason; {port} and {detail} are filled in
+    "missing": "The package pyserial is missing, so no radio can be used.",
+    "absent": "There is no port {port}; is the radio plugged in, and is this its port?",
+    "denied": "This account may not use {port}; on Linux, add it to the group dialout and log in again.",
+    "busy": "{port} is in use by another program; close that first.",
+    "wrong": "{port} is not a serial port; choose the one the radio is plugged into.",
+    "dead": "Nothing is connected to the serial port {port}; choose the one the radio is plugged into.",
+    "unplugged": "The radio at {port} is gone; plug it in again.",
+    "stuck": "{port} takes no more bytes; unplug the radio and plug it in again.",
+    "mute": "{port} opens, but what should be there does not answer; is it the right port and the right baud rate?",
+    "garbled": "What comes from {port} makes no sense; check the baud rate and the API mode of the radio.",
+    "mode": "The radio at {port} is set to AP={detail}; set it or the link to the other API mode.",
+    "stranger": "What answers at {port} is no 3pi with the stock program, but says {detail}.",
+    "failed": "{port} failed: {detail}.",
+}
+ERRORS = {
+    errno.ENOENT: "absent",
+    errno.ENODEV: "absent",
+    errno.ENXIO: "absent",
+    errno.EACCES: "denied",
+    errno.EPERM: "denied",
+    errno.EBUSY: "busy",
+    errno.EAGAIN: "busy",  # another program holds the lock that pyserial asks for
+    errno.ENOTTY: "wrong",
+    errno.EINVAL: "wrong",
+    errno.EISDIR: "wrong",
+    errno.EIO: "dead",
+}
+
+
+class Trouble(NamedTuple):
+    """Why there is no radio: a reason of SENTENCES for the program, and one sentence, `str()`, for people."""
+
+    reason: str
+    port: str
+    detail: str = ""
+
+    def __str__(self) -> str:
+        return SENTENCES[self.reason].format(port=self.port, detail=self.detail)
+
+
+class Found(NamedTuple):
+    """A serial port of this computer."""
+
+    device: str  # what to open: /dev/ttyUSB0, COM3
+    description: str  # in words of the system
+
+
+def ports() -> list[Found]:
+    """The serial ports of this computer, those on USB first; none where pyserial is missing."""
+    try:
+        from serial.tools import list_ports
+    except ImportError:
+        return []
+    found = sorted(list_ports.comports(), key=lambda port: (port.vid is None, port.device))
+    return [Found(port.device, port.description or port.device) for port in found]
+
+
+def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
+    """What opens a serial port of this computer for us alone. Two stop bits help a radio whose clock is slow."""
+
+    def open_it() -> Port:
+        import serial
+
+        port: Port = serial.Serial(
+            device, baud, stopbits=stop_bits, timeout=0, write_timeout=WRITE_TIMEOUT, exclusive=True
+        )
+        return port
+
+    return open_it
+
+
+def trouble_of(error: Exception, port: str) -> Trouble:
+    """Why a port could not be opened."""
+    if isinstance(error, ImportError):
+        return Trouble("missing", port)
+    number = getattr(error, "errno", None)
+    if number is None and (told := re.search(r"\((\d+),", f"{error.args}"[1:])):  # pyserial tucks it into its text
+        number = int(told[1])
+    reason = ERRORS.get(number or 0, "failed")
+    if reason == "denied" and "PermissionError(13" in str(error):  # Windows says so of a port that is in use
+        reason = "busy"
+    return Trouble(reason, port, " ".join(str(error).split()).rstrip("."))
+
+
+class Line:
+    """A port that is opened when it can be, and again when it was lost."""
+
+    def __init__(self, open_port: OpenPort, clock: Clock, name: str) -> None:
+        self.trouble: Trouble | None = None
+        self.name = name
+        self._open_port, self._clock = open_port, clock
+        self._port: Port | None = None
+        self._lost = False  # whether it was open before
+        self._again = float("-inf")  # s, when opening may be tried
+        self._pause = FIRST
+
+    @property
+    def is_open(self) -> bool:
+        return self._port is not None
+
+    def open(self) -> bool:
+        """Open the port if it is closed and the time has come; whether it is open now and was not before."""
+        if self._port is not None or self._clock() < self._again:
+            return False
+        try:
+            self._port = self._open_port()
+        except CANNOT_OPEN as error:
+            trouble = trouble_of(error, self.name)
+            gone = self._lost and trouble.reason in ("absent", "dead")
+            self.trouble = Trouble("unplugged", self.name) if gone else trouble
+            self._wait()
+            return False
+        self.trouble, self._lost, self._pause = None, True, FIRST
+        return True
+
+    def read(self) -> bytes:
+        """What has come in; nothing while there is no port."""
+        if self._port is None:
+            return b""
+        try:
+            return self._port.read(waiting) if (waiting := self._port.in_waiting) else b""
+        except FAILURES as error:
+            self._lose(error)
+            return b""
+
+    def write(self, data: bytes) -> None:
+        """Send, or forget it while there is no port."""
+        if self._port is None:
+            return
+        try:
+            self._port.write(data)
+        except FAILURES as error:
+            self._lose(error)
+
+    def close(self) -> None:
+        """Close the port; it may be opened again."""
+        port, self._port = self._port, None
+        if port is not None:
+            with suppress(*FAILURES):
+                port.close()
+
+    def _lose(self, error: Exception) -> None:
+        timeout = type(error).__name__ == "SerialTimeoutException"
+        self.close()
+        self.trouble = Trouble("stuck" if timeout else "unplugged", self.name)
+        self._wait()
+
+    def _wait(self) -> None:
+        self._again = self._clock() + self._pause
+        self._pause = min(2 * self._pause, LONGEST)
