@@ -53,8 +53,7 @@ class Tracker:
             fixes = self._credible(robot, marks, captured)
             if len(fixes) > 1:
                 self._doubled[robot] = captured
-                self.looked = -inf  # s, when the newest picture was taken that was looked at
-        self.refused[robot] = "doubled"
+                self.refused[robot] = "doubled"
             elif fixes and follower.correct(fixes[0]):
                 believed.append(fixes[0])
         return believed
@@ -79,11 +78,9 @@ class Tracker:
                 continue
             fix = self.ground.fix(mark, captured)
             if isinstance(fix, str):
-                self.looked = -inf  # s, when the newest picture was taken that was looked at
-        self.refused[robot] = fix
+                self.refused[robot] = fix
             elif not (-OUTSIDE < fix.x < WIDTH + OUTSIDE and -OUTSIDE < fix.y < HEIGHT + OUTSIDE):
-                self.looked = -inf  # s, when the newest picture was taken that was looked at
-        self.refused[robot] = "outside"
+                self.refused[robot] = "outside"
             else:
                 fixes.append(fix)
         return fixes
