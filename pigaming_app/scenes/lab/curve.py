@@ -1,0 +1,112 @@
+"""How often it wins against the hand-made robot, over the matches it has learned from: dots as measured, a line through
+them. The dashed line is how often the hand-made robot wins against one like itself.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import pygame
+
+from pigaming_app.scenes.ink import BODY, ICE, MIST, STEEL, THIN, TITLE, WHITE, dim
+from pigaming_app.scenes.lab.places import CURVE, GOOD, PLOT, RIGHT
+from pigaming_app.scenes.page import text
+from pigaming_app.scenes.pane import Lit, word
+
+FIRST = 50  # matches that the plot has room for in the beginning; it doubles
+CALM = 0.3  # share of a new measure in the line
+GLOW = ((17, 0.14), (11, 0.3), (6, 1.0))  # px wide, brightness
+
+
+@dataclass(frozen=True)
+class Measure:
+    """After so many matches it won this share, 0..1."""
+
+    matches: int
+    share: float
+
+
+def smoothed(measures: Sequence[Measure]) -> list[float]:
+    """The line through the dots: each measure moves it by CALM of the way; the first one is where it begins."""
+    out: list[float] = []
+    for one in measures:
+        out.append(one.share if not out else out[-1] + CALM * (one.share - out[-1]))
+    return out
+
+
+def room(matches: int) -> int:
+    """How many matches the plot shows."""
+    most = FIRST
+    while most < matches:
+        most *= 2
+    return most
+
+
+class Curve:
+    """The picture of the measures, painted again only when there is a new one. `ground`: the page, whole."""
+
+    def __init__(self, ground: pygame.Surface) -> None:
+        self.bare = ground.subsurface(CURVE).copy()
+        self.sheet = self.bare.copy()
+        self.share: float | None = None  # where the line has come to
+        self.shown: tuple[int, float | None] = (0, None)
+
+    def show(self, measures: Sequence[Measure], handmade: float | None) -> None:
+        """What has been measured so far."""
+        if (len(measures), handmade) == self.shown:
+            return
+        self.shown = len(measures), handmade
+        self.sheet.blit(self.bare, (0, 0))
+        left, foot = PLOT.left - CURVE.left, PLOT.bottom - CURVE.top
+        if handmade is not None:
+            _dashes(self.sheet, left, foot - round(PLOT.h * handmade))
+        self.share = None
+        if measures:
+            line = smoothed(measures)
+            self.share = line[-1]
+            most = room(measures[-1].matches)
+            xs = [left + PLOT.w * one.matches / most for one in measures]
+            for x, one in zip(xs, measures, strict=True):
+                pygame.draw.circle(self.sheet, dim(GOOD, 0.42), (x, foot - PLOT.h * one.share), 4)
+            _tube(self.sheet, [(x, foot - PLOT.h * share) for x, share in zip(xs, line, strict=True)])
+
+    def draw(self, screen: pygame.Surface, name: str, waiting: str) -> None:
+        """Paint it; `name`: of the hand-made robot; `waiting`: what to say before anything is measured."""
+        screen.blit(self.sheet, CURVE)
+        handmade = self.shown[1]
+        if handmade is not None:
+            y = PLOT.bottom - PLOT.h * handmade
+            below = y + 34 < PLOT.bottom - 20
+            text(name, BODY, MIST, "body", "r", PLOT.w - 20).draw(screen, PLOT.right, y + (34 if below else -34))
+        if self.share is None:
+            text(waiting, BODY, MIST, "body", "r", 190).draw(screen, RIGHT - 36, CURVE.centery)
+        else:
+            number(round(100 * self.share)).draw(screen, RIGHT - 124, _height(self.share))
+
+
+def _height(share: float) -> float:
+    """Where the number stands: beside the end of the line, but within the panel."""
+    return max(CURVE.top + 84.0, min(CURVE.bottom - 64.0, PLOT.bottom - PLOT.h * share))
+
+
+@lru_cache(maxsize=101)
+def number(percent: int) -> Lit:
+    """How often, round (0, 0)."""
+    return word(f"{percent}%", TITLE - 16, ICE, "head", 0.45)
+
+
+def _dashes(sheet: pygame.Surface, left: int, y: int) -> None:
+    for x in range(left, left + PLOT.w - 16, 30):
+        pygame.draw.line(sheet, STEEL, (x, y), (x + 16, y), THIN)
+
+
+def _tube(sheet: pygame.Surface, points: list[tuple[float, float]]) -> None:
+    """A line that glows, without the cost of a blur: wide and dim, then narrow and bright."""
+    for width, share in GLOW:
+        color = dim(GOOD, share)
+        for a, b in pairwise(points):
+            pygame.draw.aaline(sheet, color, a, b, width)
+        for point in points:
+            pygame.draw.circle(sheet, color, point, width / 2)
+    pygame.draw.circle(sheet, WHITE, points[-1], 13)
