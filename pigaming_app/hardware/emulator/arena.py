@@ -12,10 +12,13 @@ from random import Random
 import numpy as np
 
 from pigaming_app.hardware.emulator.camera import EmulatedCamera, Pace
+from pigaming_app.hardware.emulator.faults import Faults
+from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.optics import CANVAS, Optics
 from pigaming_app.hardware.emulator.picture import Painter, Scene
+from pigaming_app.hardware.emulator.radio import Air, EmulatedRadio
 from pigaming_app.hardware.emulator.robots import STEP, Robot, drawn, part
-from pigaming_app.hardware.emulator.things import BODY_HEIGHT, LID_HEIGHT, Placing, Thing, body, lid
+from pigaming_app.hardware.emulator.things import Placing
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
 
@@ -24,27 +27,46 @@ STARTS: tuple[Pose, ...] = ((200, 200, 0.8), (1400, 200, 2.4), (1400, 700, 3.9),
 OPEN = 3  # steps that the shutter is open
 SHOWS_AFTER = 0.025  # s from a picture being drawn to its light
 LIGHT_TURN = 40.0  # s that the wandering light needs for its way
+RESTLESS = 6.0  # s between two steps of the exposure
 
 
 class EmulatedArena:
-    """The mat and all that is around it. `camera` is an Eye, `radio` a Port."""
+    """The mat and all that is around it. `camera` is an Eye, `radio` a Port, `faults` what goes wrong.
 
-    def __init__(self, seed: int = 1, pace: Pace | None = None, refresh: int = 1) -> None:
+    `unrest` is the size of the exposure steps that come by themselves, as a share; `begin` is the time (s) at which
+    the clock starts; `refresh` is the painter's: 1 paints every picture whole.
+    """
+
+    def __init__(
+        self,
+        seed: int = 1,
+        pace: Pace | None = None,
+        air: Air | None = None,
+        refresh: int = 1,
+        unrest: float = 0.0,
+        begin: float = 0.0,
+    ) -> None:
         random = Random(f"arena {seed}")
-        self.ticks = 0  # of STEP
+        self.ticks, self.begin = 0, begin  # ticks of STEP
         self.optics = Optics()
         self.robots = [
             Robot(drawn(random), *self._on_mat(pose), Random(f"{seed} {i}")) for i, pose in enumerate(STARTS)
         ]
+        self.firmwares = [Firmware(robot, i + 1) for i, robot in enumerate(self.robots)]
+        self.radio = EmulatedRadio(self.firmwares, air or Air(), self.clock, seed)
         self.camera = EmulatedCamera(Painter(self.optics, seed, refresh), pace or Pace(), self.clock, seed)
-        self.gain = 1.0
+        self.faults = Faults(self)
+        self.gain = 1.0  # of the exposure
+        self.ran = [float("-inf")] * len(self.robots)  # s, when a robot's motors were last given anything
+        self._unrest, self._restless = unrest, Random(f"exposure {seed}")
+        self._own_gain, self._next_gain = 1.0, begin + RESTLESS
         self._shown: Image = np.zeros((CANVAS[1], CANVAS[0]), dtype=np.uint8)
         self._coming: deque[tuple[float, Image]] = deque()
         self._past: deque[list[Placing]] = deque(maxlen=OPEN)
 
     def clock(self) -> float:
         """Simulated time in s."""
-        return self.ticks * STEP
+        return self.begin + self.ticks * STEP
 
     def advance(self, seconds: float) -> None:
         """Let time pass, rounded to whole steps."""
@@ -57,11 +79,11 @@ class EmulatedArena:
 
     def poses(self) -> list[Pose]:
         """Where the robots truly are, in arena px."""
-        ahead = [(robot.x + 0.5 * cos(robot.heading), robot.y + 0.5 * sin(robot.heading)) for robot in self.robots]
-        behind = [(robot.x - 0.5 * cos(robot.heading), robot.y - 0.5 * sin(robot.heading)) for robot in self.robots]
-        front, back = self.optics.canvas(np.array(ahead)), self.optics.canvas(np.array(behind))
-        middle, along = 0.5 * (front + back) - ARENA_AT, front - back
-        return [(float(x), float(y), atan2(dy, dx)) for (x, y), (dx, dy) in zip(middle, along, strict=True)]
+        reach = np.array([(0.5 * cos(robot.heading), 0.5 * sin(robot.heading)) for robot in self.robots])
+        middle = np.array([(robot.x, robot.y) for robot in self.robots])
+        front, back = self.optics.canvas(middle + reach), self.optics.canvas(middle - reach)
+        at, along = (0.5 * (front + back) - ARENA_AT).tolist(), (front - back).tolist()
+        return [(x, y, atan2(dy, dx)) for (x, y), (dx, dy) in zip(at, along, strict=True)]
 
     def place(self, robot: int, pose: Pose) -> None:
         """Put a robot somewhere, in arena px."""
@@ -75,11 +97,15 @@ class EmulatedArena:
         return x, y, atan2(lower - y, further - x)
 
     def _step(self) -> None:
-        for robot in self.robots:
-            robot.roll()
-        part(self.robots)
         self.ticks += 1
         now = self.clock()
+        self.radio.step()
+        self.faults.tick(now)
+        for i, robot in enumerate(self.robots):
+            robot.roll()
+            if robot.left or robot.right:
+                self.ran[i] = now
+        part(self.robots)
         while self._coming and self._coming[0][0] <= now:
             self._shown = self._coming.popleft()[1]
         self._past.append([(robot.x, robot.y, robot.heading) for robot in self.robots])
@@ -87,9 +113,11 @@ class EmulatedArena:
             self.camera.expose(self._scene(now), now - 0.5 * STEP * (OPEN - 1))
 
     def _scene(self, now: float) -> Scene:
+        if now >= self._next_gain:
+            self._next_gain += RESTLESS
+            self._own_gain = 1.0 + self._unrest * self._restless.uniform(-1.0, 1.0)
         things = []
         for i in range(len(self.robots)):
-            poses = tuple(moment[i] for moment in self._past)
-            things.append(Thing(body(), BODY_HEIGHT, poses[-1:]))
-            things.append(Thing(lid(i), LID_HEIGHT, poses))
-        return Scene(self._shown, tuple(things), now / LIGHT_TURN, self.gain, self.camera.exposed)
+            things += self.faults.things(i, tuple(moment[i] for moment in self._past))
+        gain = self.gain * self._own_gain
+        return Scene(self._shown, tuple(things), (now - self.begin) / LIGHT_TURN, gain, self.camera.exposed)

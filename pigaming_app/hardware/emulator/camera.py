@@ -35,7 +35,7 @@ class EmulatedCamera:
 
     def __init__(self, painter: Painter, pace: Pace, clock: Clock, seed: int) -> None:
         self.painter, self.pace, self.clock = painter, pace, clock
-        self.due = 0.0  # s, when the next exposure ends
+        self.due = clock()  # s, when the next exposure ends
         self.frozen = self.stuck = self.gone = False
         self.more_drops = 0.0
         self.exposed = self.delivered = 0

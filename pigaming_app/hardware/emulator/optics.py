@@ -7,6 +7,7 @@ rectangle: so what is found there is never exact for free.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,8 @@ class Optics:
     def __init__(self, lens: Lens | None = None) -> None:
         self.lens = lens or Lens()
         self.turn = _look_at(self.lens)
-        self.to_mat = _homography(np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]], dtype=float), CORNERS)
+        rim = np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]]) - 0.5  # whole numbers are middles of px
+        self.to_mat = _homography(rim, CORNERS)
         self.to_canvas = np.linalg.inv(self.to_mat)
         self.rays = _rays(self.lens, self.turn.tobytes())
 
@@ -50,8 +52,7 @@ class Optics:
 
     def canvas(self, mat: Floats, height: float = 0.0) -> Floats:
         """Which px of the projected image light points (n, 2) of the mat, or that far (mm) above it."""
-        lit: Floats = LAMP[:2] + (mat - LAMP[:2]) * (LAMP[2] / (LAMP[2] - height))
-        return _mapped(self.to_canvas, lit)
+        return _mapped(self.to_canvas, LAMP[:2] + (mat - LAMP[:2]) * (LAMP[2] / (LAMP[2] - height)))
 
     def sensor(self, mat: Floats, height: float = 0.0) -> Floats:
         """Where points (n, 2) of the mat, or that far (mm) above it, appear to the camera, in px."""
@@ -72,11 +73,9 @@ class Optics:
         x, y = lamp[0] + (x - lamp[0]) * grow, lamp[1] + (y - lamp[1]) * grow
         h = self.to_canvas.astype(np.float32)
         below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
-        # Pixel i of the image covers i to i + 1, and cv2.remap counts from the middles of pixels.
-        half = np.float32(0.5)
         return (
-            (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below - half,
-            (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below - half,
+            (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below,
+            (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below,
         )
 
 
@@ -130,6 +129,6 @@ def _homography(points: Floats, images: Floats) -> Floats:
     return np.append(np.linalg.solve(np.array(rows), images.ravel()), 1.0).reshape(3, 3)
 
 
-def _mapped(homography: Floats, points: Floats) -> Floats:
+def _mapped(homography: Floats, points: NDArray[np.floating[Any]]) -> Floats:
     image = np.column_stack([points, np.ones(len(points))]) @ homography.T
     return np.asarray(image[:, :2] / image[:, 2:], dtype=np.float64)

@@ -1,0 +1,123 @@
+"""What can go wrong in the emulated arena, by name: each fault can be switched on and off at any time.
+
+Some of them strike the camera or the radio, others one robot.
+"""
+
+from math import atan2, cos, hypot, sin
+from typing import TYPE_CHECKING
+
+from pigaming_app.hardware.emulator.things import (
+    BODY_HEIGHT,
+    LID_HEIGHT,
+    Placing,
+    Thing,
+    body,
+    card,
+    hand,
+    lid,
+    underside,
+)
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.emulator.arena import EmulatedArena
+
+FAULTS = {
+    "camera_frozen": "no picture arrives any more, though the camera is there",
+    "camera_stuck": "the same picture arrives again and again",
+    "camera_gone": "the camera is unplugged",
+    "frames_dropped": "two pictures of three are lost",
+    "exposure_step": "pictures are half as bright at once",
+    "marker_covered": "a hand lies on the lid",
+    "marker_twice": "a second marker of the same number lies on the mat",
+    "marker_held": "somebody holds the robot in the air, and not still",
+    "upside_down": "somebody holds the robot with its wheels up",
+    "carried": "somebody carries the robot to another place",
+    "radio_dead": "nothing goes through the air",
+    "radio_lossy": "a third of the packets is lost",
+    "radio_unplugged": "the radio is pulled out of the computer",
+    "garbage": "rubbish comes on every line",
+    "battery_low": "the cells of the robot have 3.9 V",
+    "robot_off": "the robot is switched off",
+}
+CAMERA = {"camera_frozen": "frozen", "camera_stuck": "stuck", "camera_gone": "gone"}
+RADIO = {"radio_dead": "dead", "radio_unplugged": "unplugged"}
+HELD_AT, TURNED_AT, CARRIED_AT = 220.0, 60.0, 120.0  # mm over the mat
+CARRY_SPEED, CARRY_WAY = 600.0, 500.0  # mm/s, mm
+DARKER = 0.5
+EMPTY_CELLS = 3.9  # V
+
+Taken = tuple[float, Placing]  # s, mm, mm, rad: when the fault began, and where the robot was then
+
+
+class Faults:
+    """The faults that are on: `switch` changes that, `tick` and `things` let them do what they do."""
+
+    def __init__(self, arena: "EmulatedArena") -> None:
+        self._arena = arena
+        self._robots: dict[str, dict[int, Taken]] = {name: {} for name in FAULTS}
+
+    def switch(self, name: str, on: bool, robot: int = 0) -> None:
+        """Switch a fault on or off, if it strikes a robot: for that one. Raises ValueError for an unknown name."""
+        if name not in FAULTS:
+            raise ValueError(f"no fault {name!r}; there are {', '.join(FAULTS)}")
+        arena = self._arena
+        struck, strikes = arena.robots[robot], self._robots[name]
+        if on:
+            strikes[robot] = arena.clock(), (struck.x, struck.y, struck.heading)
+        else:
+            strikes.pop(robot, None)
+        if name in CAMERA:
+            setattr(arena.camera, CAMERA[name], on)
+        elif name in RADIO:
+            setattr(arena.radio, RADIO[name], on)
+        elif name in ("marker_held", "upside_down", "carried") and not on:
+            struck.height = 0.0
+        elif name == "frames_dropped":
+            arena.camera.more_drops = 0.67 * on
+        elif name == "exposure_step":
+            arena.gain = DARKER if on else 1.0
+        elif name == "radio_lossy":
+            arena.radio.more_loss = 0.33 * on
+        elif name == "garbage":
+            arena.radio.more_garbage = 300.0 * on  # bytes a second
+        elif name == "battery_low":
+            struck.battery = EMPTY_CELLS if on else struck.body.battery
+        elif name == "robot_off":
+            struck.powered = not on
+
+    def on(self) -> list[tuple[str, int]]:
+        """Every fault that is on, with the robot that it was switched on for."""
+        return [(name, robot) for name, robots in self._robots.items() for robot in robots]
+
+    def tick(self, now: float) -> None:
+        """Hands move what they hold."""
+        for robot, (since, (x, y, heading)) in self._robots["marker_held"].items():
+            held, time = self._arena.robots[robot], now - since
+            held.height = min(HELD_AT, 900.0 * time)
+            held.x, held.y = x + 25.0 * sin(5.0 * time), y + 25.0 * sin(3.7 * time)
+            held.heading = heading + 0.4 * sin(4.3 * time)
+        for robot in self._robots["upside_down"]:
+            self._arena.robots[robot].height = TURNED_AT
+        for robot, (since, (x, y, heading)) in self._robots["carried"].items():
+            carried, time = self._arena.robots[robot], now - since
+            carried.height = min(CARRIED_AT, 900.0 * time)
+            way, towards = min(CARRY_WAY, CARRY_SPEED * time), atan2(-y, -x)
+            carried.x, carried.y = x + way * cos(towards), y + way * sin(towards)
+            carried.heading = heading + 0.004 * way
+
+    def things(self, robot: int, poses: tuple[Placing, ...]) -> list[Thing]:
+        """What the camera sees of a robot with these poses, faults and all."""
+        height = self._arena.robots[robot].height
+        x, y, _ = poses[-1]
+        if robot in self._robots["upside_down"]:
+            return [Thing(underside(), LID_HEIGHT + height, poses)]
+        seen = [Thing(body(), BODY_HEIGHT + height, poses[-1:]), Thing(lid(robot), LID_HEIGHT + height, poses)]
+        if robot in self._robots["marker_covered"]:
+            seen.append(Thing(hand(), LID_HEIGHT + 30.0, poses[-1:]))
+        if height:
+            seen.append(Thing(hand(), BODY_HEIGHT + height, ((x + 45.0, y + 45.0, -0.8),)))
+        if robot in self._robots["marker_twice"]:
+            _, (x, y, heading) = self._robots["marker_twice"][robot]
+            away = hypot(x, y) or 1.0
+            seen.append(Thing(card(robot), 0.0, ((x * (1 - 300.0 / away), y * (1 - 300.0 / away), heading + 1.0),)))
+        return seen

@@ -1,0 +1,98 @@
+"""What runs on an emulated robot: it hears drive packets byte by byte, sets its motors, stops by itself, and reports.
+
+Drive: `D0 seq enable L1 R1 L2 R2 L3 R3 L4 R4 chk`, speeds 0..126 with 63 for stop. Telemetry, five times a second:
+`D4 addr seq flags mvLo7 mvHi7 chk`. The check is a CRC-8 of all bytes before it, without its top bit.
+"""
+
+from pigaming_app.hardware.emulator.robots import Robot
+
+DRIVE, REPORT = 0xD0, 0xD4
+DRIVE_BYTES = 12
+MIDDLE = 63
+DEADMAN = 0.250  # s
+REPORT_EVERY, SLOT = 0.200, 0.010  # s
+WARN, STOP = 4.4, 4.0  # V
+STOPPED, LOW, EMPTY = 1, 2, 4  # flags
+
+
+class Firmware:
+    """The controller of one robot. `address` is 1 to 4."""
+
+    def __init__(self, robot: Robot, address: int) -> None:
+        self.robot, self.address = robot, address
+        self.heard = -1e9  # s, when the last valid packet ended
+        self.packets = self.rejected = 0
+        self._packet = bytearray()
+        self._seq = 0
+        self._phase = 0.0  # s, since when reports are counted
+        self._reported = -1
+
+    @property
+    def stopped(self) -> bool:
+        """Whether no motor is given anything."""
+        return not (self.robot.left or self.robot.right)
+
+    def hear(self, data: bytes, now: float) -> None:
+        """Bytes from the radio."""
+        if not self.robot.alive:
+            return
+        for byte in data:
+            if byte >= 0x80:
+                self._packet.clear()
+                if byte == DRIVE:
+                    self._packet.append(byte)
+            elif self._packet:
+                self._packet.append(byte)
+                if len(self._packet) == DRIVE_BYTES:
+                    self._obey(bytes(self._packet), now)
+                    self._packet.clear()
+
+    def tick(self, now: float) -> bytes:
+        """Stop when nobody was heard for too long; the report that is due now, or nothing."""
+        robot = self.robot
+        if not robot.alive:
+            self.heard = -1e9
+            return b""
+        if now - self.heard >= DEADMAN or robot.battery < STOP:
+            robot.left = robot.right = 0.0
+        due = int((now - self._phase - SLOT * (self.address - 1)) // REPORT_EVERY)
+        if due <= self._reported:
+            return b""
+        self._reported = due
+        return self._report(now)
+
+    def _obey(self, packet: bytes, now: float) -> None:
+        if check(packet[:-1]) != packet[-1]:
+            self.rejected += 1
+            return
+        self.packets += 1
+        self.heard, self._seq = now, packet[1]
+        if self._seq % 10 == 0:
+            self._phase, self._reported = now, -1
+        left, right = packet[1 + 2 * self.address], packet[2 + 2 * self.address]
+        enabled = packet[2] >> (self.address - 1) & 1 and self.robot.battery >= STOP
+        self.robot.left = _share(left) if enabled else 0.0
+        self.robot.right = _share(right) if enabled else 0.0
+
+    def _report(self, now: float) -> bytes:
+        battery = self.robot.battery
+        flags = STOPPED if now - self.heard >= DEADMAN else 0
+        flags |= (LOW if battery < WARN else 0) | (EMPTY if battery < STOP else 0)
+        millivolts = round(1000 * battery)
+        report = bytes([REPORT, self.address, self._seq, flags, millivolts & 0x7F, millivolts >> 7 & 0x7F])
+        return report + bytes([check(report)])
+
+
+def check(packet: bytes) -> int:
+    """CRC-8 with the polynomial x^8 + x^2 + x + 1, its lower seven bits."""
+    crc = 0
+    for byte in packet:
+        crc ^= byte
+        for _ in range(8):
+            crc = (crc << 1 ^ 0x07) & 0xFF if crc & 0x80 else crc << 1
+    return crc & 0x7F
+
+
+def _share(speed: int) -> float:
+    """Of full speed, in [-1, 1]."""
+    return min(speed, 2 * MIDDLE) / MIDDLE - 1.0

@@ -1,0 +1,184 @@
+"""The emulated radio: a serial line to an XBee, the air, and on every robot another XBee on another serial line.
+
+Bytes take their time on each line (ten bits at the baud rate), packets theirs in the air, where they are lost, doubled
+and late. The computer's end is a Port. Everything happens in the time of the clock that is handed in.
+"""
+
+from collections import deque
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from random import Random
+from threading import Lock
+
+from pigaming_app.hardware.emulator import xbee
+from pigaming_app.hardware.emulator.firmware import Firmware
+from pigaming_app.hardware.signals import Clock
+
+TRANSPARENT, API, API_ESCAPED = 0, 1, 2
+SILENCE = 3  # characters of it end a packet where there are no frames
+LINE_HOLDS = 4096  # bytes that wait to be sent; more are refused
+PARAMETERS = {b"MY": 2, b"ID": 2, b"CH": 1, b"DB": 1, b"NI": 0, b"VR": 2, b"AP": 1, b"BD": 4}  # bytes of each
+
+
+@dataclass(frozen=True)
+class Air:
+    """How well packets come through."""
+
+    mode: int = API_ESCAPED
+    baud: int = 57600
+    soonest: float = 0.002  # s in the air
+    latest: float = 0.008
+    loss: float = 0.0  # share of packets, for each robot on its own
+    doubled: float = 0.0
+    broken: float = 0.0  # share of packets that get a wrong bit on the robot's line
+    garbage: float = 0.0  # bytes of rubbish a second on the computer's line and on each robot's
+
+
+class EmulatedRadio:
+    """The computer's end of the radio, a Port. `dead`: nothing goes through; `unplugged`: the port is gone."""
+
+    def __init__(self, firmwares: list[Firmware], air: Air, clock: Clock, seed: int) -> None:
+        self.firmwares, self.air, self.clock = firmwares, air, clock
+        self.dead = self.unplugged = False
+        self.more_loss = self.more_garbage = 0.0  # besides those of `air`
+        self.frames = 0  # understood from the computer
+        self._random = Random(f"radio {seed}")
+        self._lock = Lock()
+        self._ear = xbee.Ear(air.mode == API_ESCAPED)
+        self._events: list[tuple[float, int, int, bytes]] = []  # s, order, robot, what reaches it
+        self._order = 0
+        self._out_free = self._in_free = self._last = clock()
+        self._incoming: deque[tuple[float, int]] = deque()
+
+    @property
+    def in_waiting(self) -> int:
+        """Bytes that have come by now. Raises OSError when unplugged."""
+        self._must_be_there()
+        now = self.clock()
+        with self._lock:
+            return sum(1 for at, _ in self._incoming if at <= now)
+
+    def read(self, size: int = 1) -> bytes:
+        """At most `size` bytes, without waiting for any. Raises OSError when unplugged."""
+        self._must_be_there()
+        out, now = bytearray(), self.clock()
+        with self._lock:
+            while self._incoming and self._incoming[0][0] <= now and len(out) < size:
+                out.append(self._incoming.popleft()[1])
+        return bytes(out)
+
+    def write(self, data: bytes) -> int:
+        """Put bytes on the line. Raises OSError when unplugged or when too many wait."""
+        self._must_be_there()
+        with self._lock:
+            byte = 10.0 / self.air.baud
+            self._out_free = max(self._out_free, self.clock())
+            if (self._out_free - self.clock()) / byte + len(data) > LINE_HOLDS:
+                raise OSError("the line is full")
+            if self.air.mode == TRANSPARENT:
+                self._out_free += len(data) * byte
+                self._send(xbee.BROADCAST, bytes(data), self._out_free + SILENCE * byte)
+                return len(data)
+            for value in data:
+                self._out_free += byte
+                frame = self._ear.hear(value)
+                if frame is not None:
+                    self._take(frame, self._out_free)
+        return len(data)
+
+    def close(self) -> None:
+        """The computer lets go of the port; the radio stays."""
+
+    def step(self) -> None:
+        """Let everything happen that is due: robots hear, report, and stop by themselves."""
+        now = self.clock()
+        with self._lock:
+            while self._events and self._events[0][0] <= now:
+                at, _, robot, data = heappop(self._events)
+                self.firmwares[robot].hear(data, at)
+            for robot, firmware in enumerate(self.firmwares):
+                report = firmware.tick(now)
+                if report:
+                    self._come(robot, report, now)
+            self._scatter(now - self._last)
+            self._last = now
+
+    def _must_be_there(self) -> None:
+        if self.unplugged:
+            raise OSError("device reports readiness to read but returned no data (device disconnected?)")
+
+    def _take(self, frame: bytes, now: float) -> None:
+        """A frame from the computer has ended."""
+        self.frames += 1
+        if frame[0] == xbee.TX16 and len(frame) > 5:
+            number, to = frame[1], frame[2] * 256 + frame[3]
+            reached = self._send(to, frame[5:], now)
+            if number:
+                self._answer(bytes([xbee.TX_STATUS, number, 0 if reached else 1]), now + self._flight())
+        elif frame[0] == xbee.AT and len(frame) >= 4:
+            name, given = frame[2:4], frame[4:]
+            known = name in PARAMETERS
+            value = self.air.mode if name == b"AP" else 0
+            answer = b"" if given or not known else value.to_bytes(max(1, PARAMETERS[name]), "big")
+            self._answer(bytes([xbee.AT_ANSWER, frame[1], *name, 0 if known else 2]) + answer, now + 0.002)
+
+    def _send(self, to: int, data: bytes, now: float) -> bool:
+        """Through the air to one robot or all; whether it counts as delivered."""
+        if self.dead:
+            return False
+        reached = to == xbee.BROADCAST
+        for robot, firmware in enumerate(self.firmwares):
+            if to in (xbee.BROADCAST, firmware.address) and not self._lost(to):
+                reached = reached or firmware.robot.alive
+                for _ in range(2 if self._random.random() < self.air.doubled else 1):
+                    self._land(robot, data, now + self._flight())
+        return reached
+
+    def _land(self, robot: int, data: bytes, now: float) -> None:
+        """What a robot's radio hands on to its controller, at the end of its last byte."""
+        if self._random.random() < self.air.broken:
+            at = self._random.randrange(len(data))
+            data = data[:at] + bytes([data[at] ^ 1 << self._random.randrange(8)]) + data[at + 1 :]
+        self._order += 1
+        heappush(self._events, (now + len(data) * 10.0 / self.air.baud, self._order, robot, data))
+
+    def _come(self, robot: int, data: bytes, now: float) -> None:
+        """What a robot says, on its way to the computer."""
+        if self.dead or self._lost(0):
+            return
+        leaves = now + (len(data) + SILENCE) * 10.0 / self.air.baud + self._flight()
+        if self.air.mode == TRANSPARENT:
+            self._line(data, leaves)
+            return
+        strength = 38 + 2 * robot + self._random.randrange(6)  # -dBm
+        address = self.firmwares[robot].address
+        self._answer(bytes([xbee.RX16, 0, address, strength, 0]) + data, leaves)
+
+    def _answer(self, data: bytes, now: float) -> None:
+        self._line(xbee.framed(data, self.air.mode == API_ESCAPED), now)
+
+    def _line(self, data: bytes, now: float) -> None:
+        """Bytes towards the computer, one after the other."""
+        self._in_free = max(self._in_free, now)
+        for value in data:
+            self._in_free += 10.0 / self.air.baud
+            self._incoming.append((self._in_free, value))
+
+    def _scatter(self, seconds: float) -> None:
+        """Rubbish on the lines."""
+        random, garbage = self._random, self.air.garbage + self.more_garbage
+        for line in range(1 + len(self.firmwares)):
+            if garbage and random.random() < garbage * seconds:
+                rubbish = random.randbytes(1)
+                if line:
+                    self._land(line - 1, rubbish, self.clock())
+                else:
+                    self._line(rubbish, self.clock())
+
+    def _lost(self, to: int) -> bool:
+        """Whether a packet is lost; one that is acknowledged is tried four times, as the radio does."""
+        tries = 1 if to == xbee.BROADCAST else 4
+        return all(self._random.random() < self.air.loss + self.more_loss for _ in range(tries))
+
+    def _flight(self) -> float:
+        return self._random.uniform(self.air.soonest, self.air.latest)
