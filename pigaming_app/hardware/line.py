@@ -158,7 +158,7 @@ class Line:
 
     def write(self, data: bytes) -> None:
         """Send, or forget it while there is no port."""
-        if self._port is None:
+        if self._port is None or not data:
             return
         try:
             self._port.write(data)

@@ -37,6 +37,7 @@ class Stock:
     def __init__(self, robot: int = 0) -> None:
         self._robot = robot
         self._telemetry: dict[int, Telemetry] = {}
+        self._waiting, self._expected = bytearray(), 0  # bytes that came, bytes that an answer will have
         self.open(0.0)
 
     def open(self, now: float) -> bytes:

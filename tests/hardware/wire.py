@@ -1,0 +1,84 @@
+"""A serial line made of two lists and a clock that is told the time, and robots' answers, for tests of the link."""
+
+from pigaming_app.hardware import packets
+from pigaming_app.hardware.packets import FrameDecoder, PacketDecoder
+
+
+class Time:
+    """A clock that a test sets."""
+
+    def __init__(self):
+        self.now = 100.0
+
+    def __call__(self):
+        return self.now
+
+
+class Wire:
+    """A port: what was written to it with its times, and what it will give to read. It can be cut."""
+
+    def __init__(self, time):
+        self.time = time
+        self.written = []  # (s, bytes)
+        self.coming = b""
+        self.cut = None  # an error that everything raises from now on
+        self.is_closed = False
+
+    @property
+    def in_waiting(self):
+        self._check()
+        return len(self.coming)
+
+    def read(self, size=1):
+        self._check()
+        given, self.coming = self.coming[:size], self.coming[size:]
+        return given
+
+    def write(self, data):
+        self._check()
+        self.written.append((self.time(), data))
+        return len(data)
+
+    def close(self):
+        self.is_closed = True
+
+    def _check(self):
+        assert not self.is_closed
+        if self.cut:
+            raise self.cut
+
+
+class Radio(Wire):
+    """A wire with an XBee at its end: it answers every broadcast, unless it is told to be quiet."""
+
+    def __init__(self, time, escaped=True, ap=None):
+        super().__init__(time)
+        self.escaped, self.ap = escaped, 2 if escaped else 1
+        self.ap = ap or self.ap
+        self.status = 0
+        self._frames = FrameDecoder(escaped)
+        self.drives = []  # (s, Drive)
+
+    def write(self, data):
+        super().write(data)
+        for one in self._frames.feed(data):
+            match packets.decode(one):
+                case packets.Send(number, packets.BROADCAST, packet):
+                    self.drives += [(self.time(), packets.drive_from(found)) for found in PacketDecoder().feed(packet)]
+                    self.say(packets.Outcome(number, self.status))
+                case packets.Ask(number, "AP", b""):
+                    self.say(packets.Answer(number, "AP", 0, bytes((self.ap,))))
+        return len(data)
+
+    def say(self, message):
+        self.coming += packets.frame(packets.encode(message), self.escaped)
+
+
+def run(link, time, seconds, each=lambda: None):
+    """Pump the link every 10 ms of simulated time, after doing `each`."""
+    begun = time.now
+    for tick in range(round(seconds * 100)):
+        time.now = begun + tick / 100
+        each()
+        link.pump()
+    time.now = begun + seconds
