@@ -1,6 +1,6 @@
 """Who plays when nobody does, and the only list of them."""
 
-from pigaming_app.ai import foreman, fsm, racer, simple
+from pigaming_app.ai import classic, foreman, fsm, racer, simple
 from pigaming_app.ai.brain import Kind, Thinker
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
@@ -14,6 +14,7 @@ BRAINS: dict[str, dict[str, Kind]] = {
         "normal": fsm.NORMAL,
         "hard": fsm.HARD,
         "fsm": fsm.FSM,
+        "classic": classic.CLASSIC,
     },
     "factory": {
         "idle": simple.IDLE,
