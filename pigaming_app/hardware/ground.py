@@ -5,6 +5,7 @@ display, camera or version, or one that somebody edited by hand, is refused in o
 """
 
 import tomllib
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from math import atan2, hypot, isfinite
 from zlib import crc32
@@ -71,17 +72,33 @@ class Ground:
         apparent = foot + (places - foot) * (self.height / (self.height - height))
         return self.lens.bend(project(self._back, apparent))  # type: ignore[attr-defined]
 
-    def fix(self, mark: Mark, captured: float) -> Fix | str:
-        """Where the robot with this marker is, or why that cannot be a marker on a robot: `size` or `tilted`."""
-        corners = self.at_height(mark.corners, self.lid)
-        edges = [hypot(*(corners[i] - corners[i - 1])) for i in range(4)]
+    def fixes(self, marks: Sequence[Mark], captured: float) -> list[Fix | str]:
+        """Where the robots with these markers are; or why one cannot be a marker on a robot: `size` or `tilted`."""
+        if not marks:
+            return []
+        seen = np.concatenate([mark.corners for mark in marks])
+        corners = self.at_height(seen, self.lid).reshape(-1, 4, 2)
+        found = zip(marks, corners.tolist(), strict=True)
+        return [self._fix(mark.number, corner, captured) for mark, corner in found]
+
+    def edge_mm(self, mark: Mark) -> float:
+        """The edge of a marker on a lid, mm: another than the printed one says that the mat was measured wrongly."""
+        corners = self.at_height(mark.corners, self.lid).tolist()
+        return sum(_edges(corners)) / 4.0 * self.mm
+
+    def _fix(self, number: int, corners: list[list[float]], captured: float) -> Fix | str:
+        edges = _edges(corners)
         if not max(edges) <= SKEW_TOLERANCE * min(edges):
             return "tilted"
         if abs(sum(edges) / 4.0 * self.mm / self.marker - 1.0) > SIZE_TOLERANCE:
             return "size"
-        x, y = corners.mean(axis=0)
-        ahead = corners[0] + corners[1] - corners[2] - corners[3]
-        return Fix(mark.number, float(x), float(y), atan2(ahead[1], ahead[0]), captured)
+        (ax, ay), (bx, by), (cx, cy), (dx, dy) = corners
+        heading = atan2(ay + by - cy - dy, ax + bx - cx - dx)
+        return Fix(number, (ax + bx + cx + dx) / 4.0, (ay + by + cy + dy) / 4.0, heading, captured)
+
+
+def _edges(corners: list[list[float]]) -> list[float]:
+    return [hypot(corners[i][0] - corners[i - 1][0], corners[i][1] - corners[i - 1][1]) for i in range(4)]
 
 
 def project(matrix: NDArray[np.float64], points: Points) -> Points:

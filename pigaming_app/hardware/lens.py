@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-ROUNDS = 8  # of Newton: to 1e-9 of the width for every lens that shows each point once
+ROUNDS = 6  # of Newton: to 1e-6 of the width for every lens that shows each point once
 
 Points = NDArray[np.float64]  # (n, 2) px
 
@@ -40,7 +40,7 @@ class Lens:
         away = (seen - self.centre) / self.size[0]
         bent = np.sqrt((away * away).sum(axis=1))
         r = bent.copy()
-        for _ in range(ROUNDS):
+        for _ in range(ROUNDS if self.k1 or self.k2 else 0):
             r2 = r * r
             slope = 1.0 + r2 * (3.0 * self.k1 + r2 * 5.0 * self.k2)
             r -= (r * (1.0 + r2 * (self.k1 + r2 * self.k2)) - bent) / np.maximum(slope, 0.05)
