@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Protocol
 
+from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.sim.action import press
 from pigaming_app.sim.record import packed, record
 
@@ -31,7 +32,8 @@ class Kind:
     """A sort of brain: `think(match, seat, mind, known)` sets the seat's action, `wake(mind, seed)` fills a fresh mind.
 
     `known(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
-    same one; it may read a file when it is first asked.
+    same one; it may read a file when it is first asked. `explain`, of the same arguments as `think`, says what is on
+    its mind at this moment, for people who watch; it only reads.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Kind:
     think: Callable[[Any, int, Any, Any], None]
     wake: Callable[[Any, int], None]
     known: Callable[[bool], Any] = nothing
+    explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
 
 
 class Thinker:
@@ -53,6 +56,10 @@ class Thinker:
     def think(self, state: Any, seat: int) -> None:
         """Set the seat's action for this tick."""
         self.kind.think(state, seat, self.mind, self.known)
+
+    def explain(self, state: Any, seat: int) -> Thoughts | None:
+        """What is on its mind; None: this kind keeps that to itself."""
+        return self.kind.explain(state, seat, self.mind, self.known) if self.kind.explain else None
 
 
 class Held(Protocol):

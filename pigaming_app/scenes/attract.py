@@ -43,7 +43,10 @@ class Attract:
         self.house.sounds.music(False)
 
     def on(self, press: Press) -> Turn:
-        """Whatever is pressed, back to the title, where it counts for nothing."""
+        """Whatever is pressed, back to the title, where it counts for nothing; F4 shows what the AIs think."""
+        if press.act is Act.BRAIN and isinstance(self.show, Demonstration):
+            self.show.stage.brain.next()
+            return None
         return None if press.act is Act.LOST else Home()
 
     def update(self, seconds: float) -> Turn:

@@ -14,6 +14,7 @@ from pigaming_app.scenes.held import DIRECTIONS, Change, Held
 from pigaming_app.scenes.press import Act, Device, Drive, Press
 
 _MOUSE = Device("mouse")
+_NOBODYS = (Act.FOUND, Act.LOST, Act.BRAIN)  # say nothing about what somebody plays with
 _TAP_SECONDS = 0.1  # a fire button that went down and up between two ticks still fires within this time
 _MAPPED = (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP, pygame.CONTROLLERAXISMOTION)
 _PLAIN = (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYAXISMOTION, pygame.JOYHATMOTION)
@@ -37,7 +38,7 @@ class Controls:
         """What was pressed, in order. Call it once a frame with every event, also while nobody listens."""
         made = [press for event in events for press in self._heard(event)]
         for press in made:
-            if press.device != _MOUSE and press.act not in (Act.FOUND, Act.LOST):
+            if press.device != _MOUSE and press.act not in _NOBODYS:
                 self.last = press.device
         return made
 
@@ -78,8 +79,8 @@ class Controls:
     def label(self, device: Device | None, act: Act) -> str:
         """What is printed on the button that means `act` (None: of the device used last); empty if there is none."""
         device = device or self.last
-        if device.kind == "keys":
-            return keyboard.label(device.number, act)
+        if device.kind == "keys" or act is Act.BRAIN:
+            return keyboard.label(device.number if device.kind == "keys" else 0, act)
         return pads.label(self.name(device), act) if device.kind == "pad" else ""
 
     def _heard(self, event: pygame.Event) -> Iterator[Press]:

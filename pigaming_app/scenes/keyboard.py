@@ -81,8 +81,9 @@ _SHARED = {
     pygame.KSCAN_BACKSPACE: Act.BACK,
     pygame.KSCAN_TAB: Act.ALT,
     pygame.KSCAN_X: Act.EXTRA,
+    pygame.KSCAN_F4: Act.BRAIN,
 }
-_SHARED_PRINTED = {Act.START: "ENTER", Act.BACK: "ESC", Act.ALT: "TAB", Act.EXTRA: "X"}
+_SHARED_PRINTED = {Act.START: "ENTER", Act.BACK: "ESC", Act.ALT: "TAB", Act.EXTRA: "X", Act.BRAIN: "F4"}
 _SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # held with another key, these speak to the window manager
 
 

@@ -68,6 +68,8 @@ class MatchScene:
         self.idle = 0.0
         if self.match.over:
             return None
+        if press.act is Act.BRAIN:
+            self.think_aloud()
         if press.act is Act.START or (press.act is Act.BACK and press.device.kind == "keys"):
             return Push(Pause(self, press.device))
         if press.act is Act.FIRE and self.stood_in and self.free(press.device):
@@ -135,6 +137,12 @@ class MatchScene:
         name = name if device else self.house.words("match.back_in")
         self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.house.sounds.play("join", seat)
+
+    def think_aloud(self) -> None:
+        """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
+        if not self.stage.brain.seats:
+            self.notice, self.noticed = plate(self.house.words("brain.nobody"), sign="ai"), NOTICE
+        self.stage.brain.next()
 
     def picture(self) -> pygame.Surface:
         """The match as it lies behind a page."""

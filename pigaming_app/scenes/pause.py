@@ -28,6 +28,9 @@ class Held(Protocol):
     def picture(self) -> pygame.Surface:
         """The match as it lies behind a page."""
 
+    def think_aloud(self) -> None:
+        """Show what the next AI thinks."""
+
     def restart(self) -> None:
         """Begin anew."""
 
@@ -43,18 +46,19 @@ class Pause:
         self.player = match.devices.index(device) if device in match.devices else None
         self.picture: pygame.Surface | None = None
         self.focus = Focus(items())
-        self.prompts = Prompts(
-            self.house, [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue")], PROMPTS, W - 80
-        )
+        hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80)
 
     def entered(self) -> None:
         """Quiet."""
         self.house.sounds.music(False)
 
     def on(self, press: Press) -> Turn:
-        """START and BACK go on; FIRE takes what has the focus."""
+        """START and BACK go on, and so does F4, with a look into an AI; FIRE takes what has the focus."""
         press = self.prompts.meant(press)
-        if press.act in (Act.START, Act.BACK):
+        if press.act is Act.BRAIN:
+            self.match.think_aloud()
+        if press.act in (Act.START, Act.BACK, Act.BRAIN):
             return self._do("continue")
         if self.focus.on(press):
             self.house.sounds.play("move")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games.match import Match
+from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.pace import Pace
@@ -31,6 +32,7 @@ class Stage:
         self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
         kind = VIEWS[match.setup.game]
         self.view = kind(match.arena, match.state, self.players, house.settings, house.words)
+        self.brain = BrainOverlay(match, self.view, house.words)
         self.pace = Pace()
         self.unseen = 0.0  # seconds of real time since the last picture
         self.second = LAST + 1
@@ -59,6 +61,7 @@ class Stage:
         """Paint the match, between its last two ticks."""
         blend = 1.0 if self.match.over else self.pace.blend
         self.view.draw(screen, self.match.state, blend, self.unseen)
+        self.brain.draw(screen, blend, self.unseen)
         self.unseen = 0.0
 
     def picture(self) -> pygame.Surface:

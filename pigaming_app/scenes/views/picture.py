@@ -15,7 +15,7 @@ import pygame
 from pigaming_app.scenes import effects
 from pigaming_app.scenes.ink import ADD, PRE
 from pigaming_app.scenes.sprites import Batch, put, step
-from pigaming_app.scenes.views.ground import LEFT, TOP, Ground
+from pigaming_app.scenes.views.ground import HUD_HEIGHT, LEFT, TOP, Ground
 from pigaming_app.scenes.views.moments import Moments
 from pigaming_app.scenes.views.treads import Treads
 from pigaming_app.scenes.views.warming import Job, driving
@@ -37,8 +37,11 @@ class Taste(Protocol):
 class Picture:
     """The view of one match. `players`: for each seat "human" or the name of the AI that drives; may be changed.
 
-    A game's view is made of arena, state, players, taste and words; it fills `watch` and `draw`.
+    A game's view is made of arena, state, players, taste and words; it fills `watch` and `draw`. `clock`: the part of
+    the HUD between the panels.
     """
+
+    clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
 
     def __init__(self, state: Any, players: list[str], taste: Taste, words: Words | None, ground: Ground) -> None:
         self.players, self.taste, self.words, self.ground = players, taste, words, ground

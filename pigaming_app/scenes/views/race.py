@@ -13,7 +13,7 @@ from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.sprites import HEADINGS, Batch, Sprite, put, step
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.views import race_cards, race_signs
-from pigaming_app.scenes.views.ground import LEFT, TOP
+from pigaming_app.scenes.views.ground import HUD_HEIGHT, LEFT, TOP
 from pigaming_app.scenes.views.picture import Heard, Picture, Pose, Taste, Words
 from pigaming_app.scenes.views.race_ghost import Haunt
 from pigaming_app.scenes.views.race_happenings import SHOWN_FROM, Happening, Watcher
@@ -35,6 +35,8 @@ SPRAYED = 60.0  # px/s from which mud flies
 
 class RaceView(Picture):
     """The view of one race."""
+
+    clock = pygame.Rect(872, 0, 176, HUD_HEIGHT)
 
     def __init__(self, arena: Arena, state: Race, players: list[str], taste: Taste, words: Words | None = None) -> None:
         super().__init__(state, players, taste, words, Raceway(arena.plan))

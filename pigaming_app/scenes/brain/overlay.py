@@ -1,0 +1,106 @@
+"""The brain overlay itself: whose brain is shown, asked a few times a second, drawn with every picture.
+
+It only looks. The match it draws over is neither changed nor slowed: brains are asked after a tick, never within one.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import pygame
+
+from pigaming_app.ai.brain import Thinker
+from pigaming_app.ai.thoughts import PETALS, Move, Thoughts
+from pigaming_app.games.match import Match
+from pigaming_app.scenes.brain import cards, marks
+from pigaming_app.scenes.ink import ADD, PLAYERS
+from pigaming_app.scenes.sprites import Batch
+from pigaming_app.scenes.views.ground import LEFT, TOP
+from pigaming_app.scenes.views.picture import Picture
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+EVERY = 5  # ticks between two questions
+EASE = 10.0  # of what is missing, in a second: bars and petals do not jump
+TILTED = 0.35  # of a stick's way from which on it counts as held
+
+
+class BrainOverlay:
+    """Shows the brain of one AI seat of a match, or none."""
+
+    def __init__(self, match: Match, view: Picture, words: Callable[..., str]) -> None:
+        self.match, self.view, self.words = match, view, words
+        self.seat: int | None = None
+        self.thoughts = Thoughts("starts")
+        self.asked = -EVERY  # the tick of the last question
+        self.rose = [0.0] * PETALS
+        self.wishes: dict[str, float] = {}
+        self.clock = 0.0
+
+    @property
+    def seats(self) -> list[int]:
+        """Those on which a brain sits that explains itself."""
+        return [seat for seat in self.view.seats if self._brain(seat)]
+
+    def next(self) -> None:
+        """Show the first AI, then the one after it, and after the last none."""
+        after = [seat for seat in self.seats if self.seat is None or seat > self.seat]
+        self.seat = after[0] if after else None
+        self.asked, self.rose, self.wishes = -EVERY, [0.0] * PETALS, {}
+
+    def draw(self, screen: pygame.Surface, blend: float, seconds: float) -> None:
+        """Paint it over the match, `seconds` after the last picture."""
+        brain = None if self.seat is None else self._brain(self.seat)
+        if self.seat is None or brain is None:  # somebody may have taken the seat
+            self.seat = None
+            return
+        state = self.match.state
+        if not self.asked <= state.tick < self.asked + EVERY:
+            self.asked = state.tick
+            self.thoughts = brain.explain(state, self.seat) or Thoughts("starts")
+        self._ease(seconds)
+        self._floor(screen, state, self.seat, blend)
+        self._boxes(screen, state, self.seat)
+
+    def _brain(self, seat: int) -> Thinker | None:
+        brain = self.match.brains[seat]
+        return brain if isinstance(brain, Thinker) and brain.kind.explain else None
+
+    def _ease(self, seconds: float) -> None:
+        """Let what is shown follow what is thought."""
+        self.clock += seconds
+        part, thoughts = 1.0 - math.exp(-EASE * seconds), self.thoughts
+        self.rose = [old + part * (new - old) for old, new in zip(self.rose, thoughts.rose, strict=True)]
+        shown: Mapping[str, float] = self.wishes
+        self.wishes = {
+            name: (old := shown.get(name, 0.0)) + part * (new - old) for name, new in thoughts.wishes.items()
+        }
+
+    def _floor(self, screen: pygame.Surface, state: Any, seat: int, blend: float) -> None:
+        light: Batch = []
+        pose, sights = self.view.pose(seat, blend), self.thoughts.sights
+        marks.draw_sights(light, state, pose, sights, PLAYERS[seat], self.clock)
+        marks.draw_rose(light, pose, self.rose, sights)
+        screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
+        screen.fblits(light, ADD)
+        screen.set_clip(None)
+
+    def _boxes(self, screen: pygame.Surface, state: Any, seat: int) -> None:
+        """The texts left of the clock, the wishes right of it."""
+        thoughts, clock = self.thoughts, self.view.clock
+        left, right, w = LEFT, clock.right + 8, clock.left - 8 - LEFT
+        cards.blank(screen, LEFT - 12, clock.left)
+        cards.blank(screen, clock.right, LEFT + int(WIDTH) + 12)
+        doing = self.words(f"brain.{thoughts.doing}", **thoughts.names)
+        because = self.words(f"brain.because_{thoughts.because}", **thoughts.names) if thoughts.because else ""
+        cards.draw_words(screen, left, w, seat, doing, because)
+        if thoughts.moves:
+            sure = self.words("brain.sure", **thoughts.names) if "percent" in thoughts.names else ""
+            cards.draw_moves(screen, right, w, seat, thoughts.moves, thoughts.chosen, sure)
+        else:
+            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen, held(state.actions[seat]))
+
+
+def held(action: Any) -> Move:
+    """How the stick is held, in three steps each way, and the button."""
+    linear, angular = (int(value > TILTED) - int(value < -TILTED) for value in (action.linear, action.angular))
+    return linear, angular, int(action.fire)
