@@ -1,0 +1,154 @@
+"""The hardware of one arena, put together: a camera's eye, a tracker and a link, on one clock.
+
+`pump` does what there is to do now: look at the newest picture, let the link talk. In the arena a thread does that
+(`start`); in simulated time whoever owns the time does. What a robot is told goes through `tell`, which also lets the
+tracker know.
+"""
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.kinematics import Kinematics
+from pigaming_app.hardware.safety import Signs
+from pigaming_app.hardware.signals import Clock, Eye, Frame, Telemetry, Wheels
+from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
+from pigaming_app.sim.plant import Sighting, Twist
+from pigaming_app.sim.world import ROBOTS
+
+UNMEASURED = replace(NOMINAL, dead_time=0.03)  # s until the motors hear: tick, serial line, air
+SPARSE = 24  # px between those of a picture that are compared with the one before
+PERIOD = 0.005  # s between two looks for a new picture
+
+
+class Follows(Protocol):
+    """The part of a tracker that a rig uses."""
+
+    looked: float  # s, when the newest picture was taken that was looked at
+
+    def sent(self, time: float, twists: Sequence[Twist | None]) -> None: ...
+
+    def see(self, frame: Frame) -> object: ...
+
+    def sense(self, now: float) -> list[Sighting]: ...
+
+    def lost(self, robot: int) -> float: ...
+
+    def doubled(self) -> set[int]: ...
+
+
+class Talks(Protocol):
+    """The part of a link that a rig uses."""
+
+    @property
+    def telemetry(self) -> Mapping[int, Telemetry]: ...
+
+    @property
+    def trouble(self) -> Any: ...
+
+    def send(self, wheels: Sequence[Wheels | None]) -> None: ...
+
+    def pump(self) -> None: ...
+
+    def start(self) -> object: ...
+
+    def close(self) -> None: ...
+
+
+class Rig:
+    """Robot i wears marker i; `channels[i]` is the place of its radio in what the link sends (see pairing)."""
+
+    def __init__(
+        self,
+        eye: Eye,
+        tracker: Follows,
+        link: Talks,
+        clock: Clock,
+        drivetrains: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS,
+        drift: Callable[[], float] = lambda: 0.0,
+    ) -> None:
+        self.eye, self.tracker, self.link, self.clock = eye, tracker, link, clock
+        self.kinematics = [Kinematics(one) for one in drivetrains]
+        self.channels: Sequence[int] = tuple(range(ROBOTS))
+        self.drift = drift  # mm by which the corner markers have moved
+        self._begun = clock()
+        self._sample: NDArray[np.uint8] | None = None  # of the newest picture
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+        self._closing = threading.Event()
+
+    def pump(self) -> None:
+        """Look at the newest picture, if there is a new one, and let the link do its part. Idle while a thread runs."""
+        if self._thread is None:
+            self._look()
+            self.link.pump()
+
+    def sense(self, ahead: float = 0.0) -> list[Sighting]:
+        """Where the robots are now, or will be so many seconds ahead if nothing else is said to them."""
+        with self._lock:
+            return self.tracker.sense(self.clock() + ahead)
+
+    def tell(self, wheels: Sequence[Wheels | None]) -> None:
+        """Tell every robot what to do from now on; None: motors off."""
+        sent: list[Wheels | None] = [None] * ROBOTS
+        for robot, one in enumerate(wheels):
+            sent[self.channels[robot]] = one
+        twists = [one and self.kinematics[i].comes_to(one) for i, one in enumerate(wheels)]
+        with self._lock:
+            self.tracker.sent(self.clock(), twists)
+        self.link.send(sent)
+        self.pump()
+
+    def telemetry(self, robot: int) -> Telemetry | None:
+        """What a robot said last."""
+        return self.link.telemetry.get(self.channels[robot])
+
+    def signs(self, robot: int, outside: float) -> Signs:
+        """How things stand with a robot that has been outside the arena for so many seconds."""
+        now, report, begun = self.clock(), self.telemetry(robot), self._begun
+        with self._lock:
+            lost, looked, doubled = self.tracker.lost(robot), self.tracker.looked, robot in self.tracker.doubled()
+        return Signs(
+            picture=now - max(looked, begun),
+            unseen=lost if looked > now - lost + 1e-6 else 0.0,
+            doubled=doubled,
+            outside=outside,
+            silence=now - (report.heard if report else begun),
+            battery=report.battery if report else Signs().battery,
+            unlinked=self.link.trouble is not None,
+            drift=self.drift(),
+        )
+
+    def start(self) -> "Rig":
+        """Look and talk in threads of their own until close(); the clock must be one of real time."""
+        self.link.start()
+        self._thread = threading.Thread(target=self._run, name="rig", daemon=True)
+        self._thread.start()
+        return self
+
+    def close(self) -> None:
+        """Stop the robots and let go of camera and radio. May be called again."""
+        self.link.close()
+        self._closing.set()
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join(timeout=1.0)
+        self.eye.close()
+
+    def _run(self) -> None:
+        while not self._closing.wait(PERIOD):
+            self._look()
+
+    def _look(self) -> None:
+        frame = self.eye.newest()
+        if frame is None:
+            return
+        sample = frame.image[::SPARSE, ::SPARSE].copy()
+        if self._sample is not None and np.array_equal(sample, self._sample):
+            return  # a driver that hands out the same picture again: real ones differ by their noise
+        self._sample = sample
+        with self._lock:
+            self.tracker.see(frame)
