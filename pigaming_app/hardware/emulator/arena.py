@@ -73,6 +73,12 @@ class EmulatedArena:
         for _ in range(round(seconds / STEP)):
             self._step()
 
+    def skip(self, seconds: float) -> None:
+        """Put the clock forward: nothing happens in that time."""
+        self.begin += seconds
+        self.camera.due += seconds
+        self._next_gain += seconds
+
     def project(self, image: Image) -> None:
         """Show a grey picture (1080, 1920). The array is kept: hand in another next time."""
         self._coming.append((self.clock() + SHOWS_AFTER, image))

@@ -18,7 +18,7 @@ class Pace:
     """How the camera delivers."""
 
     fps: float = 60.0
-    delay: float = 0.040  # s from the middle of the exposure to the program, usually
+    delay: float = 0.060  # s from the middle of the exposure to the program, usually
     jitter: float = 0.0015  # s, standard deviation
     drops: float = 0.0  # share of the pictures that never arrive
 

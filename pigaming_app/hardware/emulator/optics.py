@@ -7,7 +7,6 @@ rectangle: so what is found there is never exact for free.
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +42,7 @@ class Optics:
         self.turn = _look_at(self.lens)
         rim = np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]]) - 0.5  # whole numbers are middles of px
         self.to_mat = _homography(rim, CORNERS)
-        self.to_canvas = np.linalg.inv(self.to_mat)
+        self.to_canvas: Floats = np.linalg.inv(self.to_mat).astype(np.float64)
         self.rays = _rays(self.lens, self.turn.tobytes())
 
     def mat(self, canvas: Floats) -> Floats:
@@ -129,6 +128,6 @@ def _homography(points: Floats, images: Floats) -> Floats:
     return np.append(np.linalg.solve(np.array(rows), images.ravel()), 1.0).reshape(3, 3)
 
 
-def _mapped(homography: Floats, points: NDArray[np.floating[Any]]) -> Floats:
+def _mapped(homography: Floats, points: Floats) -> Floats:
     image = np.column_stack([points, np.ones(len(points))]) @ homography.T
     return np.asarray(image[:, :2] / image[:, 2:], dtype=np.float64)

@@ -6,9 +6,11 @@ and late. The computer's end is a Port. Everything happens in the time of the cl
 
 from collections import deque
 from dataclasses import dataclass
+from errno import ENOENT
 from heapq import heappop, heappush
 from random import Random
 from threading import Lock
+from typing import Self
 
 from pigaming_app.hardware.emulator import xbee
 from pigaming_app.hardware.emulator.firmware import Firmware
@@ -49,6 +51,12 @@ class EmulatedRadio:
         self._order = 0
         self._out_free = self._in_free = self._last = clock()
         self._incoming: deque[tuple[float, int]] = deque()
+
+    def open(self) -> Self:
+        """What opens this port for a link. Raises FileNotFoundError when unplugged."""
+        if self.unplugged:
+            raise FileNotFoundError(ENOENT, "could not open port")
+        return self
 
     @property
     def in_waiting(self) -> int:

@@ -1,0 +1,125 @@
+"""The emulated radio obeys HARDWARE.md's bytes, takes its time, and loses what it is told to lose."""
+
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.firmware import check
+from pigaming_app.hardware.emulator.radio import API, TRANSPARENT, Air
+from pigaming_app.hardware.emulator.xbee import Ear, framed
+
+GOLDEN = bytes.fromhex("7E 00 09 01 01 00 01 00 50 07 11 7E 16")
+GOLDEN_ESCAPED = bytes.fromhex("7E 00 09 01 01 00 01 00 50 07 7D 31 7D 5E 16")
+
+
+def drive(seq, *speeds, enable=0b1111):
+    """A drive packet by hand."""
+    packet = bytes([0xD0, seq, enable, *speeds])
+    return packet + bytes([check(packet)])
+
+
+def broadcast(packet, escaped=True, number=1):
+    return framed(bytes([0x01, number, 0xFF, 0xFF, 0]) + packet, escaped)
+
+
+FORWARD = drive(0, *[83] * 8)
+
+
+def heard(arena, escaped=True):
+    """Every frame that has come from the radio."""
+    ear = Ear(escaped)
+    return [frame for frame in (ear.hear(byte) for byte in arena.radio.read(10000)) if frame]
+
+
+def test_the_golden_frames_are_understood_and_made():
+    for frame, escaped in ((GOLDEN, False), (GOLDEN_ESCAPED, True)):
+        ear = Ear(escaped)
+        data = [ear.hear(byte) for byte in frame][-1]
+        assert data == bytes.fromhex("01 01 00 01 00 50 07 11 7E")
+        assert framed(data, escaped) == frame
+
+
+def test_a_wrong_checksum_is_refused_and_the_next_frame_heard():
+    ear = Ear(True)
+    broken = GOLDEN_ESCAPED[:-1] + b"\x17"
+    assert [frame for frame in map(ear.hear, broken + GOLDEN_ESCAPED) if frame]
+    assert ear.broken == 1
+
+
+@pytest.mark.parametrize("mode", [TRANSPARENT, API, 2])
+def test_a_broadcast_moves_all_robots_after_its_time_on_the_line(mode):
+    arena = EmulatedArena(1, air=Air(mode=mode))
+    arena.radio.write(FORWARD if mode == TRANSPARENT else broadcast(FORWARD, mode == 2))
+    arena.advance(0.004)
+    assert all(firmware.stopped for firmware in arena.firmwares)
+    arena.advance(0.016)
+    assert all(robot.left == pytest.approx(20 / 63) for robot in arena.robots)
+
+
+def test_robots_that_hear_nothing_stop_after_a_quarter_of_a_second():
+    arena = EmulatedArena(1)
+    arena.radio.write(broadcast(FORWARD))
+    arena.advance(0.24)
+    assert not any(firmware.stopped for firmware in arena.firmwares)
+    arena.advance(0.04)
+    assert all(firmware.stopped for firmware in arena.firmwares)
+    assert max(arena.ran) < 0.28
+
+
+def test_a_robot_that_is_not_enabled_stands():
+    arena = EmulatedArena(1)
+    arena.radio.write(broadcast(drive(0, *[83] * 8, enable=0b0100)))
+    arena.advance(0.05)
+    assert [firmware.stopped for firmware in arena.firmwares] == [True, True, False, True]
+
+
+def test_a_packet_with_a_wrong_check_moves_nothing():
+    arena = EmulatedArena(1)
+    arena.radio.write(broadcast(FORWARD[:-1] + bytes([FORWARD[-1] ^ 1])))
+    arena.advance(0.05)
+    assert all(firmware.stopped and firmware.rejected == 1 for firmware in arena.firmwares)
+
+
+def test_telemetry_comes_five_times_a_second_from_each():
+    arena = EmulatedArena(1)
+    arena.advance(1.0)
+    reports = [frame for frame in heard(arena) if frame[0] == 0x81]
+    assert [sum(frame[2] == address for frame in reports) for address in (1, 2, 3, 4)] == [5] * 4
+    battery = reports[0][9] | reports[0][10] << 7
+    assert 5000 <= battery <= 5300
+    assert reports[0][8] == 1, "it says that its deadman stopped it"
+
+
+def test_status_of_what_was_sent_and_settings_that_were_asked_for():
+    arena = EmulatedArena(1, air=Air(loss=1.0))
+    arena.radio.write(framed(bytes([0x01, 9, 0, 1, 0]) + FORWARD, True))
+    arena.radio.write(broadcast(FORWARD, number=10))
+    arena.radio.write(framed(b"\x08\x05AP", True))
+    arena.advance(0.05)
+    answers = heard(arena)
+    assert bytes([0x89, 9, 1]) in answers, "no robot acknowledged it"
+    assert bytes([0x89, 10, 0]) in answers, "a broadcast is never acknowledged"
+    assert b"\x88\x05AP\x00\x02" in answers
+
+
+def test_a_lossy_air_loses_its_share():
+    arena = EmulatedArena(3, air=Air(loss=0.2, doubled=0.1, broken=0.1))
+    for i in range(250):
+        arena.radio.write(broadcast(drive(i % 128, *[83] * 8)))
+        arena.advance(0.02)
+    heard_by = [firmware.packets for firmware in arena.firmwares]
+    assert all(165 < packets < 225 for packets in heard_by), heard_by
+    assert all(firmware.rejected for firmware in arena.firmwares)
+
+
+def test_an_unplugged_radio_raises_as_a_port_does():
+    arena = EmulatedArena(1)
+    arena.faults.switch("radio_unplugged", True)
+    for use in (lambda: arena.radio.read(), lambda: arena.radio.write(b"x"), lambda: arena.radio.in_waiting):
+        with pytest.raises(OSError, match="disconnected"):
+            use()
+    with pytest.raises(FileNotFoundError):
+        arena.radio.open()
+    arena.faults.switch("radio_unplugged", False)
+    assert arena.radio.open().write(b"x") == 1
