@@ -57,6 +57,7 @@ class EmulatedArena:
         self.camera = EmulatedCamera(Painter(self.optics, seed, refresh), pace or Pace(), self.clock, seed)
         self.faults = Faults(self)
         self.gain = 1.0  # of the exposure
+        self.cleared = False  # whether the robots are off the mat, where the camera does not see them
         self.ran = [float("-inf")] * len(self.robots)  # s, when a robot's motors were last given anything
         self._unrest, self._restless = unrest, Random(f"exposure {seed}")
         self._own_gain, self._next_gain = 1.0, begin + RESTLESS
@@ -123,7 +124,7 @@ class EmulatedArena:
             self._next_gain += RESTLESS
             self._own_gain = 1.0 + self._unrest * self._restless.uniform(-1.0, 1.0)
         things = []
-        for i in range(len(self.robots)):
+        for i in range(0 if self.cleared else len(self.robots)):
             things += self.faults.things(i, tuple(moment[i] for moment in self._past))
         gain = self.gain * self._own_gain
         return Scene(self._shown, tuple(things), (now - self.begin) / LIGHT_TURN, gain, self.camera.exposed)

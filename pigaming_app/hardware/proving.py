@@ -1,0 +1,128 @@
+"""Proof that robots can be trusted: the whole loop on the emulated arena, measured against what is true there.
+
+Here stands what every proof needs: an arena with moderate noise, a calibration as an operator makes it, the rig on top
+of both, and what is projected. `Bench` lets simulated time pass; what is proven is in `proofs`.
+"""
+
+from time import thread_time
+
+import numpy as np
+
+from pigaming_app.hardware.boards import BOARD, HELD_OUT, Board, Look
+from pigaming_app.hardware.emulator.arena import ARENA_AT, SHOWS_AFTER, EmulatedArena
+from pigaming_app.hardware.emulator.camera import Pace
+from pigaming_app.hardware.emulator.optics import CANVAS
+from pigaming_app.hardware.emulator.radio import Air
+from pigaming_app.hardware.ground import Ground
+from pigaming_app.hardware.link import Link
+from pigaming_app.hardware.place import hung
+from pigaming_app.hardware.rig import UNMEASURED, Rig
+from pigaming_app.hardware.signals import Fix, Frame, Image
+from pigaming_app.hardware.solver import Residuals, solve, verified, verify
+from pigaming_app.hardware.tracker import Tracker
+from pigaming_app.sim.plant import Sighting
+from pigaming_app.sim.world import DT, ROBOTS
+
+MODERATE = Air(loss=0.005, doubled=0.005, broken=0.002)
+UNREST = 0.15  # size of the exposure steps
+DELAY = 0.060  # s that pictures are late; with tick, line and air that is 80 ms of dead time
+DISC = 53.0  # px: 70 mm, what is projected under a robot
+GREY = 128
+RULER = (1.5, 8.0)  # mm by which the operator measures the mat's width and the camera's height wrongly
+QUICK = 30  # pictures between two that are painted whole
+
+
+class Watched(Tracker):
+    """A tracker of which it is noted how long it takes and what it finds."""
+
+    seconds = 0.0
+    pictures = complete = 0
+
+    def see(self, frame: Frame) -> list[Fix]:
+        began = thread_time()
+        fixes = super().see(frame)
+        self.seconds += thread_time() - began
+        self.pictures += 1
+        self.complete += len({fix.robot for fix in fixes}) == ROBOTS
+        return fixes
+
+
+class Bench:
+    """A calibrated arena with a rig on it. Robots stand on their starts; `tick` lets 1/50 s pass."""
+
+    def __init__(self, seed: int, fps: float, drops: float = 0.0, air: Air = MODERATE) -> None:
+        self.arena = EmulatedArena(seed, Pace(fps, DELAY, drops=drops), air, QUICK, UNREST)
+        self.ground, self.residuals = calibrated(self.arena)
+        self.tracker = Watched(self.ground, self.arena.clock, [UNMEASURED] * ROBOTS)
+        self.link = Link(self.arena.radio.open, self.arena.clock)
+        self.rig = Rig(self.arena.camera, self.tracker, self.link, self.arena.clock)
+        self._floor = busy_floor(seed)
+
+    def tick(self) -> None:
+        """Project what the game would: its floor, and a grey disc under every robot where it will be by then."""
+        self.arena.project(lit(self._floor, self.rig.sense(SHOWS_AFTER)))
+        for _ in range(2):
+            self.arena.advance(DT / 2)
+            self.rig.pump()
+
+    def misses(self) -> list[tuple[float, float]]:
+        """For every robot: how far what the rig says is from where it is now, in mm, and by how much turned, in rad."""
+        pairs = zip(self.rig.sense(), self.arena.poses(), strict=True)
+        mm = self.ground.mm
+        return [
+            (mm * float(np.hypot(seen.x - x, seen.y - y)), abs(float(np.angle(np.exp(1j * (seen.heading - heading))))))
+            for seen, (x, y, heading) in pairs
+        ]
+
+
+def calibrated(arena: EmulatedArena) -> tuple[Ground, Residuals]:
+    """The ground of an arena, found and verified as the wizard does it; raises NoGround."""
+    rim = arena.optics.mat(np.array([[0.0, 450.0], [1600.0, 450.0]]) + ARENA_AT)
+    width = float(np.hypot(*(rim[1] - rim[0]))) + RULER[0]
+    whole, arena.camera.painter.refresh = arena.camera.painter.refresh, 1
+    seen = _look(arena, BOARD)
+    ground = solve(seen.corners(), BOARD, seen.size, width, "emulated")
+    ground = hung(ground, arena.optics.lens.eye[2] + RULER[1])
+    residuals = verify(ground, _look(arena, HELD_OUT).corners(), HELD_OUT)
+    arena.camera.painter.refresh = whole
+    return verified(ground, residuals), residuals
+
+
+def _look(arena: EmulatedArena, board: Board) -> Look:
+    """Show a board and look at it; the robots are not on the mat yet."""
+    look = Look()
+    arena.project(board.picture())
+    arena.cleared = True
+    arena.advance(0.2)
+    arena.camera.newest()
+    while not look.ready:
+        arena.advance(DT)
+        if frame := arena.camera.newest():
+            look.add(frame)
+    arena.cleared = False
+    return look
+
+
+def busy_floor(seed: int) -> Image:
+    """A floor as games have them, with hard edges: dark, with bright walls, lines and texts."""
+    import cv2
+
+    random = np.random.default_rng(seed)
+    page = np.full((CANVAS[1], CANVAS[0]), 12, np.uint8)
+    for _ in range(60):
+        (x, y), (wide, high) = random.integers((0, 0), CANVAS), random.integers(8, 180, 2)
+        shade = int(random.integers(40, 255))
+        cv2.rectangle(page, (int(x), int(y)), (int(x + wide), int(y + high)), shade, int(random.choice([-1, 3])))
+    return page
+
+
+def lit(floor: Image, robots: list[Sighting]) -> Image:
+    """The floor with a grey disc under every robot."""
+    import cv2
+
+    page = floor.copy()
+    for robot in robots:
+        if abs(robot.x) < 5000 and abs(robot.y) < 5000:
+            middle = (round(robot.x + ARENA_AT[0]), round(robot.y + ARENA_AT[1]))
+            cv2.circle(page, middle, round(DISC), GREY, -1)
+    return page
