@@ -1,7 +1,7 @@
 """One robot, followed: its pose at the newest correction, what its wheels make of commands, and the commands since.
 
-An extended Kalman filter over (x, y, heading, gain of the left wheel, of the right, of turning, delay): wheels differ
-from robot to robot and with its batteries, and a prediction over 80 ms of dead time needs to know by how much.
+An extended Kalman filter over the pose and the five numbers of `Wear`: wheels differ from robot to robot and with their
+batteries, and a prediction over 80 ms of dead time needs to know by how much.
 """
 
 from collections import deque
@@ -11,7 +11,7 @@ from math import cos, hypot, inf, pi, sin, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.rolling import Rolling
+from pigaming_app.hardware.rolling import Rolling, Wear
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.sim.angles import wrap
 from pigaming_app.sim.drivetrain import Drivetrain
@@ -27,11 +27,11 @@ NEVER = 1e9  # s since a robot was seen that never was
 
 FIX_PX, FIX_RAD = 0.8, 0.013  # noise of a fix, standard deviations
 SLIP_PX, SLIP_RAD = 3.0, 0.06  # what the model does not know of: random walk, per root of a second
-LEARNT = 7  # numbers in the filter
-START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02]))
-WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001]))  # per second
-LOW = np.array([0.6, 0.6, 0.6, -0.06])  # of gains, gains, turning, delay (s)
-HIGH = np.array([1.4, 1.4, 1.4, 0.06])
+NUMBERS = 8  # in the filter
+START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02, 20.0]))
+WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001, 0.5]))  # per second
+NEW = Wear(1.0, 1.0, 1.0, 0.0, 0.0)
+LOW, HIGH = Wear(0.6, 0.6, 0.6, -0.06, -30.0), Wear(1.4, 1.4, 1.4, 0.06, 90.0)
 SURPRISE = 25.0  # squared standard deviations: beyond, it was pushed or lifted, which teaches nothing about wheels
 NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
 
@@ -45,7 +45,7 @@ class Follower:
         self.drivetrain, self.mm = drivetrain, mm
         self._told: deque[tuple[float, float, float]] = deque()  # when it was sent, wheels in px/s
         self._rolling = Rolling(0.0, 0.0, 0.0)
-        self._learnt = np.array([1.0, 1.0, 1.0, 0.0])
+        self.wear = NEW
         self._spread = START.copy()
         self._seen = -inf
         self._elsewhere: list[Fix] = []  # where it was seen and not believed
@@ -54,7 +54,7 @@ class Follower:
         """Remember what was sent to the robot."""
         turn = 0.5 * self.drivetrain.base * twist[1]
         self._told.append((time, twist[0] + turn, twist[0] - turn))
-        oldest = min(max(self._seen, time - MEMORY), time) - self.drivetrain.dead_time - HIGH[3]
+        oldest = min(max(self._seen, time - MEMORY), time) - self.drivetrain.dead_time - HIGH.late
         while len(self._told) > 1 and self._told[1][0] <= oldest:
             self._told.popleft()
 
@@ -66,9 +66,8 @@ class Follower:
         """Where it is at a time, by the commands sent since it was seen."""
         rolling = self._rolling.copy()
         if self._seen > -inf:
-            gains, base = self._gains()
             for left, right, dt in self._acting(self._seen, min(now, self._seen + COAST)):
-                rolling.roll(left, right, gains, base, self.drivetrain.lag, dt)
+                rolling.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
         return Sighting(rolling.x, rolling.y, wrap(rolling.heading % tau), self.unseen(now))
 
     def correct(self, fix: Fix) -> bool:
@@ -90,14 +89,9 @@ class Follower:
         self._blend(fix, flow @ self._spread @ flow.T + WALK * dt)
         return True
 
-    def _gains(self) -> tuple[tuple[float, float], float]:
-        """Of the wheels, and the effective base."""
-        left, right, turning, _ = self._learnt.tolist()
-        return (left, right), self.drivetrain.base / turning
-
     def _acting(self, since: float, until: float) -> Iterator[tuple[float, float, float]]:
         """What the wheels were told in this time (px/s, px/s) and for how long: steps of at most STEP."""
-        dead, told = self.drivetrain.dead_time + float(self._learnt[3]), self._told
+        dead, told = self.drivetrain.dead_time + self.wear.late, self._told
         at = since
         for i in range(-1, len(told)):
             left, right = told[i][1:] if i >= 0 else (0.0, 0.0)
@@ -109,19 +103,30 @@ class Follower:
 
     def _predict(self, rolling: Rolling, until: float) -> Matrix:
         """Move it to a time; how the numbers of the filter there depend on those of the newest correction."""
-        gains, base = self._gains()
-        flow = np.eye(LEARNT)
+        wear, base, lag = self.wear, self.drivetrain.base, self.drivetrain.lag
+        flow = np.eye(NUMBERS)
         for left, right, dt in self._acting(self._seen, until):
-            x, y, heading, was_left, was_right = rolling.x, rolling.y, rolling.heading, rolling.left, rolling.right
-            rolling.roll(left, right, gains, base, self.drivetrain.lag, dt)
-            mean_left, mean_right = 0.5 * (was_left + rolling.left) * dt, 0.5 * (was_right + rolling.right) * dt
-            faster_left, faster_right = gains[0] * (rolling.left - was_left), gains[1] * (rolling.right - was_right)
-            c, s = 0.5 * cos(heading), 0.5 * sin(heading)
-            step = np.eye(LEARNT)
-            step[0, 2:] = y - rolling.y, c * mean_left, c * mean_right, 0.0, -c * (faster_left + faster_right)
-            step[1, 2:] = rolling.x - x, s * mean_left, s * mean_right, 0.0, -s * (faster_left + faster_right)
-            turn = (rolling.heading - heading) * base / self.drivetrain.base
-            step[2, 3:] = mean_left / base, -mean_right / base, turn, (faster_right - faster_left) / base
+            before = rolling.copy()
+            rolling.roll(left, right, wear, base, lag, dt)
+            way_left, way_right = 0.5 * (before.left + rolling.left) * dt, 0.5 * (before.right + rolling.right) * dt
+            faster_left, faster_right = (
+                wear.left * (rolling.left - before.left),
+                wear.right * (rolling.right - before.right),
+            )
+            stuck_left, stuck_right = wear.left * rolling.left_way * dt, wear.right * rolling.right_way * dt
+            along = (way_left, way_right, 0.0, -faster_left - faster_right, -stuck_left - stuck_right)
+            turned = (rolling.heading - before.heading) / wear.turning
+            c, s, t = 0.5 * cos(before.heading), 0.5 * sin(before.heading), wear.turning / base
+            step = np.eye(NUMBERS)
+            step[0, 2:] = (before.y - rolling.y, *(c * one for one in along))
+            step[1, 2:] = (rolling.x - before.x, *(s * one for one in along))
+            step[2, 3:] = (
+                t * way_left,
+                -t * way_right,
+                turned,
+                t * (faster_right - faster_left),
+                t * (stuck_right - stuck_left),
+            )
             flow = step @ flow
         return flow
 
@@ -160,5 +165,5 @@ class Follower:
         change = share @ miss
         x, y, heading = change[:3].tolist()
         rolling.x, rolling.y, rolling.heading = rolling.x + x, rolling.y + y, rolling.heading + heading
-        self._learnt = np.clip(self._learnt + change[3:], LOW, HIGH)
+        self.wear = Wear(*np.clip(change[3:] + self.wear, LOW, HIGH).tolist())
         self._spread = spread - share @ spread[:3, :]
