@@ -1,0 +1,19 @@
+/* The battery's voltage.
+ * SPDX-License-Identifier: MIT */
+#ifndef BATTERY_H
+#define BATTERY_H
+
+#include <stdint.h>
+
+void battery_begin(void);
+
+/* To be called every millisecond. */
+void battery_tick(void);
+
+/* What it has been lately. */
+uint16_t battery_millivolts(void);
+
+/* The flags LOW and EMPTY. */
+uint8_t battery_flags(void);
+
+#endif

@@ -1,0 +1,123 @@
+/* The program of a robot: it drives as the newest valid packet says, reports five times a second, and stops by itself.
+ *
+ * Three things stop it. The deadman, counted by a timer's interrupt, when no valid packet has come for 250 ms. The
+ * hardware watchdog, when the main loop or that timer has hung for 120 ms: it restarts the processor, whose motor pins
+ * are then off. And the battery, when it is empty.
+ * SPDX-License-Identifier: MIT */
+#include <avr/eeprom.h>
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/sleep.h>
+#include <avr/wdt.h>
+#include <util/atomic.h>
+
+#include "battery.h"
+#include "board.h"
+#include "motors.h"
+#include "packets.h"
+#include "serial.h"
+
+static volatile uint8_t quiet = DEADMAN_MS; /* ms since the last valid packet, at most DEADMAN_MS */
+static volatile uint8_t ticks; /* ms that passed and were not dealt with */
+
+static uint8_t address, restarted;
+static uint8_t seq; /* of the last valid packet */
+static uint8_t phase; /* ms within REPORT_MS; begins anew with the packets numbered 0, 10, 20, ... */
+static uint8_t since_report = REPORT_GAP_MS; /* ms, at most REPORT_GAP_MS */
+
+ISR(TIMER1_COMPA_vect)
+{
+    ticks++;
+    if (quiet < DEADMAN_MS && ++quiet == DEADMAN_MS)
+        motors_stop();
+}
+
+static void timer_begin(void)
+{
+    OCR1A = F_CPU / 8 / 1000 - 1; /* 1 ms */
+    TCCR1B = _BV(WGM12) | _BV(CS11);
+    TIMSK1 = _BV(OCIE1A);
+}
+
+static void obey(const struct drive *drive)
+{
+    uint8_t robot = address - 1; /* without an address it is none of the robots */
+    seq = drive->seq;
+    if (seq % 10 == 0)
+        phase = 0;
+    ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
+    {
+        quiet = 0;
+        if (robot < ROBOTS && drive->enabled >> robot & 1 && !(battery_flags() & EMPTY))
+            motors_set(drive->speeds[2 * robot] - STOP, drive->speeds[2 * robot + 1] - STOP);
+        else
+            motors_stop();
+    }
+}
+
+static void report(void)
+{
+    uint8_t packet[REPORT_LENGTH];
+    uint8_t flags = battery_flags() | restarted | (quiet == DEADMAN_MS ? DEADMAN : 0);
+    report_packet(packet, address, seq, flags, battery_millivolts());
+    serial_write(packet, REPORT_LENGTH);
+    since_report = 0;
+}
+
+/* What happens every millisecond. */
+static void tick(void)
+{
+    battery_tick();
+    if (battery_flags() & EMPTY)
+        motors_stop();
+    if (quiet < DEADMAN_MS)
+        PORTD |= _BV(PD7);
+    else
+        PORTD &= ~_BV(PD7);
+    if (since_report == REPORT_GAP_MS && address <= ROBOTS && phase == (address - 1) * SLOT_MS)
+        report();
+    if (since_report < REPORT_GAP_MS)
+        since_report++;
+    phase = phase < REPORT_MS - 1 ? phase + 1 : 0;
+}
+
+/* One millisecond that passed is dealt with; false if none did. */
+static uint8_t a_tick_passed(void)
+{
+    uint8_t passed = 0;
+    ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
+    if (ticks) {
+        ticks--;
+        passed = 1;
+    }
+    return passed;
+}
+
+int main(void)
+{
+    restarted = MCUSR & _BV(WDRF) ? RESTARTED : 0;
+    MCUSR = 0;
+    wdt_enable(WDTO_120MS);
+    motors_begin();
+    address = eeprom_read_byte((const uint8_t *)ADDRESS_AT);
+    if (address == 0)
+        address = UINT8_MAX;
+    DDRD |= _BV(PD7);
+    serial_begin();
+    battery_begin();
+    timer_begin();
+    set_sleep_mode(SLEEP_MODE_IDLE);
+    sei();
+    for (;;) {
+        struct drive drive;
+        uint8_t byte;
+        sleep_mode(); /* until a byte comes or a millisecond has passed */
+        while (serial_read(&byte))
+            if (packet_byte(byte, &drive))
+                obey(&drive);
+        while (a_tick_passed()) {
+            wdt_reset();
+            tick();
+        }
+    }
+}
