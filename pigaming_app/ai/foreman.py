@@ -11,6 +11,7 @@ from typing import Any
 from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.errands import drive_to, feel_held_up, free_itself
 from pigaming_app.ai.jobs import choose_job
+from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.games.factory.view import Eyes, View, see
 from pigaming_app.sim.action import press
 from pigaming_app.sim.chance import chance, seeded
@@ -92,6 +93,13 @@ def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> A
     return fill
 
 
-EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
-NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
-HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `foreman_thoughts` reads what stands above."""
+    from pigaming_app.ai import foreman_thoughts
+
+    return foreman_thoughts.explain(match, seat, mind, known)
+
+
+EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0), explain=explain)
+NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0), explain=explain)
+HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1), explain=explain)

@@ -10,6 +10,7 @@ from typing import Annotated, Any, NamedTuple
 from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.rewards import Knobs, worth_of_action, worth_of_change
 from pigaming_app.ai.sectors import STATES, nearest_opponent, situation
+from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.sim.action import press
 from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.kernel import kernel
@@ -164,6 +165,13 @@ def wake(mind: Any, seed: int) -> None:
     mind.random = seeded(seed)
 
 
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `table_thoughts` reads what stands above."""
+    from pigaming_app.ai import table_thoughts
+
+    return table_thoughts.explain(match, seat, mind, known)
+
+
 class Learned:
     """A table that no longer changes, as what a kind of brain knows; its other body is made when first asked for."""
 
@@ -182,7 +190,7 @@ class Learned:
 
 def player(name: str, known: Callable[[bool], Any]) -> Kind:
     """The kind of brain that plays by a table."""
-    return Kind(name, LearnerMind, think, wake, known)
+    return Kind(name, LearnerMind, think, wake, known, explain)
 
 
 def preferences(table: Any, state: int, heat: float) -> list[float]:

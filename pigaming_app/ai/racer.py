@@ -13,6 +13,7 @@ from typing import Any
 
 from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.passing import EDGE, choose_lane, held_to
+from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.games.race.view import OTHERS, Eyes, View, see
 from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
@@ -216,6 +217,13 @@ def wake(speed: float, line: float, spread: float, boost: float, delay: float) -
     return fill
 
 
-EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=0.9, delay=0.35))
-NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
-HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `racer_thoughts` reads what stands above."""
+    from pigaming_app.ai import racer_thoughts
+
+    return racer_thoughts.explain(match, seat, mind, known)
+
+
+EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=0.9, delay=0.35), explain=explain)
+NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2), explain=explain)
+HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05), explain=explain)

@@ -3,6 +3,7 @@
 from typing import Any
 
 from pigaming_app.ai.brain import Kind
+from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.sim.action import press
 from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.kernel import kernel
@@ -39,5 +40,18 @@ def do_anything(match: Any, seat: int, mind: Any, known: Any) -> None:
         press(match.actions[seat], linear, angular, fire, int(chance(mind) * 2.0))
 
 
-IDLE = Kind("idle", SimpleMind, stand_still, wake)
-RANDOM = Kind("random", SimpleMind, do_anything, wake)
+def explain_standing(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """There is nothing on its mind."""
+    return Thoughts("idle", "always")
+
+
+def explain_anything(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """Every move is as good to it as any other."""
+    action = match.actions[seat]
+    moves = {(ahead, turn, fire): 0.0 for ahead in (1, 0, -1) for turn in (-1, 0, 1) for fire in (0, 1)}
+    chosen = int(action.linear), int(action.angular), int(action.fire)
+    return Thoughts("random", "dice", names={"percent": 6}, moves=moves, chosen=chosen)
+
+
+IDLE = Kind("idle", SimpleMind, stand_still, wake, explain=explain_standing)
+RANDOM = Kind("random", SimpleMind, do_anything, wake, explain=explain_anything)

@@ -12,6 +12,7 @@ PETALS = 16  # directions of a rose, clockwise from straight ahead
 Move = tuple[int, int, int]  # stick ahead and clockwise, each -1, 0 or 1, and fire, 0 or 1
 
 OPPONENT, MATE, WALL, BULLET, PRIZE, GOAL, WAY = "opponent", "mate", "wall", "bullet", "prize", "goal", "way"
+PERSON = "person"
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Thoughts:
 
     doing: str
     because: str = ""
-    names: Mapping[str, int] = field(default_factory=dict)
+    names: Mapping[str, int | str] = field(default_factory=dict)
     facts: Mapping[str, float] = field(default_factory=dict)  # the state that it goes by, named
     sights: Sequence[Sight] = ()
     rose: Sequence[float] = (0.0,) * PETALS  # how good each direction seems, -1..1, relative to the own heading

@@ -4,7 +4,7 @@ Left, whose brain it is and one line each for what it does and why. Right, a bar
 one it follows in white, and its stick; a brain that chooses among moves shows how good each seems instead.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache, lru_cache
 
 import pygame
@@ -64,15 +64,15 @@ def draw_words(screen: pygame.Surface, x: int, w: int, seat: int, doing: str, be
             lit.draw(screen, x + TEXT + text_width(text, size, face) / 2, Y + y)
 
 
-def draw_wishes(
-    screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object, held: Move
-) -> None:
-    """The right box of a brain with wishes: bars, and its stick."""
+def draw_wishes(screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object) -> None:
+    """The right box of a brain with wishes: a bar for each."""
     put_on(screen, box(seat, w, False), x, Y)
     light: Batch = []
-    left = x + 24 + (w - 218 - PITCH * len(wishes)) / 2
+    room = w - 224
+    pitch = min(PITCH, room / max(1, len(wishes)))
+    left = x + 24 + (room - pitch * len(wishes)) / 2
     for i, (name, value) in enumerate(wishes.items()):
-        at = left + PITCH * (i + 0.5)
+        at = left + pitch * (i + 0.5)
         put(light, bar(seat, name == chosen, False), at, Y + TOP)
         if tall := round(BAR_H * min(1.0, max(0.0, value))):
             image, dx, dy = bar(seat, name == chosen, True)
@@ -80,8 +80,16 @@ def draw_wishes(
             area = 0, hidden, image.get_width(), tall + EDGE
             screen.blit(image, (at + dx, Y + TOP + dy + hidden), area, special_flags=pygame.BLEND_RGB_ADD)
         put(light, sign(name, WHITE if name == chosen else MIST), at, Y + SIGN_Y)
-    stick(light, x + w - 118, Y + H / 2, {}, held, PLAYERS[seat])
-    put(light, sign("fire", WHITE if held[2] else dim(MIST, 0.35)), x + w - 42, Y + H / 2)
+    screen.fblits(light, pygame.BLEND_RGB_ADD)
+
+
+def draw_held(screen: pygame.Surface, right: int, seat: int, held: Move, buttons: Sequence[tuple[str, int]]) -> None:
+    """At the right end of that box, whose x is given: how it holds its stick and its buttons."""
+    light: Batch = []
+    stick(light, right - 128, Y + H / 2, {}, held, PLAYERS[seat])
+    for i, (name, down) in enumerate(buttons):
+        y = Y + H / 2 + 44 * (i - (len(buttons) - 1) / 2)
+        put(light, sign(name, WHITE if down else dim(MIST, 0.35)), right - 46, y)
     screen.fblits(light, pygame.BLEND_RGB_ADD)
 
 

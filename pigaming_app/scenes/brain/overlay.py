@@ -12,9 +12,10 @@ import pygame
 from pigaming_app.ai.brain import Thinker
 from pigaming_app.ai.thoughts import PETALS, Move, Thoughts
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.brain import cards, marks
+from pigaming_app.scenes.brain import cards
+from pigaming_app.scenes.brain.marks import Marks
+from pigaming_app.scenes.howto import FIRES
 from pigaming_app.scenes.ink import ADD, PLAYERS
-from pigaming_app.scenes.sprites import Batch
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.scenes.views.picture import Picture
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -76,12 +77,12 @@ class BrainOverlay:
         }
 
     def _floor(self, screen: pygame.Surface, state: Any, seat: int, blend: float) -> None:
-        light: Batch = []
-        pose, sights = self.view.pose(seat, blend), self.thoughts.sights
-        marks.draw_sights(light, state, pose, sights, PLAYERS[seat], self.clock)
-        marks.draw_rose(light, pose, self.rose, sights)
+        others = [self.view.pose(other, blend) for other in self.view.seats if other != seat]
+        marks = Marks(self.view.pose(seat, blend), others, PLAYERS[seat], self.clock)
+        marks.sights(state, self.thoughts.sights)
+        marks.rose(self.rose, self.thoughts.sights)
         screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
-        screen.fblits(light, ADD)
+        screen.fblits(marks.light, ADD)
         screen.set_clip(None)
 
     def _boxes(self, screen: pygame.Surface, state: Any, seat: int) -> None:
@@ -97,10 +98,14 @@ class BrainOverlay:
             sure = self.words("brain.sure", **thoughts.names) if "percent" in thoughts.names else ""
             cards.draw_moves(screen, right, w, seat, thoughts.moves, thoughts.chosen, sure)
         else:
-            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen, held(state.actions[seat]))
+            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen)
+            buttons = [("turbo", state.actions[seat].turbo)]
+            if self.match.setup.game in FIRES:
+                buttons.insert(0, ("fire", state.actions[seat].fire))
+            cards.draw_held(screen, right + w, seat, held(state.actions[seat]), buttons)
 
 
 def held(action: Any) -> Move:
-    """How the stick is held, in three steps each way, and the button."""
+    """How the stick is held, in three steps each way, and fire."""
     linear, angular = (int(value > TILTED) - int(value < -TILTED) for value in (action.linear, action.angular))
     return linear, angular, int(action.fire)
