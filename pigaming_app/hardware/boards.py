@@ -65,7 +65,7 @@ class Board:
 
 
 BOARD = Board((960.0, 540.0), (270.0, 208.0))
-HELD_OUT = Board((1014.0, 576.0), (250.0, 190.0))
+HELD_OUT = Board((976.0, 553.0), (238.0, 182.0))  # every marker at least 16 px beside its place on the first
 BOARD_IDS = tuple(range(FIRST_ID, FIRST_ID + COLUMNS * ROWS))
 
 

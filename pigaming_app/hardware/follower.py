@@ -103,32 +103,28 @@ class Follower:
 
     def _predict(self, rolling: Rolling, until: float) -> Matrix:
         """Move it to a time; how the numbers of the filter there depend on those of the newest correction."""
-        wear, base, lag = self.wear, self.drivetrain.base, self.drivetrain.lag
         flow = np.eye(NUMBERS)
         for left, right, dt in self._acting(self._seen, until):
             before = rolling.copy()
-            rolling.roll(left, right, wear, base, lag, dt)
-            way_left, way_right = 0.5 * (before.left + rolling.left) * dt, 0.5 * (before.right + rolling.right) * dt
-            faster_left, faster_right = (
-                wear.left * (rolling.left - before.left),
-                wear.right * (rolling.right - before.right),
-            )
-            stuck_left, stuck_right = wear.left * rolling.left_way * dt, wear.right * rolling.right_way * dt
-            along = (way_left, way_right, 0.0, -faster_left - faster_right, -stuck_left - stuck_right)
-            turned = (rolling.heading - before.heading) / wear.turning
-            c, s, t = 0.5 * cos(before.heading), 0.5 * sin(before.heading), wear.turning / base
-            step = np.eye(NUMBERS)
-            step[0, 2:] = (before.y - rolling.y, *(c * one for one in along))
-            step[1, 2:] = (rolling.x - before.x, *(s * one for one in along))
-            step[2, 3:] = (
-                t * way_left,
-                -t * way_right,
-                turned,
-                t * (faster_right - faster_left),
-                t * (stuck_right - stuck_left),
-            )
-            flow = step @ flow
+            rolling.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
+            flow = self._step(before, rolling, dt) @ flow
         return flow
+
+    def _step(self, before: Rolling, after: Rolling, dt: float) -> Matrix:
+        """How the numbers of the filter after a step depend on those before it, to first order in `dt`."""
+        wear, way = self.wear, 0.5 * dt
+        left, right = way * (before.left + after.left), way * (before.right + after.right)
+        faster_left, faster_right = wear.left * (after.left - before.left), wear.right * (after.right - before.right)
+        stuck_left, stuck_right = wear.left * after.left_way * dt, wear.right * after.right_way * dt
+        ahead = (left, right, 0.0, -faster_left - faster_right, -stuck_left - stuck_right)
+        turn = (left, -right, 0.0, faster_right - faster_left, stuck_right - stuck_left)
+        c, s, t = 0.5 * cos(before.heading), 0.5 * sin(before.heading), wear.turning / self.drivetrain.base
+        step = np.eye(NUMBERS)
+        step[0, 2:] = (before.y - after.y, *(c * one for one in ahead))
+        step[1, 2:] = (after.x - before.x, *(s * one for one in ahead))
+        step[2, 3:] = tuple(t * one for one in turn)
+        step[2, 5] = (after.heading - before.heading) / wear.turning
+        return step
 
     def _begin(self, fix: Fix) -> None:
         """It is there, standing; what was learnt about its wheels stays."""

@@ -1,0 +1,69 @@
+"""Small pictures of a mat for the tests: a camera of their own over boards and robots, written without the package."""
+
+from math import cos, sin
+
+import cv2
+import numpy as np
+
+MM = 1.32  # of an arena px
+SIZE = (1280, 720)
+
+
+class Pinhole:
+    """A camera `height` mm over the arena's point `foot`, tilted by (rad) about x and y, with a lens."""
+
+    def __init__(self, foot=(760.0, 430.0), height=2400.0, tilt=(0.05, -0.04), focal=950.0, k1=-0.25, k2=0.07):
+        self.eye = np.array([*foot, -height / MM])
+        self.turn = cv2.Rodrigues(np.array([*tilt, 0.02]))[0]
+        self.focal, self.k1, self.k2 = focal, k1, k2
+        self.centre = np.array([644.0, 355.0])
+
+    def sees(self, places, height=0.0):
+        """Camera px of arena px that far, in mm, above the mat."""
+        points = np.column_stack([places, np.full(len(places), -height / MM)])
+        rays = (points - self.eye) @ self.turn.T
+        flat = rays[:, :2] / rays[:, 2:]
+        r2 = (flat**2).sum(axis=1)[:, None]
+        return self.centre + self.focal * flat * (1 + self.k1 * r2 + self.k2 * r2 * r2)
+
+    def photo(self, canvas, noise=2.0, seed=1):
+        """What it sees of a canvas (1080, 1920) projected on the mat."""
+        x, y = np.meshgrid(np.arange(SIZE[0], dtype=float), np.arange(SIZE[1], dtype=float))
+        bent = (np.stack([x, y], axis=-1).reshape(-1, 2) - self.centre) / self.focal
+        flat = bent.copy()
+        for _ in range(25):
+            r2 = (flat**2).sum(axis=1)[:, None]
+            flat = bent / (1 + self.k1 * r2 + self.k2 * r2 * r2)
+        rays = np.column_stack([flat, np.ones(len(flat))]) @ self.turn
+        mat = self.eye[:2] + rays[:, :2] * (-self.eye[2] / rays[:, 2:])
+        maps = (mat + np.array([160.0, 140.0])).astype(np.float32).reshape(SIZE[1], SIZE[0], 2)
+        seen = cv2.remap(canvas, maps[..., 0], maps[..., 1], cv2.INTER_LINEAR)
+        return speckled(cv2.GaussianBlur(seen, (0, 0), 0.7) * 0.75 + 25.0, noise, seed)
+
+
+def speckled(picture, noise=2.0, seed=1):
+    """A picture with the noise of a sensor."""
+    return np.clip(picture + np.random.default_rng(seed).normal(0.0, noise, picture.shape), 0, 255).astype(np.uint8)
+
+
+def square(pose, edge):
+    """The corners of a marker in ArUco's order, its top ahead of the robot: (4, 2)."""
+    x, y, heading = pose
+    ahead, right = np.array([cos(heading), sin(heading)]), np.array([-sin(heading), cos(heading)])
+    middle, half = np.array([x, y]), edge / 2.0
+    return np.array([middle + half * (ahead * up + right * side) for up, side in ((1, -1), (1, 1), (-1, 1), (-1, -1))])
+
+
+def lids(corners_of, size=SIZE, ground=40.0):
+    """A picture of white lids with markers whose corners (camera px) are given as (number, corners) pairs."""
+    words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    picture = np.full((size[1] * 2, size[0] * 2), ground, np.float32)
+    for number, corners in corners_of:
+        tile = np.full((160, 160), 225, np.uint8)
+        tile[20:140, 20:140] = np.clip(cv2.aruco.generateImageMarker(words, number, 120), 25, 225)
+        inner = np.array([(19.5, 19.5), (139.5, 19.5), (139.5, 139.5), (19.5, 139.5)], np.float32)
+        onto = cv2.getPerspectiveTransform(inner, (corners * 2.0 + 0.5).astype(np.float32))
+        shape = (size[0] * 2, size[1] * 2)
+        there = cv2.warpPerspective(np.ones_like(tile), onto, shape) > 0
+        picture[there] = cv2.warpPerspective(tile, onto, shape)[there]
+    return cv2.GaussianBlur(cv2.resize(picture, size, interpolation=cv2.INTER_AREA), (0, 0), 0.7)
