@@ -23,7 +23,7 @@ GLOW = ((17, 0.14), (11, 0.3), (6, 1.0))  # px wide, brightness
 class Measure:
     """After so many matches it won this share, 0..1."""
 
-    matches: int
+    matches: float
     share: float
 
 
@@ -35,7 +35,7 @@ def smoothed(measures: Sequence[Measure]) -> list[float]:
     return out
 
 
-def room(matches: int) -> int:
+def room(matches: float) -> int:
     """How many matches the plot shows."""
     most = FIRST
     while most < matches:
