@@ -1,7 +1,7 @@
-"""Proof that robots can be trusted: the whole loop on the emulated arena, measured against what is true there.
+"""The whole robot loop on the emulated arena, to be measured against what is true there.
 
 Here stands what every proof needs: an arena with moderate noise, a calibration as an operator makes it, the rig on top
-of both, and what is projected. `Bench` lets simulated time pass; what is proven is in `proofs`.
+of both, and what is projected. What is proven with it is in `proving`.
 """
 
 from time import thread_time
@@ -47,7 +47,7 @@ class Watched(Tracker):
         return fixes
 
 
-class Bench:
+class Testbed:
     """A calibrated arena with a rig on it. Robots stand on their starts; `tick` lets 1/50 s pass."""
 
     def __init__(self, seed: int, fps: float, drops: float = 0.0, air: Air = MODERATE) -> None:
@@ -56,11 +56,19 @@ class Bench:
         self.tracker = Watched(self.ground, self.arena.clock, [UNMEASURED] * ROBOTS)
         self.link = Link(self.arena.radio.open, self.arena.clock)
         self.rig = Rig(self.arena.camera, self.tracker, self.link, self.arena.clock)
-        self._floor = busy_floor(seed)
+        self._busy = busy_floor(seed)
+        self.floor = np.zeros_like(self._busy)
+
+    def find(self) -> None:
+        """Let the tracker find the robots on a dark mat, as while places are taken; then show a busy floor."""
+        for _ in range(50):
+            self.tick()
+        self.floor = self._busy
+        self.tracker.seconds, self.tracker.pictures, self.tracker.complete = 0.0, 0, 0
 
     def tick(self) -> None:
         """Project what the game would: its floor, and a grey disc under every robot where it will be by then."""
-        self.arena.project(lit(self._floor, self.rig.sense(SHOWS_AFTER)))
+        self.arena.project(lit(self.floor, self.rig.sense(SHOWS_AFTER)))
         for _ in range(2):
             self.arena.advance(DT / 2)
             self.rig.pump()
