@@ -68,7 +68,8 @@ class Trouble(NamedTuple):
     detail: str = ""
 
     def __str__(self) -> str:
-        return SENTENCES[self.reason].format(port=self.port, detail=self.detail)
+        sentence = SENTENCES[self.reason].format(port=self.port, detail=self.detail)
+        return sentence[0].upper() + sentence[1:]
 
 
 class Found(NamedTuple):
@@ -106,8 +107,8 @@ def trouble_of(error: Exception, port: str) -> Trouble:
     """Why a port could not be opened."""
     if isinstance(error, ImportError):
         return Trouble("missing", port)
-    number = getattr(error, "errno", None)
-    if number is None and (told := re.search(r"\((\d+),", f"{error.args}"[1:])):  # pyserial tucks it into its text
+    number = next((word for word in error.args if isinstance(word, int)), None)
+    if number is None and (told := re.search(r"\((\d+),", str(error))):  # pyserial tucks it into its text
         number = int(told[1])
     reason = ERRORS.get(number or 0, "failed")
     if reason == "denied" and "PermissionError(13" in str(error):  # Windows says so of a port that is in use

@@ -27,7 +27,7 @@ class Link:
     """The robots at the other end of a serial line. Use it in a `with`, or close it."""
 
     def __init__(
-        self, open_port: OpenPort, clock: Clock, dialect: Dialect | None = None, name: str = "the radio's port"
+        self, open_port: OpenPort, clock: Clock, dialect: Dialect | None = None, name: str = "the serial port"
     ) -> None:
         self._line = Line(open_port, clock, name)
         self._dialect = dialect or Air()

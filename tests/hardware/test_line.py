@@ -23,6 +23,7 @@ REFUSALS = {  # what opening raises on Linux, macOS and Windows: the reason
         "absent",
     ),
     "busy, Windows": (OSError("could not open port 'COM3': PermissionError(13, 'Access is denied.', None, 5)"), "busy"),
+    "no hardware, told by termios": (FAILURES[-1](errno.EIO, "Input/output error"), "dead"),
     "no pyserial": (ImportError("No module named 'serial'"), "missing"),
     "no such baud": (ValueError("Invalid baud rate: 7"), "failed"),
 }
@@ -152,3 +153,19 @@ def test_a_port_that_takes_no_bytes_is_stuck():
     wire.cut = serial.SerialTimeoutException("Write timeout")
     line.write(b"x")
     assert str(line.trouble) == "COM3 takes no more bytes; unplug the radio and plug it in again."
+
+
+@POSIX
+def test_a_terminal_that_nobody_reads_is_noticed_within_the_time_for_writing():
+    pytest.importorskip("serial")
+    far, near = os.openpty()
+    device = os.ttyname(near)
+    line = Line(serial_port(device), Time(), device)
+    assert line.open()
+    for _ in range(1000):
+        line.write(bytes(1000))
+        if not line.is_open:
+            break
+    assert line.trouble == Trouble("stuck", device)
+    os.close(near)
+    os.close(far)
