@@ -8,7 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NoReturn
 
-JOBS = "play, replay, duel, league, bench, doctor, test"
+JOBS = "play, replay, duel, league, train, bench, doctor, test"
 
 
 class Wrong(Exception):
@@ -25,6 +25,7 @@ class Parser(argparse.ArgumentParser):
 
 def main(argv: list[str]) -> int:
     """Do what the arguments say; the exit code."""
+    from pigaming_app.ai.tables import TableError
     from pigaming_app.games.choices import ChoiceError
     from pigaming_app.games.replay import ReplayError
     from pigaming_app.sim.arena import ArenaError
@@ -37,7 +38,7 @@ def main(argv: list[str]) -> int:
             return check(argv[1:])
         arguments = parser().parse_args(argv)
         return int(JOB[arguments.job or "arcade"](arguments))
-    except (Wrong, ChoiceError, ArenaError, ReplayError) as wrong:
+    except (Wrong, ChoiceError, ArenaError, ReplayError, TableError) as wrong:
         print(f"PiGaming: {wrong}", file=sys.stderr)
         return 2
     except BrokenPipeError:
@@ -68,6 +69,7 @@ def parser() -> argparse.ArgumentParser:
     league.add_argument("game")
     league.add_argument("brains", nargs="*", metavar="brain")
     _duel_options(league)
+    _train_options(jobs.add_parser("train", help="a robot learns from nothing"))
     bench = jobs.add_parser("bench", help="how fast it all is here")
     bench.add_argument("game", nargs="?", default="pitanks")
     bench.add_argument("--json", action="store_true")
@@ -75,6 +77,22 @@ def parser() -> argparse.ArgumentParser:
     doctor.add_argument("--json", action="store_true")
     jobs.add_parser("test", help="lint, types, tests; further arguments go to pytest")
     return whole
+
+
+def _train_options(train: argparse.ArgumentParser) -> None:
+    train.add_argument("what", choices=["qlearning"])
+    train.add_argument("--reward", type=int, default=1, choices=[1, 2], help="which of the two published ones")
+    train.add_argument("--matches", type=number, default=200, help="of self-play, in all")
+    train.add_argument("--minutes", type=float, default=2.0, help="of each match")
+    train.add_argument("--seed", type=int, default=1)
+    train.add_argument("--arena", default="classic")
+    train.add_argument("--out", type=Path, required=True, help="the file of the table (.npz)")
+    train.add_argument("--resume", action="store_true", help="go on from the file that is there")
+    train.add_argument("--set", action="append", default=[], metavar="NAME=NUMBER", help="a choice other than usual")
+    train.add_argument("--curve", type=Path, help="draw how it went (PNG; needs matplotlib)")
+    train.add_argument("--csv", type=Path, help="write how it went as numbers")
+    train.add_argument("--plain", action="store_true", help="without numba: the same table, slower")
+    train.add_argument("--json", action="store_true", help="print the result as one JSON object")
 
 
 def _play_options(play: argparse.ArgumentParser) -> None:
@@ -200,6 +218,13 @@ def league(arguments: argparse.Namespace) -> int:
     return ranking.rank(arguments, goal(arguments))
 
 
+def train(arguments: argparse.Namespace) -> int:
+    """A robot learns from nothing."""
+    from pigaming_app import train as trains
+
+    return trains.train(arguments)
+
+
 def bench(arguments: argparse.Namespace) -> int:
     """How fast it all is here."""
     from pigaming_app import bench as benches
@@ -244,6 +269,7 @@ JOB = {
     "replay": replay,
     "duel": duel,
     "league": league,
+    "train": train,
     "bench": bench,
     "doctor": doctor,
 }

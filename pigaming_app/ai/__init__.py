@@ -1,6 +1,6 @@
 """Who plays when nobody does, and the only list of them."""
 
-from pigaming_app.ai import classic, foreman, fsm, racer, simple
+from pigaming_app.ai import classic, foreman, fsm, racer, simple, tables
 from pigaming_app.ai.brain import Kind, Thinker
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
@@ -15,6 +15,8 @@ BRAINS: dict[str, dict[str, Kind]] = {
         "hard": fsm.HARD,
         "fsm": fsm.FSM,
         "classic": classic.CLASSIC,
+        "q1": tables.seat("q1"),
+        "q2": tables.seat("q2"),
     },
     "factory": {
         "idle": simple.IDLE,

@@ -4,7 +4,7 @@ The original's two reward tables are RECIPES[1] and RECIPES[2]. What its paper l
 the choice that was made as its default; the Lab turns the same numbers.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from pigaming_app.ai.sectors import opponent_of, wall_of
@@ -14,6 +14,19 @@ from pigaming_app.sim.sweep import clear
 
 AHEAD = 0  # the sector in which a robot looks
 BEHIND_FROM, BEHIND_TO = 4, 12  # the sectors in which an opponent is behind
+
+ANY, SWITCH, HEAT = (-1000.0, 1000.0), (0, 1), (0.001, 1000.0)
+BOUNDS: dict[str, tuple[float, float]] = {
+    "behind_always": SWITCH,
+    "gamma": (0.0, 0.999),
+    "ceiling": (1, 1_000_000_000),
+    "hot": HEAT,
+    "cold": HEAT,
+    "period": (1, 50),
+    "loaded": SWITCH,
+    "in_sight": SWITCH,
+    "last": SWITCH,
+}
 
 
 @dataclass(frozen=True)
@@ -33,6 +46,15 @@ class Recipe:
     loaded: int = 0  # 1: firing counts only when the gun is ready; 0: pressing the button counts
     in_sight: int = 1  # 1: to see the opponent nothing may stand between; 0: looking its way is enough
     last: int = 1  # 1: what was done last is learned from when the time is up (a truncation: bootstrapped); 0: dropped
+
+    def __post_init__(self) -> None:
+        """Raises ValueError for numbers nothing can be learned with, TypeError for what is no number."""
+        for field in fields(self):
+            value, (low, high) = getattr(self, field.name), BOUNDS.get(field.name, ANY)
+            if isinstance(value, bool) or not isinstance(value, int if field.type is int else int | float):
+                raise TypeError(f"{field.name}: {value!r} is not a {'whole ' if field.type is int else ''}number")
+            if not low <= value <= high:
+                raise ValueError(f"{field.name}: {value:g}, but {low:g} to {high:g} are possible")
 
 
 @record

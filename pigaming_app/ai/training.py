@@ -7,19 +7,21 @@ and where it stands in its training are one record, so training can stop anywher
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import Any
 
-from pigaming_app.ai import BRAINS
+from pigaming_app.ai import BRAINS, tables
 from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.qlearning import Learned, LearnerMind, Table, learn, learn_last, player, temperature
-from pigaming_app.ai.rewards import Knobs, Recipe
+from pigaming_app.ai.rewards import RECIPES, Knobs, Recipe
 from pigaming_app.ai.rollout import Batch
+from pigaming_app.ai.tables import Trained
 from pigaming_app.games import GAMES
 from pigaming_app.games.batch import started
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.chance import seeded
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.kernel import can_compile, compiled, compiled_before
+from pigaming_app.sim.kernel import can_compile, compiled, compiled_before, engine_hash
 from pigaming_app.sim.record import copy, fields_of, packed, unpack
 from pigaming_app.sim.world import HZ
 
@@ -161,6 +163,12 @@ class Training:
         frozen = self._tables.copy() if self.fast else copy(self._tables[0])
         return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
 
+    def save(self, path: Path, name: str) -> None:
+        """Keep what has been learned so far as a file. Raises OSError."""
+        reward = next((number for number, recipe in RECIPES.items() if recipe == self.recipe), 0)
+        rows = self._tables.copy() if self.fast else packed(self._tables)
+        tables.save(Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash()), path)
+
     def measure(self, opponent: "str | Checkpoint" = "classic", matches: int = 100) -> tuple[int, int, int]:
         """Wins, ties and losses of what has been learned so far, in matches by the rules of the training."""
         other = opponent.kind if isinstance(opponent, Checkpoint) else BRAINS[GAME][opponent]
@@ -178,6 +186,12 @@ class Training:
         self._matches = self._fresh.copy() if self.fast else [copy(self._fresh[0])]
         self._ones, self._twos = self._row(LearnerMind()), self._row(LearnerMind())
         self._seen = self._matches
+
+
+def load(path: Path, fast: bool | None = None) -> Training:
+    """A training that goes on from a file, with a fresh match. Raises TableError, ArenaError."""
+    kept = tables.load(path)
+    return Training(kept.recipe, kept.seed, kept.arena, fast, kept.rows[0], kept.minutes)
 
 
 def fresh_table(seed: int) -> Table:
