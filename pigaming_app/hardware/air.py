@@ -68,6 +68,8 @@ class Air:
         """Take in what the radio and the robots say."""
         if self.mode is Mode.TRANSPARENT:
             self._take_in(0, heard, now)
+            if any(isinstance(packets.decode(data), Received) for data in self._frames.feed(heard)):
+                self._set_to = "1 or 2"
             return
         for data in self._frames.feed(heard):
             self._understand(now)
@@ -117,7 +119,8 @@ class Air:
         self._understood, self._garbage = now, self._thrown_away()
 
     def _thrown_away(self) -> int:
-        return self._frames.garbage + sum(decoder.garbage for decoder in self._packets.values())
+        frames = 0 if self.mode is Mode.TRANSPARENT else self._frames.garbage
+        return frames + sum(decoder.garbage for decoder in self._packets.values())
 
     @property
     def _ap(self) -> bytes:

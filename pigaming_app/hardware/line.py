@@ -41,7 +41,7 @@ SENTENCES = {  # by reason; {port} and {detail} are filled in
     "stuck": "{port} takes no more bytes; unplug the radio and plug it in again.",
     "mute": "{port} opens, but what should be there does not answer; is it the right port and the right baud rate?",
     "garbled": "What comes from {port} makes no sense; check the baud rate and the API mode of the radio.",
-    "mode": "The radio at {port} is set to AP={detail}; set it or the link to the other API mode.",
+    "mode": "The radio at {port} is set to AP={detail}, but the link is not; set both to the same.",
     "stranger": "What answers at {port} is no 3pi with the stock program, but says {detail}.",
     "failed": "{port} failed: {detail}.",
 }

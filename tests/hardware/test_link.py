@@ -179,7 +179,18 @@ def test_a_radio_of_the_other_api_mode_is_named(time):
     radio = Radio(time, escaped=True, ap=1)
     link = Link(lambda: radio, time, name="COM3")
     run(link, time, 0.1)
-    assert str(link.trouble).startswith("The radio at COM3 is set to AP=1")
+    assert str(link.trouble) == "The radio at COM3 is set to AP=1, but the link is not; set both to the same."
+
+
+def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
+    """Robots would be heard, from inside the frames, but would hear nothing."""
+    radio = Radio(time)
+    link = Link(lambda: radio, time, Air(Mode.TRANSPARENT), name="COM3")
+    link.pump()
+    radio.say(Received(1, -40, 0, packets.report_packet(Report(1, 0, packets.DEADMAN, 5000))))
+    link.pump()
+    assert 0 in link.telemetry
+    assert str(link.trouble) == "The radio at COM3 is set to AP=1 or 2, but the link is not; set both to the same."
 
 
 def test_a_quiet_transparent_line_is_no_trouble(time):
