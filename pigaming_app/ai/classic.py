@@ -14,6 +14,7 @@ from typing import Any
 
 from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.sectors import nearest_opponent
+from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.games.pitanks.view import lead
 from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
@@ -225,6 +226,13 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     press(match.actions[seat], 0.0, turning(match, robot, mind, angle), fire, 0)
 
 
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `classic_thoughts` reads what stands above."""
+    from pigaming_app.ai import classic_thoughts
+
+    return classic_thoughts.explain(match, seat, mind, known)
+
+
 def machine(name: str, unknown: Unknown) -> Kind:
     """The machine with these numbers."""
 
@@ -233,7 +241,7 @@ def machine(name: str, unknown: Unknown) -> Kind:
             setattr(mind.numbers, key, number)
         mind.random = seeded(seed)
 
-    return Kind(name, ClassicMind, think, wake)
+    return Kind(name, ClassicMind, think, wake, explain=explain)
 
 
 CLASSIC = machine("classic", Unknown())
