@@ -44,6 +44,7 @@ RADIO = {"radio_dead": "dead", "radio_unplugged": "unplugged"}
 HELD_AT, TURNED_AT, CARRIED_AT = 220.0, 60.0, 120.0  # mm over the mat
 CARRY_SPEED, CARRY_WAY = 600.0, 500.0  # mm/s, mm
 DARKER = 0.5
+HAND = 56.0  # mm, reach
 EMPTY_CELLS = 3.9  # V
 
 Taken = tuple[float, Placing]  # s, mm, mm, rad: when the fault began, and where the robot was then
@@ -113,9 +114,9 @@ class Faults:
             return [Thing(underside(), LID_HEIGHT + height, poses)]
         seen = [Thing(body(), BODY_HEIGHT + height, poses[-1:]), Thing(lid(robot), LID_HEIGHT + height, poses)]
         if robot in self._robots["marker_covered"]:
-            seen.append(Thing(hand(), LID_HEIGHT + 30.0, poses[-1:]))
+            seen.append(Thing(hand(), LID_HEIGHT + 30.0, poses[-1:], HAND))
         if height:
-            seen.append(Thing(hand(), BODY_HEIGHT + height, ((x + 45.0, y + 45.0, -0.8),)))
+            seen.append(Thing(hand(), BODY_HEIGHT + height, ((x + 45.0, y + 45.0, -0.8),), HAND))
         if robot in self._robots["marker_twice"]:
             _, (x, y, heading) = self._robots["marker_twice"][robot]
             away = hypot(x, y) or 1.0

@@ -4,7 +4,7 @@ The picture is exact around everything that stands on the mat. The rest of it is
 pictures, because that takes ten times as long as all the rest and a tracker hardly looks there; 1 leaves nothing out.
 """
 
-from math import pi, sin
+from math import cos, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -16,8 +16,7 @@ from pigaming_app.hardware.signals import Image
 
 LAMP_LIGHT, ROOM_LIGHT = 130.0, 55.0  # grey levels of white paper under white of the projector, and in the room's light
 BLUR = 0.7  # px, of the lens
-REACH = 56.0  # mm from the middle of a print to its edge
-SPARE = 6  # px around what is painted
+SPARE = 4  # px around what is painted
 NOISE = 2.5  # grey levels, standard deviation
 
 Floats = NDArray[np.float32]
@@ -115,11 +114,11 @@ class Painter:
             min(place.right, window.right),
         )
         x, y = self.optics.plane(thing.height, *part.cut())
-        look = np.mean([_look(thing.look, x, y, pose) for pose in thing.poses], axis=0)
+        look = _look(thing.look, x, y, thing.poses)
         rows = slice(part.top - window.top, part.bottom - window.top)
         columns = slice(part.left - window.left, part.right - window.left)
         lit = self._lit(scene, self._lids if thing.height else self._floor, part, room[rows, columns])
-        light[rows, columns] = light[rows, columns] * (1.0 - look[..., 1]) + look[..., 0] * lit
+        light[rows, columns] += look[..., 0] * lit - look[..., 1] * light[rows, columns]
 
     def _lit(self, scene: Scene, maps: tuple[Map, Map], window: Window, room: Floats) -> Floats:
         """How much light falls on white paper."""
@@ -134,7 +133,7 @@ class Painter:
         points = np.array([(pose[0], pose[1]) for pose in thing.poses])
         pixels = self.optics.sensor(points, thing.height)
         lens = self.optics.lens
-        reach = REACH * 1.1 * lens.focal / (lens.eye[2] - thing.height) + SPARE
+        reach = thing.reach * lens.focal / (lens.eye[2] - thing.height) + SPARE
         left, top = np.floor(pixels.min(axis=0) - reach).astype(int)
         right, bottom = np.ceil(pixels.max(axis=0) + reach).astype(int)
         wide, high = SENSOR
@@ -142,16 +141,19 @@ class Painter:
         return Window(top, left, min(max(int(bottom), top + 1), high), min(max(int(right), left + 1), wide))
 
 
-def _look(look: Print, x: Map, y: Map, pose: Placing) -> Floats:
-    """A print at a pose, as seen at points of its plane: (rows, columns, 2)."""
+def _look(look: Print, x: Map, y: Map, poses: tuple[Placing, ...]) -> Floats:
+    """A print in the mean over its poses, as seen at points of its plane: (rows, columns, 2)."""
     import cv2
 
-    cosine, sine = np.float32(np.cos(pose[2])), np.float32(np.sin(pose[2]))
-    dx, dy = x - np.float32(pose[0]), y - np.float32(pose[1])
-    middle, scale = np.float32(len(look) / 2 - 0.5), np.float32(TEXELS)
-    u = (dy * cosine - dx * sine) * scale + middle
-    v = middle - (dx * cosine + dy * sine) * scale
-    return np.asarray(cv2.remap(look, u, v, cv2.INTER_LINEAR), dtype=np.float32)
+    middle = len(look) / 2 - 0.5
+    whole = np.zeros((*x.shape, 2), dtype=np.float32)
+    for at_x, at_y, heading in poses:
+        c, s = np.float32(TEXELS * cos(heading)), np.float32(TEXELS * sin(heading))
+        over, down = np.float32(middle + at_x * s - at_y * c), np.float32(middle + at_x * c + at_y * s)
+        seen = cv2.remap(look, y * c - x * s + over, down - x * c - y * s, cv2.INTER_LINEAR)
+        cv2.accumulate(seen, whole)
+    whole *= np.float32(1.0 / (255.0 * len(poses)))
+    return whole
 
 
 def _apart(windows: list[Window]) -> list[Window]:

@@ -19,7 +19,8 @@ QUIET = 50.0 / 6.0  # mm of white around it: one cell
 WHITE, BLACK, DARK, SKIN = 0.92, 0.05, 0.10, 0.55  # share of light thrown back
 SOFT = 0.6  # mm, standard deviation of what one px gathers
 
-Print = NDArray[np.float32]  # (n, n, 2): light thrown back times cover, and cover
+Print = NDArray[np.uint8]  # (n, n, 2): light thrown back times cover, and cover, in 255ths
+Share = NDArray[np.float32]
 Placing = tuple[float, float, float]  # mm, mm, rad
 
 
@@ -29,6 +30,7 @@ class Thing(NamedTuple):
     look: Print
     height: float  # mm
     poses: tuple[Placing, ...]
+    reach: float = 50.0  # mm from its middle beyond which there is nothing of it
 
 
 @lru_cache(maxsize=8)
@@ -71,13 +73,13 @@ def hand() -> Print:
     return _softened(np.where(cover > 0, SKIN, light).astype(np.float32) * cover, cover)
 
 
-def _disc(radius: float, light: float, u: float = 0.0, v: float = 0.0) -> tuple[Print, Print]:
+def _disc(radius: float, light: float, u: float = 0.0, v: float = 0.0) -> tuple[Share, Share]:
     x, y = _grid()
     cover = ((x - u) ** 2 + (y - v) ** 2 <= radius * radius).astype(np.float32)
     return cover * np.float32(light), cover
 
 
-def _square(half: float, light: float) -> tuple[Print, Print]:
+def _square(half: float, light: float) -> tuple[Share, Share]:
     x, y = _grid()
     cover = (np.maximum(abs(x), abs(y)) <= half).astype(np.float32)
     return cover * np.float32(light), cover
@@ -90,7 +92,7 @@ def _grid() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return u, v
 
 
-def _stick(light: Print, number: int) -> None:
+def _stick(light: Share, number: int) -> None:
     """Lay a marker on the middle of a print."""
     import cv2
 
@@ -102,7 +104,8 @@ def _stick(light: Print, number: int) -> None:
     light[at : at + size, at : at + size] = np.where(marker > 0, WHITE, BLACK)
 
 
-def _softened(light: Print, cover: Print) -> Print:
+def _softened(light: Share, cover: Share) -> Print:
     import cv2
 
-    return np.asarray(cv2.GaussianBlur(np.dstack([light, cover]), (0, 0), SOFT * TEXELS), dtype=np.float32)
+    soft = cv2.GaussianBlur(np.dstack([light, cover]), (0, 0), SOFT * TEXELS)
+    return np.asarray(np.rint(255.0 * soft), dtype=np.uint8)
