@@ -1,0 +1,18 @@
+"""The arcade plays on a computer without opencv and pyserial; every part of it can at least be imported there."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent.parent
+MODULES = sorted(
+    ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    for path in (ROOT / "pigaming_app" / "hardware").rglob("*.py")
+    if path.stem != "__init__"
+)
+
+
+def test_everything_is_imported_without_opencv_and_pyserial():
+    names = "".join(f"import {name}\n" for name in ("pigaming_app.cli", "pigaming_app.scenes.app", *MODULES))
+    code = f"import sys\nsys.modules['cv2'] = sys.modules['serial'] = None\n{names}"
+    subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
