@@ -4,6 +4,7 @@ Only functions and decoders of bytes; nothing here opens a port or knows the tim
 but the first, so that any byte from 80 on begins anew. The frames are those of XBee 802.15.4 (Digi's manual, "API").
 """
 
+import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -20,6 +21,7 @@ DEADMAN, LOW, EMPTY, RESTARTED = 1, 2, 4, 8  # what the flags of a report mean: 
 BROADCAST = 0xFFFF
 DELIMITER, ESCAPE = 0x7E, 0x7D
 ESCAPED = frozenset((DELIMITER, ESCAPE, 0x11, 0x13))
+ESCAPES = re.compile(rb"\x7d(.?)", re.DOTALL)  # at the end of what has come, the escaped byte may be missing
 LONGEST = 128  # bytes of a frame's data; the longest that comes holds 100 bytes from the air and 11 before them
 
 
@@ -214,8 +216,8 @@ class FrameDecoder:
         """What follows the delimiter, up to the next one at `end` if that is 0 or more, as it was before escaping."""
         if not self._escaped:
             return bytes(self._line[1 : LONGEST + 4])
-        first, *rest = bytes(self._line[1 : end if end >= 0 else None]).split(bytes((ESCAPE,)))
-        return first + b"".join(bytes((part[0] ^ 0x20,)) + part[1:] for part in rest if part)
+        raw = bytes(self._line[1 : end if end >= 0 else None])
+        return ESCAPES.sub(lambda escape: bytes(byte ^ 0x20 for byte in escape[1]), raw)
 
 
 def encode(message: Message) -> bytes:

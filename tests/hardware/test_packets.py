@@ -160,6 +160,12 @@ def test_after_any_noise_our_packets_are_found(noise, crew, report, sizes):
     assert decoder.garbage <= len(noise)
 
 
+def test_a_line_stuck_at_the_escape_fills_no_memory():
+    decoder = FrameDecoder(True)
+    decoder.feed(b"\x7e" + b"\x7d" * 1000)
+    assert len(decoder._line) == 0
+
+
 @given(st.binary(max_size=400), st.booleans())
 def test_noise_never_raises_and_is_never_kept(noise, escaped):
     frames, ours = FrameDecoder(escaped), PacketDecoder()
