@@ -3,12 +3,7 @@
 All times are those of the simulated processor, which stands still unless a test lets it run: see board.c.
 """
 
-import os
 import random
-import shutil
-import subprocess
-from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
@@ -17,106 +12,20 @@ from pigaming_app.hardware.air import Air, Mode
 from pigaming_app.hardware.link import Link
 from pigaming_app.hardware.packets import DEADMAN, EMPTY, LOW, RESTARTED, PacketDecoder, drive_packet
 from pigaming_app.hardware.signals import Wheels
+from tests.hardware.board import AHEAD, BYTE, Board, build, missing
 
-HERE = Path(__file__).parent
-FIRMWARE = HERE.parent.parent / "pigaming_app" / "hardware" / "firmware"
-BAUD = 57600
-BYTE = 10e6 / BAUD  # µs on the line
-AHEAD = Wheels(1.0, 1.0)
-FULL = (256, 256)
-
-
-def missing():
-    """What this computer lacks to build and run the firmware."""
-    tools = [tool for tool in ("avr-gcc", "make", "gcc") if shutil.which(tool) is None]
-    files = ["/usr/lib/avr/include/avr/io.h", "/usr/include/simavr/sim_avr.h", "/usr/include/libelf.h"]
-    return tools + [file for file in files if not os.path.exists(file)]
-
-
+pytest.importorskip("serial")
 pytestmark = pytest.mark.skipif(
     bool(missing()),
     reason=f"no {', '.join(missing())}: apt-get install gcc-avr avr-libc libsimavr-dev libelf-dev gcc make",
 )
-serial = pytest.importorskip("serial")
-
-
-class Event(NamedTuple):
-    """Something that the board said: `motors` with the two duties of 256, `byte`, `reset`."""
-
-    at: int  # µs
-    kind: str
-    motors: tuple[int, ...]
-
-
-class Board:
-    """A robot on the bench."""
-
-    def __init__(self, program, firmware, address):
-        self.process = subprocess.Popen(
-            [program, firmware, str(BAUD), str(address)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
-        lines = iter(self.process.stdout.readline, "")
-        self.device = next(line for line in lines if line.startswith("/dev/")).strip()
-        self.port = serial.Serial(self.device, BAUD, timeout=10)
-        self.events = []
-        self.at = 0  # µs
-        self._read = 0  # bytes
-        self.do("battery 5000")
-        self.run(50)
-
-    def do(self, line):
-        """Let the board do it; what it said."""
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
-        new = []
-        while not new or new[-1].kind != "done":
-            at, kind, *motors = self.process.stdout.readline().split()
-            new.append(Event(int(at), kind, tuple(map(int, motors))))
-        self.at = new.pop().at
-        self.events += new
-        return new
-
-    def run(self, milliseconds):
-        """Let simulated time pass; what happened in it."""
-        return self.do(f"run {round(1000 * milliseconds)}")
-
-    def say(self, data):
-        """Send bytes to the robot; they go in one by one as time passes."""
-        self.port.write(data)
-        self.do(f"await {len(data)}")
-
-    def drive(self, seq=1, wheels=(AHEAD,) * 4):
-        self.say(drive_packet(seq, wheels))
-
-    @property
-    def motors(self):
-        return next(event.motors for event in reversed(self.events) if event.kind == "motors")
-
-    def reports(self):
-        """What the robot said since the last time, and when each report was complete."""
-        times = [event.at for event in self.events if event.kind == "byte"][self._read :]
-        self._read += len(times)
-        decoder = PacketDecoder()
-        said = decoder.feed(self.port.read(len(times)))
-        assert decoder.garbage == 0
-        return [(at, packets.report_from(packet)) for at, packet in zip(times[6::7], said, strict=True)]
-
-    def close(self):
-        self.port.close()
-        self.process.stdin.close()
-        assert self.process.wait(timeout=10) == 0
-        self.process.stdout.close()
+FULL = (256, 256)
 
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """The board's program and the robot's."""
-    folder = tmp_path_factory.mktemp("firmware")
-    board = folder / "board"
-    gcc = ["gcc", "-O2", "-I/usr/include/simavr", "-o", board, HERE / "board.c", "-lsimavr", "-lelf"]
-    subprocess.run(gcc, check=True)
-    subprocess.run(["make", "-s", "-C", FIRMWARE, f"BUILD={folder}"], check=True, stdout=subprocess.DEVNULL)
-    return board, folder / "robot.elf"
+    return build(tmp_path_factory.mktemp("firmware"))
 
 
 @pytest.fixture
@@ -211,6 +120,31 @@ def test_after_noise_the_next_packet_is_understood(board, seed):
     board.drive(4)
     board.run(20)
     assert board.motors == FULL
+
+
+def scraps(chance):
+    """Something between packets: noise, the beginning of a packet, a packet with a wrong bit, a report, or nothing."""
+    packet = bytearray(drive_packet(chance.randrange(128), [AHEAD]))
+    wrong = bytearray(packet)
+    wrong[chance.randrange(12)] ^= 1 << chance.randrange(8)
+    report = packets.report_packet(packets.Report(2, 1, 0, 5000))
+    return chance.choice((chance.randbytes(9), packet[: chance.randrange(12)], wrong, report, b""))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_of_a_torn_stream_robot_and_computer_understand_the_same(board, seed):
+    chance, decoder = random.Random(seed), PacketDecoder()
+    expected = (0, 0)
+    for seq in range(50):
+        wheels = Wheels(chance.randint(-63, 63) / 63, chance.randint(-63, 63) / 63)
+        stream = scraps(chance) + drive_packet(seq, [wheels]) + scraps(chance)
+        board.say(stream)
+        board.run(len(stream) * BYTE / 1000 + 3)
+        for packet in decoder.feed(stream):
+            if packet[0] == packets.DRIVE:
+                first = packets.drive_from(packet).wheels[0] or Wheels(0.0, 0.0)
+                expected = tuple(duty(round(63 * share)) for share in first)
+        assert board.motors == expected
 
 
 def test_the_speed_that_nobody_sends_is_a_stop(board):
