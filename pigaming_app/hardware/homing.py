@@ -5,25 +5,28 @@ others. When nobody can move, one that is in the way makes room first. Whoever s
 """
 
 from collections.abc import Mapping
-from math import atan2, cos, pi, sqrt
+from math import atan2, cos, pi
 from typing import Any, NamedTuple
 
+from pigaming_app.hardware.walls import GAMMA, limits
+from pigaming_app.hardware.ways import Point, among, apart, floor_with, spots, way_to
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.grid import BLOCKED, wall_on_grid
-from pigaming_app.sim.navigate import Errand, find_way, free_node, grow
 from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robots import RADIUS
-from pigaming_app.sim.sweep import clear
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall, World
+from pigaming_app.sim.world import ROBOTS, World
 
 AT, FACING = 12.0, 0.10  # px and rad from its place within which a robot is there
 SLOWEST, FASTEST = 45.0, 220.0  # px/s
 SLOWEST_TURN, FASTEST_TURN = 0.7, 2.2  # rad/s
 CORNER = 30.0  # px from a point of the way at which the next is made for
 MARGIN = 14.0  # px between robots that pass each other
-MOST_POINTS = 40  # of a way
-
-Point = tuple[float, float]
+BERTHS = (18.0, 4.0)  # px between a robot on its way and a wall, which slows it down; the second where it is narrow
+HELD = 4.0 * GAMMA  # px/s: where a wall allows less, the robot first drives away from it
+AGAIN = 20  # ticks after which a way is found anew
+MOVED = 0.03  # rad, or tens of px: less than that is no motion
+PATIENCE = 10  # ticks without motion after which the slowest speeds grow, each tick by PUSH
+PUSH, MOST = 0.05, 4.0
+REST: Twist = (0.0, 0.0)
 
 
 class Place(NamedTuple):
@@ -44,9 +47,14 @@ class Homing:
         self.world: Any = world
         self.goals = dict(goals)
         self.places: list[Place] = []
+        self._floors = [floor_with(world, berth) for berth in BERTHS]
         self._ways: dict[int, list[Point]] = {}
-        self._aside: set[int] = set()  # robots that make room first
+        self._aside: set[int] = set()  # robots that have made room
+        self._arrived: set[int] = set()  # robots that only have to turn
         self._home: set[int] = set()
+        self._tick = 0
+        self._push = [1.0] * ROBOTS  # by what the slowest speeds are multiplied
+        self._before: dict[int, tuple[int, Pose]] = {}  # the tick and the pose when it last moved
 
     @property
     def done(self) -> bool:
@@ -55,44 +63,49 @@ class Homing:
 
     def twists(self, poses: Mapping[int, Pose]) -> dict[int, Twist]:
         """One tick: what to ask of each robot of `goals` now. `poses` are of all robots that stand on the mat."""
-        self._note(poses)
+        self._tick += 1
+        self.places = [self._placed(robot, poses.get(robot)) for robot in self.goals]
         for robot in self.goals:
-            if robot not in self._ways and robot not in self._home and robot in poses:
+            due = robot not in self._ways or (self._tick + 5 * robot) % AGAIN == 0
+            if due and robot in poses and robot not in self._home and robot not in self._arrived:
                 self._set_out(robot, poses)
         if not self._ways and not self.done:
             self._make_room(poses)
-        told = dict.fromkeys(self.goals, (0.0, 0.0))
-        for robot in [robot for robot in self._ways if robot in poses]:
+        told = dict.fromkeys(self.goals, REST)
+        for robot in list(self._ways):
             told[robot] = self._follow(robot, poses[robot])
+            self._feel(robot, poses[robot], told[robot])
         return told
 
-    def _note(self, poses: Mapping[int, Pose]) -> None:
-        """See who is there. Who was and has been moved a little stays; who was carried off begins anew."""
-        self.places = []
-        for robot, goal in self.goals.items():
-            if robot not in poses:
-                self.places.append(Place(robot, goal, 1e9, pi, False, False))
-                self._ways.pop(robot, None)
-                continue
-            x, y, heading = poses[robot]
-            distance = sqrt((goal[0] - x) ** 2 + (goal[1] - y) ** 2)
-            turn = abs(turn_to(goal[2] - heading))
-            slack = 2.0 if robot in self._home else 1.0
-            there = distance < AT * slack and turn < FACING * slack
-            if there:
-                self._home.add(robot)
-                self._ways.pop(robot, None)
-                self._aside.discard(robot)
-            else:
-                self._home.discard(robot)
-            self.places.append(Place(robot, goal, distance, turn, there, robot in self._ways))
+    def _placed(self, robot: int, pose: Pose | None) -> Place:
+        """Who is there stays, even if it is moved a little; who was carried off begins anew."""
+        goal = self.goals[robot]
+        if pose is None:
+            self._forget(robot)
+            return Place(robot, goal, 1e9, pi, False, False)
+        distance, turn = apart(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
+        slack = 2.0 if robot in self._home else 1.0
+        there = distance < AT * slack and turn < FACING * slack
+        if there:
+            self._forget(robot)
+            self._home.add(robot)
+        else:
+            self._home.discard(robot)
+        return Place(robot, goal, distance, turn, there, robot in self._ways)
+
+    def _forget(self, robot: int) -> None:
+        self._ways.pop(robot, None)
+        self._aside.discard(robot)
+        self._arrived.discard(robot)
 
     def _set_out(self, robot: int, poses: Mapping[int, Pose]) -> None:
-        x, y, _ = poses[robot]
-        goal_x, goal_y, _ = self.goals[robot]
-        way = _way(self._floor(robot, poses), (x, y), (goal_x, goal_y))
-        if way:
-            self._ways[robot] = way
+        """Find the way to where it makes for: its place, or a spot where it is in nobody's way."""
+        target = self._ways[robot][-1] if robot in self._ways else self.goals[robot][:2]
+        for floor in self._floors:
+            way = way_to(self._among(floor, robot, poses), poses[robot][:2], target)
+            if way:
+                self._ways[robot] = way
+                return
 
     def _make_room(self, poses: Mapping[int, Pose]) -> None:
         """Send one robot that cannot get to its place to a free spot from where the others are not held up."""
@@ -100,97 +113,61 @@ class Homing:
             if robot in self._home or robot not in poses:
                 continue
             self._aside.add(robot)
-            x, y, _ = poses[robot]
-            floor = self._floor(robot, poses)
-            taken = [(px, py) for other, (px, py, _) in poses.items() if other != robot]
-            taken += [(gx, gy) for gx, gy, _ in self.goals.values()]
-            for spot in _spots(floor, (x, y)):
-                if all(_apart(spot, one) > 2.0 * RADIUS + 2.0 * MARGIN for one in taken):
-                    self._ways[robot] = _way(floor, (x, y), spot)
+            floor = self._among(self._floors[0], robot, poses)
+            taken = [pose[:2] for other, pose in poses.items() if other != robot]
+            taken += [goal[:2] for goal in self.goals.values()]
+            for spot in spots(floor, poses[robot][:2]):
+                if all(apart(spot, one) > 2.0 * (RADIUS + MARGIN) for one in taken):
+                    self._ways[robot] = way_to(floor, poses[robot][:2], spot) or [spot]
                     return
 
-    def _floor(self, robot: int, poses: Mapping[int, Pose]) -> Any:
-        """The world's walls, and what stands or is on its way besides this robot, as walls."""
-        floor = World()
-        floor.wall_count, floor.grid = self.world.wall_count, list(self.world.grid)
-        floor.walls = list(self.world.walls[: floor.wall_count])
-        for other, (x, y, _) in poses.items():
-            if other == robot:
-                continue
-            points = [(x, y), *self._ways.get(other, ())]
-            for (ax, ay), (bx, by) in zip(points, points[1:] or points, strict=False):
-                _add(floor, ax, ay, bx, by)
-        return floor
+    def _among(self, floor: Any, robot: int, poses: Mapping[int, Pose]) -> Any:
+        """The floor with what stands or is on its way besides this robot."""
+        lines = [[pose[:2], *self._ways.get(other, ())] for other, pose in poses.items() if other != robot]
+        return among(floor, lines, RADIUS + MARGIN)
 
     def _follow(self, robot: int, pose: Pose) -> Twist:
         """Along its way; at its end, turn as the place asks."""
-        way, goal = self._ways[robot], self.goals[robot]
+        way, goal, push = self._ways[robot], self.goals[robot], self._push[robot]
         x, y, heading = pose
-        while len(way) > 1 and _apart((x, y), way[0]) < CORNER:
+        while len(way) > 1 and apart((x, y), way[0]) < CORNER:
             way.pop(0)
-        left = _apart((x, y), way[-1]) if len(way) == 1 else 1e9
-        if left < (AT - 4.0):
-            if robot in self._aside and _apart(way[-1], goal[:2]) > AT:
+        left = apart((x, y), way[-1]) if len(way) == 1 else 1e9
+        if left < (AT if robot in self._arrived else AT - 4.0):
+            if apart(way[-1], goal[:2]) > AT:
                 del self._ways[robot]  # out of the way; from here to its place
-                return 0.0, 0.0
-            return 0.0, _turning(turn_to(goal[2] - heading))
-        bearing = turn_to(atan2(way[0][1] - y, way[0][0] - x) - heading)
-        back = left < 2.0 * RADIUS and abs(bearing) > 0.5 * pi
+                return REST
+            self._arrived.add(robot)
+            return 0.0, _on_the_spot(turn_to(goal[2] - heading), push)
+        self._arrived.discard(robot)
+        dx, dy = way[0][0] - x, way[0][1] - y
+        out_x, out_y = _out(self.world, x, y)
+        held = dx * out_x + dy * out_y < 0.0
+        bearing = turn_to((atan2(out_y, out_x) if held else atan2(dy, dx)) - heading)
+        back = (held or left < 2.0 * RADIUS) and abs(bearing) > 0.5 * pi
         bearing = turn_to(bearing + pi) if back else bearing
-        speed = min(FASTEST, max(SLOWEST, 2.0 * left)) * max(0.0, cos(1.5 * bearing)) if abs(bearing) < 0.9 else 0.0
-        return (-speed if back else speed), _turning(bearing) if abs(bearing) > 0.03 else 0.0
+        if abs(bearing) > 0.9:
+            return 0.0, _on_the_spot(bearing, push)
+        speed = SLOWEST * push if held else min(FASTEST, max(SLOWEST * push, 2.0 * left)) * cos(1.5 * bearing)
+        return (-speed if back else speed), 2.5 * bearing
+
+    def _feel(self, robot: int, pose: Pose, told: Twist) -> None:
+        """Motors with a wide deadband stand still at first: push until the robot moves, and remember how much."""
+        since, (x, y, heading) = self._before.get(robot, (self._tick, pose))
+        moved = 0.1 * apart((x, y), pose[:2]) + abs(turn_to(pose[2] - heading))
+        if moved >= MOVED or told == REST or robot not in self._before:
+            self._before[robot] = self._tick, pose
+        elif self._tick - since > PATIENCE:
+            self._push[robot] = min(self._push[robot] + PUSH, MOST)
 
 
-def _turning(angle: float) -> float:
-    rate = min(FASTEST_TURN, max(SLOWEST_TURN, 2.5 * abs(angle)))
+def _on_the_spot(angle: float, push: float) -> float:
+    """Rad/s to turn by an angle."""
+    rate = min(FASTEST_TURN, max(push * SLOWEST_TURN, 2.5 * abs(angle)))
     return rate if angle > 0.0 else -rate
 
 
-def _apart(one: Point, other: Point) -> float:
-    return sqrt((one[0] - other[0]) ** 2 + (one[1] - other[1]) ** 2)
-
-
-def _add(floor: Any, ax: float, ay: float, bx: float, by: float) -> None:
-    """Stand a wall as wide as a robot on the floor, from one point to another or on a single one."""
-    wall: Any = Wall()
-    wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.health = ax, ay, bx, by, RADIUS + MARGIN, 1
-    edge = wall.half + RADIUS
-    wall.left, wall.right = min(ax, bx) - edge, max(ax, bx) + edge
-    wall.top, wall.bottom = min(ay, by) - edge, max(ay, by) + edge
-    floor.walls.append(wall)
-    floor.wall_count += 1
-    wall_on_grid(floor, wall, 1)
-
-
-def _way(floor: Any, start: Point, goal: Point) -> list[Point]:
-    """The points to drive to, the last of them the goal; empty where there is no way."""
-    x, y = min(max(start[0], RADIUS), WIDTH - RADIUS), min(max(start[1], RADIUS), HEIGHT - RADIUS)
-    errand: Any = Errand()
-    errand.wanted, errand.goal_x, errand.goal_y = 1, goal[0], goal[1]
-    way: list[Point] = []
-    for _ in range(MOST_POINTS):
-        find_way(floor, errand, x, y)
-        if errand.straight:
-            return [*way, goal] if clear(floor, x, y, *goal, RADIUS + 1.0) else _last_bit(floor, way, (x, y), goal)
-        if way and (errand.way_x, errand.way_y) == way[-1]:
-            return []
-        x, y = errand.way_x, errand.way_y
-        way.append((x, y))
-    return []
-
-
-def _last_bit(floor: Any, way: list[Point], at: Point, goal: Point) -> list[Point]:
-    """A place beside a wall: from the node next to it straight there."""
-    return [*way, goal] if _apart(at, goal) < CELL and clear(floor, *at, *goal, RADIUS - 2.0) else []
-
-
-def _spots(floor: Any, start: Point) -> list[Point]:
-    """The free nodes that can be reached from there, nearest first."""
-    field: Any = Errand()
-    root = free_node(floor, *start)
-    if root == 0:
-        return []
-    grow(floor, field, root, -1)
-    nodes = [node for node in range(NODES) if field.reach[node] > 1 and not floor.grid[node] & BLOCKED]
-    nodes.sort(key=lambda node: int(field.reach[node]))
-    return [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in nodes]
+def _out(world: Any, x: float, y: float) -> Point:
+    """Straight away from the walls that hold a robot there; (0, 0) where none does."""
+    held = [limit for limit in limits(world, x, y) if limit.speed < HELD]
+    return -sum(limit.nx for limit in held), -sum(limit.ny for limit in held)

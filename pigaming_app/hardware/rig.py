@@ -18,9 +18,12 @@ from pigaming_app.hardware.safety import Signs
 from pigaming_app.hardware.signals import Clock, Eye, Frame, Telemetry, Wheels
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import DT, ROBOTS
 
-UNMEASURED = replace(NOMINAL, dead_time=0.03)  # s until the motors hear: tick, serial line, air
+# A 3pi that nobody has measured: a deadband as such motors have it, and s of dead time for tick, serial line and air.
+UNMEASURED = replace(
+    NOMINAL, left=replace(NOMINAL.left, deadband=0.03), right=replace(NOMINAL.right, deadband=0.03), dead_time=0.03
+)
 SPARSE = 24  # px between those of a picture that are compared with the one before
 PERIOD = 0.005  # s between two looks for a new picture
 
@@ -108,13 +111,16 @@ class Rig:
         return self.link.telemetry.get(self.channels[robot])
 
     def signs(self, robot: int, outside: float) -> Signs:
-        """How things stand with a robot that has been outside the arena for so many seconds."""
+        """How things stand with a robot that has been outside the arena for so many seconds.
+
+        What is said now holds for a tick, so what was seen counts as old as it will be then.
+        """
         now, report, begun = self.clock(), self.telemetry(robot), self._begun
         with self._lock:
             lost, looked, doubled = self.tracker.lost(robot), self.tracker.looked, robot in self.tracker.doubled()
         return Signs(
-            picture=now - max(looked, begun),
-            unseen=lost if looked > now - lost + 1e-6 else 0.0,
+            picture=now - max(looked, begun) + DT,
+            unseen=lost + DT if looked > now - lost + 1e-6 else 0.0,
             doubled=doubled,
             outside=outside,
             silence=now - (report.heard if report else begun),

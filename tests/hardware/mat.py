@@ -1,0 +1,113 @@
+"""A mat without light, air or bytes: four robots, a tracker that knows, a link that tells, all in simulated time.
+
+What is tried here is what lies between tracker and link; the emulated arena tries it with cameras and radio.
+"""
+
+from collections import deque
+from math import cos, exp, sin
+
+from pigaming_app.hardware.rig import UNMEASURED, Rig
+from pigaming_app.hardware.signals import Telemetry
+from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
+from pigaming_app.sim.plant import Sighting
+
+STEP = 0.01  # s
+TRUE = Drivetrain(Wheel(740.0, 0.04), Wheel(780.0, 0.03), 63.0, 0.09, 0.03)
+EVEN = Drivetrain(Wheel(760.0, 0.03), Wheel(760.0, 0.03), 63.0, 0.09, 0.03)
+STARTS = ((200.0, 200.0, 0.8), (1400.0, 200.0, 2.4), (1400.0, 700.0, 3.9), (200.0, 700.0, 5.5))
+
+
+class Robot:
+    """A true robot: a drivetrain and a pose."""
+
+    def __init__(self, pose, train):
+        self.x, self.y, self.heading = pose
+        self.train = train
+        self.told = None
+        self.linear = self.angular = 0.0
+        self.seen, self.doubled, self.battery, self.heard = 0.0, False, 5.0, 0.0
+        self.hidden = self.silent = False
+
+    def roll(self):
+        goal = twist(self.train, *self.told) if self.told else (0.0, 0.0)
+        share = 1.0 - exp(-STEP / self.train.lag)
+        self.linear += (goal[0] - self.linear) * share
+        self.angular += (goal[1] - self.angular) * share
+        self.x += STEP * self.linear * cos(self.heading)
+        self.y += STEP * self.linear * sin(self.heading)
+        self.heading += STEP * self.angular
+
+
+class Mat:
+    """Eye, tracker and link in one; `rig` joins them."""
+
+    def __init__(self, poses=STARTS, train=TRUE):
+        self.now = 0.0
+        self.robots = [Robot(pose, train) for pose in poses]
+        self.blind, self.trouble, self.closed = False, None, False
+        self.looked = 0.0
+        self.coming = deque()
+        self.rig = Rig(self, self, self, self.clock, (UNMEASURED,) * 4)
+
+    def clock(self):
+        return self.now
+
+    def pass_time(self, seconds=0.02):
+        for _ in range(round(seconds / STEP)):
+            self.now += STEP
+            while self.coming and self.coming[0][0] <= self.now + 1e-9:
+                for robot, told in zip(self.robots, self.coming.popleft()[1], strict=True):
+                    robot.told = told
+            for robot in self.robots:
+                robot.roll()
+                if not self.blind and not robot.hidden:
+                    robot.seen = self.now
+                if not robot.silent:
+                    robot.heard = self.now
+            self.looked = self.looked if self.blind else self.now
+
+    # the eye
+    def newest(self):
+        return None
+
+    def close(self):
+        self.closed = True
+
+    # the tracker
+    def sent(self, time, twists):
+        pass
+
+    def see(self, frame):
+        pass
+
+    def sense(self, now):
+        ahead = now - self.now
+        return [
+            Sighting(
+                one.x + ahead * one.linear * cos(one.heading),
+                one.y + ahead * one.linear * sin(one.heading),
+                one.heading + ahead * one.angular,
+                self.now - one.seen,
+            )
+            for one in self.robots
+        ]
+
+    def lost(self, robot):
+        return self.now - self.robots[robot].seen
+
+    def doubled(self):
+        return {i for i, robot in enumerate(self.robots) if robot.doubled}
+
+    # the link
+    @property
+    def telemetry(self):
+        return {i: Telemetry(i, robot.battery, 0, robot.heard) for i, robot in enumerate(self.robots)}
+
+    def send(self, wheels):
+        self.coming.append((self.now + TRUE.dead_time, tuple(wheels)))
+
+    def pump(self):
+        pass
+
+    def start(self):
+        return self
