@@ -4,6 +4,7 @@ Looking near where a marker must be costs a tenth of a millisecond, looking thro
 twenty times that, and through all of it in every way two hundred times: which and when is the tracker's to say.
 """
 
+import os
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
@@ -17,6 +18,11 @@ CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `dr
 READABLE = 19.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
 SMALLEST = 0.5  # scale of a quick look's picture: below, noise is no longer averaged
 NARROW, WIDE = 0.6, 1.6  # an edge is this much of what is expected, at least and at most
+QUIETLY = {
+    "OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT": "1",  # s that a dead camera holds up its reader
+    "OPENCV_VIDEOIO_MSMF_ENABLE_HW_TRANSFORMS": "0",  # which take half a minute to open a camera on Windows
+    "OPENCV_LOG_LEVEL": "ERROR",
+}
 
 
 class NoVision(Exception):
@@ -112,7 +118,9 @@ def mean_edge(corners: NDArray[np.float64]) -> float:
 
 
 def opencv() -> Any:
-    """The module cv2. Raises NoVision."""
+    """The module cv2, told before its import what it reads only then. Raises NoVision."""
+    for name, value in QUIETLY.items():
+        os.environ.setdefault(name, value)
     try:
         import cv2
     except ImportError as error:

@@ -15,8 +15,10 @@ POINT = 72.0 / 25.4  # PDF's unit in a mm
 CELLS = 6  # of a marker with its black rim; one more all round is white
 RULER = 100.0  # mm
 SAID = (
-    "Print at 100 %, without fitting to the page; the ruler must measure 100 mm. Matt paper, flat on the lid.",
-    "Imprimir a 100 %, sem ajustar à página; a régua tem de medir 100 mm. Papel mate, liso sobre a tampa.",
+    "Print at 100 %, without fitting to the page: the ruler must measure 100 mm. Matt paper.",
+    "Cut along the grey lines, keep the white rim; glue flat on the lid, the triangle's side ahead.",
+    "Imprimir a 100 %, sem ajustar à página: a régua tem de medir 100 mm. Papel mate.",
+    "Cortar pelas linhas cinzentas, com a margem branca; colar liso na tampa, o triângulo para a frente.",
 )
 
 
@@ -62,7 +64,7 @@ def _ruler() -> Iterator[str]:
 def _words() -> Iterator[str]:
     yield _text(20.0, 22.0, 16, "PiGaming")
     for i, said in enumerate(SAID):
-        yield _text(20.0, 272.0 + 5.5 * i, 9, said)
+        yield _text(20.0, 270.0 + 5.0 * i, 9, said)
 
 
 def _at(x: float, y: float) -> str:

@@ -9,6 +9,7 @@ from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
 
+from pigaming_app.hardware.drift import Drift
 from pigaming_app.hardware.follower import COAST, Follower
 from pigaming_app.hardware.ground import Ground, Points
 from pigaming_app.hardware.markers import ROBOT_IDS, Markers, Spot, mean_edge, same
@@ -33,6 +34,7 @@ class Tracker:
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # which robots are worth searching for; others are taken if they are seen
         self.looked = -inf  # s, when the newest picture was taken that was looked at
+        self.drift: Drift | None = None  # watches the same pictures, where the corner markers are projected
         self._markers = Markers(ROBOT_IDS)
         self._followers = [Follower(one, ground.mm) for one in drivetrains or [NOMINAL] * ROBOTS]
         self._refused: dict[tuple[int, str], float] = {}
@@ -46,6 +48,8 @@ class Tracker:
 
     def see(self, frame: Frame) -> list[Fix]:
         """Correct the robots by a picture; the fixes that were believed."""
+        if self.drift is not None:
+            self.drift.see(frame)
         return self.correct(self._find(frame), frame.captured)
 
     def correct(self, marks: Sequence[Mark], captured: float) -> list[Fix]:
