@@ -5,7 +5,8 @@ It drives for a point ahead on the fastest line (pure pursuit), shifted aside wh
 has not crossed it goes back to before it.
 
 The strengths differ in speed, in how much of the fastest line they use and how steadily they keep it, in turbo (easy
-leaves it alone), and in how late they see others. Those below hard keep nearer to the middle, so that there is room inside to pass them.
+leaves it alone), and in how late they see others. Those below hard keep nearer to the middle, so that there is room
+inside to pass them.
 """
 
 from math import atan2, cos, pi, sin, sqrt
