@@ -12,7 +12,7 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.navigate import Errand
 from pigaming_app.sim.record import digest, record
 from pigaming_app.sim.robots import RADIUS
-from pigaming_app.sim.walker import CLOSE, THERE, TURN, send, walk
+from pigaming_app.sim.walker import CLOSE, NEARLY, THERE, TURN, send, walk
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH, World
 from tests.floor import floor
 
@@ -214,6 +214,22 @@ def test_it_never_walks_into_a_robot_wherever_robots_stand():
                 break
             assert all(hypot(who.x - a, who.y - b) >= RADIUS + GIRTH + CLOSE - 1e-9 for a, b, _ in poses)
     assert arrived >= 10, "most get there"
+
+
+@pytest.mark.parametrize("off", [0.0, 40.0])
+def test_where_somebody_stands_on_the_goal_it_comes_as_near_as_it_can_and_is_there(off):
+    """Else whoever parks where people work would stop the work for good."""
+    world = floor(poses=[(1000.0 + off, 450.0, 0.0)])
+    who = walker(600.0, 450.0, (1000.0, 450.0))
+    assert go(world, who, 10.0) is not None
+    assert far_off(who) < NEARLY
+
+
+@pytest.mark.parametrize("y", [70.0, 830.0])
+@pytest.mark.parametrize("x", [600.0, 1000.0])
+def test_where_a_wall_ends_one_side_it_goes_round_on_the_other(x, y):
+    world = floor(poses=[(800.0, y, 0.0)])
+    assert go(world, walker(x, y, (1600.0 - x, y)), 15.0) is not None
 
 
 def test_the_same_walk_is_the_same_to_the_last_bit():
