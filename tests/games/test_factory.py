@@ -466,13 +466,11 @@ def test_who_drives_over_somebody_stands_still_for_three_seconds(speed):
     bump(shop, speed=speed, gap=RADIUS + 19.0)
     load, robot = shop.loads[0], shop.state.robots[0]
     assert (load.hits, load.frozen) == (1, 3 * HZ)
-    stood = 0
-    while load.frozen:
+    for _ in range(3 * HZ):
         assert (robot.ask_linear, robot.ask_angular, robot.boosting) == (0.0, 0.0, 0)
         shop.tick()
-        stood += 1
-    assert stood == 3 * HZ
     assert robot.ask_linear > 0
+    assert load.hits == 1
     assert (worker.x, worker.y) == before, "nobody is hurt or moved"
 
 
