@@ -96,7 +96,7 @@ def _on_screen(arguments: argparse.Namespace, setup: Setup, speed: float, show: 
             kiosk=arguments.kiosk,
             display=None if arguments.display is None else arguments.display - 1,
             shot=arguments.screenshot,
-            shot_at=arguments.at,
+            shot_due=lambda: bool(made) and (made[0].match.over or made[0].match.seconds >= arguments.at),
         )
     )
     if made and arguments.record:

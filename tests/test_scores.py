@@ -43,6 +43,32 @@ def test_a_table_has_ten_rows():
     assert points(filled(*range(30))) == list(range(29, 29 - LENGTH, -1))
 
 
+def test_of_times_the_shortest_comes_first_and_the_file_says_that_they_are_times(tmp_path):
+    scores = Scores()
+    for name, ms in (("SLO", 12_340), ("FST", 9_870), ("MID", 9_871)):
+        scores.add("race", "classic lap", name, ms, NOON, timed=True)
+    scores.save(tmp_path)
+    kept, said = Scores.load(tmp_path)
+    assert not said
+    assert [(row.initials, row.score, row.timed) for row in kept.best("race", "classic lap")] == [
+        ("FST", 9_870, True),
+        ("MID", 9_871, True),
+        ("SLO", 12_340, True),
+    ]
+    assert kept.place("race", "classic lap", 9_870, timed=True) == 2, "behind its equal"
+    assert kept.place("race", "classic lap", 20_000, timed=True) == 4
+
+
+def test_a_lap_in_no_time_is_no_lap(tmp_path):
+    (tmp_path / FILE).write_text(
+        '[race]\n"classic lap" = [{initials = "ABC", ms = 0, when = 2026-11-21T12:00:00Z},'
+        ' {initials = "ABC", ms = 9000, when = 2026-11-21T12:00:00Z}]\n'
+    )
+    kept, said = Scores.load(tmp_path)
+    assert [row.score for row in kept.best("race", "classic lap")] == [9000]
+    assert len(said) == 1
+
+
 def test_todays_table_begins_empty_and_yesterdays_stars_stay_in_that_of_all_time():
     scores = filled(*range(100, 100 + LENGTH), when=NOON - DAY)
     scores.add("pitanks", "classic", "NEW", 1, NOON)

@@ -4,8 +4,9 @@ It drives for a point ahead on the fastest line (pure pursuit), shifted aside wh
 `passing`), as fast as the line allows; turbo goes where the way is straight. Held up it backs out; past a line that it
 has not crossed it goes back to before it.
 
-The strengths differ in speed, in how much of the fastest line they use and how steadily they keep it, in turbo, and in
-how late they see others. Those below hard keep nearer to the middle, so that there is room inside to pass them.
+The strengths differ in speed, in how much of the fastest line they use and how steadily they keep it, in turbo (easy
+leaves it alone), and in how late they see others. Those below hard keep nearer to the middle, so that there is room
+inside to pass them.
 """
 
 from math import atan2, cos, pi, sin, sqrt
@@ -224,6 +225,6 @@ def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
     return racer_thoughts.explain(match, seat, mind, known)
 
 
-EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=0.9, delay=0.35), explain=explain)
+EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35), explain=explain)
 NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2), explain=explain)
 HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05), explain=explain)

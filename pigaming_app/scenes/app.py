@@ -38,7 +38,7 @@ log = logging.getLogger("pigaming")
 
 @dataclass(frozen=True)
 class Options:
-    """What the command line may ask of the arcade. `frames`: close after so many; `shot`: a picture to take."""
+    """What the command line may ask of the arcade. `frames`: close after so many; `shot`: a picture, taken when due."""
 
     first: Callable[[House], Scene] | None = None  # a scene on top of the title
     alone: bool = False  # close when that scene has gone
@@ -47,7 +47,7 @@ class Options:
     headless: bool = False
     frames: int | None = None
     shot: Path | None = None
-    shot_at: float = 0.0
+    shot_due: Callable[[], bool] = lambda: True
     step: float | None = None  # s of made-up time for each frame, instead of real time
 
 
@@ -139,7 +139,7 @@ class App:
         self.stack.top.draw(screen)
         self._say(screen, seconds)
         self.gauge.note(seconds, played - began, perf_counter() - played)
-        if self.options.shot and self.seconds >= self.options.shot_at:
+        if self.options.shot and self.options.shot_due():
             self.house.canvas.screenshot(self.options.shot)
             self.stack.scenes.clear()
             return

@@ -1,7 +1,7 @@
 """Three, two, one, go: the big signs over an arena, before a match and after every interruption."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 
 import pygame
@@ -17,6 +17,8 @@ POPS = 5  # sizes kept of each sign
 HUGE = 300
 LEVELS = 8  # brightnesses of a sign that goes
 MOAT = 14  # px
+CLEAR_X, CLEAR_Y = 390, 290  # px by which a number stands away from a robot and what is said about it
+SHIFTS = sorted(((x, y) for x in range(-480, 481, 60) for y in range(-180, 181, 60)), key=lambda at: math.hypot(*at))
 
 
 class Countdown:
@@ -52,16 +54,16 @@ class Countdown:
             return "count" if number <= 3 else None
         return None
 
-    def draw(self, screen: pygame.Surface, go: str) -> None:
-        """Paint the number, or `go`."""
+    def draw(self, screen: pygame.Surface, go: str, at: tuple[int, int] = CENTRE) -> None:
+        """Paint the number, or `go`, round a place on the canvas."""
         pop = min(POPS - 1, int(self.since / POP * POPS))
         if not self.locked:
             if self.since < GO:
                 level = LEVELS if self.since < GO / 2 else math.ceil(2 * LEVELS * (1 - self.since / GO))
-                show(screen, popped(go, FOCUS, pop, level))
+                show(screen, popped(go, FOCUS, pop, level), at)
         elif self.number <= 3:
-            show(screen, popped(str(self.number), ICE, pop))
-            show(screen, arcs(self.number))
+            show(screen, popped(str(self.number), ICE, pop), at)
+            show(screen, arcs(self.number), at)
 
 
 def signs(go: str, *ends: str) -> Iterator[Sprite]:
@@ -100,10 +102,18 @@ def _word(text: str, color: Color) -> Sprite:
     return trim(out, w / 2, h / 2)
 
 
-def show(screen: pygame.Surface, sign: Sprite) -> None:
-    """Paint a sign in the middle of the arena."""
-    at = CENTRE[0] + sign.dx, CENTRE[1] + sign.dy
-    screen.blit(sign.image, at, special_flags=pygame.BLEND_PREMULTIPLIED)
+def clear_of(robots: Sequence[tuple[float, float]]) -> tuple[int, int]:
+    """The place nearest to the middle of the arena where a number hides no robot; the middle where there is none."""
+    for dx, dy in SHIFTS:
+        x, y = CENTRE[0] + dx, CENTRE[1] + dy
+        if all(abs(x - robot[0]) > CLEAR_X or abs(y - robot[1]) > CLEAR_Y for robot in robots):
+            return x, y
+    return CENTRE
+
+
+def show(screen: pygame.Surface, sign: Sprite, at: tuple[int, int] = CENTRE) -> None:
+    """Paint a sign round a place on the canvas, the middle of the arena if nothing else is said."""
+    screen.blit(sign.image, (at[0] + sign.dx, at[1] + sign.dy), special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
 @cache

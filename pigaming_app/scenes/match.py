@@ -13,7 +13,7 @@ import pygame
 from pigaming_app.ai import make, seated
 from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
-from pigaming_app.scenes.countdown import Countdown, popped, show, signs
+from pigaming_app.scenes.countdown import CENTRE, Countdown, clear_of, popped, show, signs
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, PLAYERS
 from pigaming_app.scenes.pause import Pause
@@ -43,6 +43,7 @@ class MatchScene:
         self.match = seated(setup)
         self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
+        self.spot = CENTRE
         self.signs = signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish")))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
@@ -109,7 +110,8 @@ class MatchScene:
         elif self.count.shown:
             if self.count.locked:
                 self.stage.captions(screen, self.devices)
-            self.count.draw(screen, words("match.go"))
+                self.spot = clear_of(self.stage.robots())
+            self.count.draw(screen, words("match.go"), self.spot)
         if self.notice and self.noticed > 0.0:
             self.notice.draw(screen, 960, 206)
 

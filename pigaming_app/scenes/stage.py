@@ -71,6 +71,10 @@ class Stage:
         canvas.fill((BEHIND, BEHIND, BEHIND), special_flags=pygame.BLEND_RGB_MULT)
         return canvas
 
+    def robots(self) -> list[tuple[float, float]]:
+        """Where the robots stand on the canvas."""
+        return [(LEFT + robot.x, TOP + robot.y) for robot in self.match.state.robots if robot.present]
+
     def captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
         """Who drives with what, beside each robot."""
         for seat, robot in enumerate(self.match.state.robots):

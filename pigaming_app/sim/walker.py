@@ -12,11 +12,12 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.navigate import find_way
 from pigaming_app.sim.robots import RADIUS
-from pigaming_app.sim.world import DT
+from pigaming_app.sim.world import DT, ROBOTS
 
 THERE = 6.0  # px from the goal that count as there
 NEARLY = 70.0  # px that do, if somebody stands in the way
 ROOM, CLOSE = 34.0, 8.0  # px that a walker keeps from a robot that drives, and from one that stands
+PAST = 24.0  # px more than that, from which on it has come past somebody
 DRIVING = 20.0  # px/s
 AHEAD = 0.5  # s that it looks ahead at how a robot drives
 TURN = 8.0  # rad/s
@@ -43,25 +44,40 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     gap = sqrt(dx * dx + dy * dy)
     if gap < 1e-6:
         return 0
-    ux, uy = dx / gap, dy / gap
     pace = min(left, speed * DT)
-    if step(world, walker, pace * ux, pace * uy, radius):
-        walker.side = 0
+    ux, uy = pace * dx / gap, pace * dy / gap
+    block = in_the_way(world, walker, walker.x + ux, walker.y + uy, radius)
+    if block < 0 and step(world, walker, ux, uy, radius):
+        if in_the_way(world, walker, walker.x + ux, walker.y + uy, radius + PAST) < 0:
+            walker.side = 0
         return 0
+    if block >= 0 and left < NEARLY and not drives(world.robots[block]):
+        return 1
+    go_round(world, walker, block, ux, uy, radius)
+    return 0
+
+
+@kernel
+def go_round(world: Any, walker: Any, block: int, ux: float, uy: float, radius: float) -> None:
+    """A step along the rim of robot `block` (of a wall if that is negative), on one side as long as that leads on."""
+    ox, oy = -ux, -uy
+    if block >= 0:
+        ox, oy = walker.x - world.robots[block].x, walker.y - world.robots[block].y
+    pace = sqrt(ux * ux + uy * uy) / (sqrt(ox * ox + oy * oy) + 1e-9)
+    vx, vy = -pace * oy, pace * ox
     if walker.side == 0:
-        walker.side = 1
-    for _ in range(2):  # round what is in the way, on one side as long as that leads on
-        if step(world, walker, -pace * walker.side * uy, pace * walker.side * ux, radius):
-            return 0
+        walker.side = 1 if vx * ux + vy * uy >= 0.0 else -1
+    for _ in range(2):
+        if step(world, walker, walker.side * vx, walker.side * vy, radius):
+            return
         walker.side = -walker.side
-    return 1 if left < NEARLY else 0
 
 
 @kernel
 def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
     """Take a step, if neither a robot nor a wall is in the way."""
     x, y = walker.x + dx, walker.y + dy
-    if not free_of_robots(world, walker, x, y, radius) or in_wall(world, x, y):
+    if in_the_way(world, walker, x, y, radius) >= 0 or in_wall(world, x, y):
         return False
     look(walker, dx, dy)
     walker.x, walker.y, walker.walking = x, y, 1
@@ -81,13 +97,19 @@ def look(walker: Any, vx: float, vy: float) -> None:
 
 
 @kernel
-def free_of_robots(world: Any, walker: Any, x: float, y: float, radius: float) -> bool:
-    """Whether no robot is, or will soon be, in the way of a step to (x, y). Stepping away from one is always free."""
-    for robot in world.robots:
+def drives(robot: Any) -> bool:
+    """Whether a robot is on the move."""
+    return robot.linear > DRIVING or robot.linear < -DRIVING  # type: ignore[no-any-return]
+
+
+@kernel
+def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> int:
+    """The first robot that is or will soon be in the way of a step to (x, y); -1: none. A step away is free."""
+    for k in range(ROBOTS):
+        robot = world.robots[k]
         if not robot.present:
             continue
-        drives = robot.linear > DRIVING or robot.linear < -DRIVING
-        reach = RADIUS + radius + (ROOM if drives else CLOSE)
+        reach = RADIUS + radius + (ROOM if drives(robot) else CLOSE)
         ahead = AHEAD * robot.linear
         vx, vy = ahead * cos(robot.heading), ahead * sin(robot.heading)
         for half in range(3):
@@ -97,5 +119,5 @@ def free_of_robots(world: Any, walker: Any, x: float, y: float, radius: float) -
             if gap < reach * reach:
                 ox, oy = walker.x - rx, walker.y - ry
                 if gap < ox * ox + oy * oy:
-                    return False
-    return True
+                    return k
+    return -1

@@ -17,6 +17,7 @@ from pigaming_app.games.factory.state import (
     HALF,
     IN_MACHINE,
     IN_SLOT,
+    INPUT,
     ON_ROBOT,
     OUTPUT,
     RAW,
@@ -128,15 +129,20 @@ def test_pallets_keep_their_promises_while_drivers_of_all_kinds_play(floor, pall
 
 
 def likely(shop, seat, chance):
-    """A slot at which there is something to do for a robot: the right one mostly, any at all now and then."""
-    state, load = shop.state, shop.loads[seat]
-    takes = {RAW: shop.input_of(A), HALF: shop.input_of(B), DONE: shop.slot(EXIT, seat % 2, -1, chance.randrange(4))}
-    if load.pallet:
-        right = [takes.get(state.pallets[load.pallet - 1].state, 0)]
-    else:
-        right = [s for s in range(len(shop.slots)) if may_lift(state, seat, s)]
-        right = [s for s in right if shop.slots[s].kind == OUTPUT] or right
-    return chance.choice(right) if right and chance.random() < 0.8 else chance.randrange(len(shop.slots))
+    """A slot at which there is something to do for a robot: mostly the right one, at times a wrong machine, or any."""
+    load = shop.loads[seat]
+    luck = chance.random()
+    if luck < 0.15:
+        return chance.randrange(len(shop.slots))
+    if not load.pallet:
+        full = [s for s in range(len(shop.slots)) if may_lift(shop.state, seat, s)]
+        return chance.choice([s for s in full if shop.slots[s].kind == OUTPUT] or full or [0])
+    state = shop.pallets[load.pallet - 1].state
+    free = [s for s, slot in enumerate(shop.slots) if slot.kind == INPUT and not slot.pallet]
+    if free and luck < (0.6 if state == DONE else 0.25):  # few are ever done, so that these go astray more often
+        return chance.choice(free)
+    exit_slot = shop.slot(EXIT, seat % 2, -1, chance.randrange(4))
+    return {RAW: shop.input_of(A), HALF: shop.input_of(B), DONE: exit_slot}.get(state, 0)
 
 
 def jump(shop, present, chance, seconds):

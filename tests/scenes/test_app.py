@@ -58,7 +58,7 @@ def test_it_starts_with_the_title_and_keeps_its_settings(home: Path) -> None:
 
 def test_a_picture_of_the_title(home: Path) -> None:
     picture = home / "title.png"
-    assert run(Options(headless=True, shot=picture, shot_at=0.1, step=STEP)) == 0
+    assert run(Options(headless=True, shot=picture, step=STEP)) == 0
     assert picture.stat().st_size > 20_000
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from pigaming_app.ai.brain import Hands, Thinker
 from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.countdown import CENTRE, clear_of
 from pigaming_app.scenes.devices import DeviceTable
 from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.pause import Pause
@@ -257,3 +258,11 @@ def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcad
     assert match.stood_in == [1]
     arcade.press(Act.FIRE, KEYS[3])
     assert match.devices[1] == KEYS[3]
+
+
+def test_the_numbers_before_a_match_stand_where_they_hide_no_robot() -> None:
+    assert clear_of([(260.0, 240.0), (1660.0, 940.0)]) == CENTRE
+    x, y = clear_of([(900.0, 540.0)])
+    assert abs(x - 900) > 300 or abs(y - 540) > 250
+    assert 370 <= y <= 830, "its ring stays inside the arena"
+    assert clear_of([(x, y) for x in range(200, 1800, 300) for y in range(200, 1000, 200)]) == CENTRE, "nowhere is free"

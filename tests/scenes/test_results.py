@@ -6,13 +6,13 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.games.game import Outcome, Row
+from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.scenes.ballot import PATIENCE
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.initials import Initials
 from pigaming_app.scenes.match import MatchScene, again
-from pigaming_app.scenes.plot import moments, scale, spread, team_curve
+from pigaming_app.scenes.plot import Curve, LapPlot, moments, scale, spread, team_curve
 from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.results import IDLE, Results
 from pigaming_app.scores import Scores
@@ -226,3 +226,60 @@ def test_badges_part_and_stay_on_the_page() -> None:
 def test_a_team_is_the_sum_of_its_robots() -> None:
     curve = team_curve((0, 2), [((0.0, 0), (3.0, 1)), ((0.0, 0), (2.0, -1), (5.0, -2))])
     assert curve.series[-3:] == ((2.0, -1), (3.0, 0), (5.0, -1))
+
+
+def race(arcade: Arcade, lap: int, whole: int) -> Results:
+    """A race of three laps on the classic track that player 1 won, with a best lap and in all (ms)."""
+    human, ai = Seat("human", 0), Seat("hard", 1)
+    match = Setup("race", "classic", (human, ai, Seat("off", 2), Seat("off", 3)), 10, 3, "standard", 3)
+    facts = {"laps": 3, "best": lap / 1000.0, "total": whole / 1000.0}
+    rows = [
+        Row(0, 0, 1, 3, facts, {"lap": lap, "race": whole}, (lap / 1000.0, 12.0, 11.5)),
+        Row(1, 1, 2, 2, facts, {"lap": lap + 500, "race": 0}, (12.5, 13.0)),
+    ]
+    ended = Outcome(tuple(rows), (0,), (((0.0, 0), (30.0, 3)), ((0.0, 0), (30.0, 2)), ((0.0, 0),), ((0.0, 0),)), 60.0)
+    results = Results(arcade.house, ended, match, [KEYS[0], None, None, None], again, True)
+    arcade.open(results)
+    return results
+
+
+def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) -> None:
+    race(arcade, 9_870, 30_120)
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    claim = arcade.shown(Initials).claim
+    assert (claim.seat, [(board.feat.name, value) for board, value in claim.feats]) == (
+        0,
+        [("lap", 9_870), ("race", 30_120)],
+    )
+    arcade.wait(1.0)
+    arcade.press(Act.START, KEYS[0])
+    arcade.wait(2.0, draw=True)
+    arcade.shown(Best)
+    kept, said = Scores.load(folders().data)
+    assert not said
+    assert [row.score for row in kept.best("race", "classic lap")] == [9_870]
+    assert [row.score for row in kept.best("race", "classic race 3")] == [30_120]
+    assert not kept.best("race", "classic race 5"), "five laps are another race"
+
+
+def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> None:
+    for _ in range(10):
+        arcade.house.scores.add("race", "classic race 3", "ABC", 20_000, timed=True)
+    race(arcade, 9_870, 30_120)
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    assert [board.feat.name for board, _ in arcade.shown(Initials).claim.feats] == ["lap"]
+
+
+def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None:
+    curves = [Curve((0,), ((1.0, 9.87), (2.0, 12.0), (3.0, 11.5))), Curve((1,), ((1.0, 12.5),)), Curve((2,), ())]
+    plot = LapPlot(100, 100, 800, 500, curves, 3)
+    assert plot.low <= 9.87 < plot.low + plot.step, "the axis begins just below the best lap, not at 0"
+    assert plot.high >= 12.5
+    [(x, y)] = plot.marked()
+    assert x == pytest.approx(plot.to(1.0, 9.87)[0])
+    assert y == pytest.approx(plot.to(1.0, 9.87)[1], abs=5.0)
+    assert [said for _, said in plot.marks()] == ["1", "2", "3"]
+    assert len(plot.corners(curves[1].series)) == 2, "an only lap is a stroke that can be seen"
+    assert len(plot.heads(0.1)) == 0
+    assert len(plot.heads(1.0)) == 2, "who drove no lap has no line"
+    assert LapPlot(100, 100, 800, 500, [Curve((0,), ())], 3).marked() == []

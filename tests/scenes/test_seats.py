@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.games.game import Seat
+from pigaming_app.games.game import ALONE, PAIRS, Seat
 from pigaming_app.scenes.press import Device
 from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, Seats
 
@@ -84,3 +84,45 @@ def test_sending_the_ais_away_leaves_the_people() -> None:
     seats.add()
     seats.clear()
     assert (seats.like(HUMAN), seats.like(AI), seats.like(EMPTY)) == ([0], [], [1, 2, 3])
+
+
+def team_of(seats: Seats) -> list[int]:
+    return [place.team for place in seats.places if place.kind != EMPTY]
+
+
+def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> None:
+    seats = Seats(sides=PAIRS)
+    assert [seats.join(ANA), seats.join(BEN)] == [0, 1]
+    assert team_of(seats) == [0, 1]
+    assert not seats.fill(), "one against one is a match too"
+    seats.change_team(1)
+    assert seats.one_team
+    assert seats.fill() == [2, 3], "two who want to play together get two rivals"
+    assert team_of(seats) == [0, 0, 1, 1]
+    assert [seat.team for seat in seats.seats()] == [0, 0, 1, 1]
+
+
+def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
+    seats = Seats(sides=PAIRS)
+    seats.join(ANA)
+    assert seats.fill() == [1, 2, 3]
+    assert sorted(team_of(seats)) == [0, 0, 1, 1]
+
+
+def test_three_never_stand_on_one_side_and_the_ai_is_who_gives_way() -> None:
+    seats = Seats(sides=PAIRS)
+    for device in (ANA, BEN):
+        seats.join(device)
+    seats.add()
+    seats.add()
+    assert team_of(seats) == [0, 1, 0, 1]
+    seats.change_team(1)
+    assert team_of(seats) == [0, 0, 1, 1], "Ben came over, the AI went"
+
+
+def test_in_a_race_everyone_drives_alone_against_three() -> None:
+    seats = Seats(sides=ALONE, teams=True)
+    seats.join(ANA)
+    assert seats.fill() == [1, 2, 3]
+    assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
+    assert not seats.one_team

@@ -36,7 +36,7 @@ from pigaming_app.games.factory.state import (
     B,
 )
 from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
-from pigaming_app.sim.grid import BLOCKED
+from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.navigate import Errand, free_node, grow
 from pigaming_app.sim.table import Table, Wrong
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, World
@@ -185,8 +185,7 @@ def _check_ways(layout: Layout, floor: Floor) -> None:
     places = [(f"machine[{m + 1}].worker", one.spot_x, one.spot_y) for m, one in enumerate(floor.machines)]
     places += [(f"worker[{i + 1}].at", x, y) for i, (x, y) in enumerate(floor.homes)]
     for key, x, y in places:
-        node = free_node(world, x, y)
-        if not field.reach[node] or world.grid[node] & BLOCKED:
+        if in_wall(world, x, y) or not field.reach[free_node(world, x, y)]:
             raise Wrong(key, f"no person can get to ({x:g}, {y:g})")
 
 
