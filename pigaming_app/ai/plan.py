@@ -11,6 +11,7 @@ from pigaming_app.ai.qlearning import ACTIONS, MOVES
 from pigaming_app.ai.sectors import PLACES
 
 STATES = PLACES * PLACES  # of one direction
+CLEAR = 0.05  # share beyond chance from which on it has made up its mind
 
 
 @dataclass(frozen=True)
@@ -23,13 +24,12 @@ class Direction:
 
     @property
     def deed(self) -> str:
-        """What it mostly does, in one word: a shot counts as such, a turn before driving; "unknown" if never seen."""
-        if not self.seen:
-            return "unknown"
-        sums: dict[str, float] = {}
+        """What it does more than by chance, in one word; "unknown" where it has not made up its mind."""
+        excess = {word: -DEEDS.count(word) / ACTIONS for word in DEEDS}
         for share, word in zip(self.shares, DEEDS, strict=True):
-            sums[word] = sums.get(word, 0.0) + share
-        return max(sums, key=lambda word: sums[word])
+            excess[word] += share
+        best = max(excess, key=lambda word: excess[word])
+        return best if self.seen and excess[best] > CLEAR else "unknown"
 
 
 def deed(linear: float, angular: float, fire: int) -> str:

@@ -1,5 +1,6 @@
 """The page over a match that stands still: who paused, and what now. The match is one dark picture behind it."""
 
+from collections.abc import Sequence
 from typing import Protocol
 
 import pygame
@@ -102,10 +103,10 @@ class Pause:
             pane.page.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
 
 
-def items() -> list[Spot]:
-    """Where the items of the menu are."""
-    top = HEAD + (FOOT - HEAD - PITCH * len(ITEMS)) // 2 + (PITCH - ITEM_H) // 2
-    return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + PITCH * i, ITEM_W, ITEM_H)) for i, name in enumerate(ITEMS)]
+def items(names: Sequence[str] = ITEMS) -> list[Spot]:
+    """Where the items of a menu are."""
+    top = HEAD + (FOOT - HEAD - PITCH * len(names)) // 2 + (PITCH - ITEM_H) // 2
+    return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + PITCH * i, ITEM_W, ITEM_H)) for i, name in enumerate(names)]
 
 
 def title(pane: Pane, player: int | None, text: str, color: Color) -> None:

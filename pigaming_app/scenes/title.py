@@ -57,6 +57,7 @@ class Title:
         self.combination = Combination(house)
         self.focus = Focus(self._spots())
         self.game = next(iter(GAMES))  # whose tile had the focus last
+        self.lab: Scene | None = None
 
     def entered(self) -> None:
         """Shown, or shown again."""
@@ -122,11 +123,20 @@ class Title:
             from pigaming_app.scenes.howto import HowTo
 
             return HowTo(self.house, self.game)
+        if name == "lab":
+            return self._lab()
         if name == "options":
             from pigaming_app.scenes.options import OptionsPage
 
             return OptionsPage(self.house)
         return None
+
+    def _lab(self) -> Scene:
+        """The Lab as it was left: the robot is still there."""
+        from pigaming_app.scenes.lab.scene import Lab
+
+        self.lab = self.lab or Lab(self.house)
+        return self.lab
 
     def _speak(self, language: str) -> None:
         if language != self.house.words.language:
@@ -150,7 +160,8 @@ class Title:
         return spots
 
     def _menu(self) -> tuple[str, ...]:
-        return ("howto", "options") if self.house.kiosk else ("howto", "options", "quit")
+        there = "howto", "lab", "options"
+        return there if self.house.kiosk else (*there, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:
         """The line that asks for a press, between arrows that run towards it."""

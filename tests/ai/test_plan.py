@@ -40,6 +40,7 @@ def test_what_was_never_tried_is_done_rather_than_what_went_wrong() -> None:
     assert found.worth == 0.0
     assert found.shares[SHOOT] < 1e-9
     assert found.shares[LEFT] == pytest.approx(1.0 / (ACTIONS - 1))
+    assert found.deed == "unknown", "half of all moves shoot: that is chance, no plan"
 
 
 def test_both_bodies_of_a_table_have_the_same_plan() -> None:

@@ -86,7 +86,7 @@ class LabPage:
     """The page; `show` tells it what is so."""
 
     def __init__(self, house: House) -> None:
-        self.words = house.words
+        self.words, self.language = house.words, house.words.language
         self.ground = ground(house.words.language)
         self.arena = Arena(self.ground)
         self.curve = Curve(self.ground)

@@ -19,7 +19,7 @@ ARENA = pygame.Rect(MATCH.centerx - round(SCALE * WIDTH) // 2, MATCH.centery - r
                     round(SCALE * WIDTH), round(SCALE * HEIGHT))  # fmt: skip
 
 KNOB_NAMES = ("hit", "miss", "behind", "still")
-KNOB_Y = KNOBS.top + 130
+KNOB_Y = KNOBS.top + 132
 
 ROSE = (PLAN.left + 222, PLAN.top + 208)
 WORDS_X = PLAN.left + 456
@@ -34,6 +34,6 @@ __all__ = ["ARENA", "BAD", "BAR_Y", "CURVE", "GOOD", "KNOBS", "KNOB_NAMES", "KNO
 
 
 def knob_rect(i: int) -> pygame.Rect:
-    """What is clicked on and shown in focus: the i-th knob with its name."""
+    """What is clicked on and shown in focus: the i-th knob; its name stands below."""
     w = KNOBS.w // len(KNOB_NAMES)
-    return pygame.Rect(KNOBS.left + w * i + 8, KNOBS.top + 62, w - 16, KNOBS.h - 72)
+    return pygame.Rect(KNOBS.left + w * i + w // 2 - 74, KNOB_Y - 70, 148, 134)

@@ -9,6 +9,7 @@ import logging
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from time import monotonic, perf_counter
 
 from pigaming_app.ai.exam import compile_all
@@ -86,6 +87,11 @@ class Workshop:
         """What it knew after 0, 10, 50 and 200 matches, as far as it has come."""
         with self._lock:
             return dict(self.progress.checkpoints)
+
+    def hold(self, work: Callable[[Training], None]) -> None:
+        """Do something with the training while it stands still; what `work` raises is raised."""
+        with self._lock:
+            work(self.training)
 
     def begin(self, seed: int) -> None:
         """Forget everything and begin anew."""

@@ -1,0 +1,127 @@
+"""Play against what the robot has learned so far: a minute by the rules it was trained by, then back to the Lab."""
+
+import pygame
+
+from pigaming_app.ai.brain import Kind, Thinker
+from pigaming_app.ai.training import ARENA, GAME, VARIANT
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import HERO, ICE, MIST, PLAYERS, badge
+from pigaming_app.scenes.match import FREEZE, MatchScene, new_seed
+from pigaming_app.scenes.overlay import FOOT, HEAD, PROMPTS, W, overlay
+from pigaming_app.scenes.pane import Pane
+from pigaming_app.scenes.pause import title
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.stack import Pop, Scene, Swap, Turn
+
+MINUTES = 1.0
+ROBOT = 1  # its seat; the person sits on the first
+DEAF = 1.0  # seconds in which presses are ignored
+IDLE = 60.0  # seconds without a press until the Lab
+
+
+class Fight:
+    """One match of a person against the robot."""
+
+    def __init__(self, house: House, kind: Kind, device: Device) -> None:
+        self.house, self.kind, self.device = house, kind, device
+        off = Seat("off", 2), Seat("off", 3)
+        setup = Setup(GAME, ARENA, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
+        self.inner = MatchScene(house, setup, [device])
+        self.inner.match.sit(ROBOT, Thinker(kind, setup.seed))
+        self.inner.stage.players[ROBOT] = kind.name
+
+    def entered(self) -> None:
+        """Begin, or go on after an interruption."""
+        self.inner.entered()
+
+    def on(self, press: Press) -> Turn:
+        """As in every match."""
+        return self.inner.on(press)
+
+    def update(self, seconds: float) -> Turn:
+        """Let the match run on; ended by hand, it leads back at once."""
+        inner = self.inner
+        if inner.repeated:
+            return Swap(Fight(self.house, self.kind, inner.devices[0] or self.device))
+        if inner.stopped:
+            return Pop()
+        if inner.match.over:
+            inner.frozen += seconds
+            inner.stage.wait(seconds)
+            return Swap(Verdict(self)) if inner.frozen >= FREEZE else None
+        return inner.update(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The match."""
+        self.inner.draw(screen)
+
+
+class Verdict:
+    """Who won, and whether once more."""
+
+    def __init__(self, fight: Fight) -> None:
+        self.fight, self.house = fight, fight.house
+        self.scores = [robot.score for robot in fight.inner.match.state.robots][:2]
+        self.age = self.idle = 0.0
+        self.picture: pygame.Surface | None = None
+        self.prompts = Prompts(self.house, [(Act.FIRE, "results.again"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+
+    def entered(self) -> None:
+        """Let it be heard."""
+        mine, its = self.scores
+        self.house.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
+
+    def on(self, press: Press) -> Turn:
+        """FIRE plays again, BACK leads to the Lab."""
+        press = self.prompts.meant(press)
+        self.idle = 0.0
+        if self.age < DEAF:
+            return None
+        if press.act in (Act.FIRE, Act.START):
+            self.house.sounds.play("accept")
+            device = self.fight.device if press.device.kind == "mouse" else press.device
+            return Swap(Fight(self.house, self.fight.kind, device))
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Wait for somebody."""
+        self.age += seconds
+        self.idle += seconds
+        return Pop() if self.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page over the last picture of the match."""
+        if self.picture is None:
+            mine, its = self.scores
+            color = PLAYERS[0] if mine > its else PLAYERS[ROBOT] if its > mine else ICE
+            self.picture = overlay(self.fight.inner.picture(), color, self._paint)
+        screen.blit(self.picture, (0, 0))
+        self.prompts.draw(screen)
+
+    def _paint(self, pane: Pane) -> None:
+        words = self.house.words
+        mine, its = self.scores
+        name = self.fight.kind.name.upper()
+        if mine == its:
+            title(pane, None, words("results.tie"), ICE)
+        else:
+            seat = 0 if mine > its else ROBOT
+            title(pane, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat])
+        middle = (HEAD + FOOT) / 2
+        for seat, side, score, who in ((0, -1, mine, words("lab.you")), (ROBOT, 1, its, name)):
+            pane.page.text(
+                str(score).replace("-", "−"), HERO - 50, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
+            )
+            badge(pane.hot, seat, 960 + side * 430, middle - 28, 44)
+            pane.page.body(who, 960 + side * 430, middle + 66, MIST, "c")
+        pane.page.text(":", HERO - 70, 960, middle - 8, MIST, "hero", "c")
+
+
+def fight(house: House, kind: Kind, device: Device) -> Scene:
+    """A match against a robot of this kind."""
+    return Fight(house, kind, device)

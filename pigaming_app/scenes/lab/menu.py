@@ -1,0 +1,113 @@
+"""What else there is to do in the Lab: save the robot, open another one, compare, begin from nothing."""
+
+from typing import Protocol
+
+import pygame
+
+from pigaming_app.scenes.focus import Focus
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, LABEL, MIST
+from pigaming_app.scenes.lab.workshop import Workshop
+from pigaming_app.scenes.overlay import PROMPTS, W, overlay
+from pigaming_app.scenes.pane import Pane, word
+from pigaming_app.scenes.pause import items, title
+from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.stack import Pop, Swap, Turn
+
+ITEMS = ("save", "open", "compare", "anew")
+DARK = 72  # of 255: how bright the Lab is behind a page
+
+
+class Bench(Protocol):
+    """The Lab below a page."""
+
+    house: House
+    workshop: Workshop
+    name: str
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint it."""
+
+    def say(self, sentence: str, wrong: bool = False) -> None:
+        """Show a sentence for a while."""
+
+    def begin(self) -> None:
+        """Everything from an empty table."""
+
+
+def behind(lab: Bench) -> pygame.Surface:
+    """The Lab as it lies behind a page."""
+    canvas = pygame.Surface((1920, 1080))
+    lab.draw(canvas)
+    canvas.fill((DARK, DARK, DARK), special_flags=pygame.BLEND_RGB_MULT)
+    return canvas
+
+
+class LabMenu:
+    """The menu over the Lab, which rests."""
+
+    def __init__(self, lab: Bench) -> None:
+        self.lab, self.house = lab, lab.house
+        self.sure = False  # the next press on it forgets everything
+        self.picture: pygame.Surface | None = None
+        self.focus = Focus(items(ITEMS))
+        self.prompts = Prompts(self.house, [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """FIRE takes what has the focus; START and BACK lead back."""
+        press = self.prompts.meant(press)
+        if press.act in (Act.START, Act.BACK):
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(press):
+            self.sure = False
+            self.house.sounds.play("move")
+        chosen = self.focus.chosen(press)
+        return self._do(chosen) if chosen else None
+
+    def update(self, seconds: float) -> Turn:
+        """Only the focus moves."""
+        self.focus.update(seconds)
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page, painted once, and the item in focus."""
+        if self.picture is None:
+            self.picture = overlay(behind(self.lab), ICE, self._paint)
+        screen.blit(self.picture, (0, 0))
+        self.focus.draw(screen, ALARM if self.sure else FOCUS)
+        said = self.house.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
+        if self.sure:
+            pygame.draw.rect(screen, (0, 0, 0), self.focus.spot.rect)
+        word(said, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
+        self.prompts.draw(screen)
+
+    def _do(self, name: str) -> Turn:
+        from pigaming_app.scenes.lab.compare import Compare
+        from pigaming_app.scenes.lab.naming import Naming
+        from pigaming_app.scenes.lab.shelf import Shelf
+
+        self.house.sounds.play("accept")
+        match name:
+            case "save":
+                return Swap(Naming(self.lab))
+            case "open":
+                return Swap(Shelf(self.lab))
+            case "compare":
+                return Swap(Compare(self.lab))
+            case _ if self.sure:
+                self.lab.begin()
+                return Pop()
+            case _:
+                self.sure = True
+                return None
+
+    def _paint(self, pane: Pane) -> None:
+        words = self.house.words
+        title(pane, None, words("lab.title"), ICE)
+        for spot in self.focus.spots:
+            pane.page.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")

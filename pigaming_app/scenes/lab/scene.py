@@ -1,0 +1,218 @@
+"""The Lab. Any device steers it: directions move the focus, fire chooses; a knob in hand is turned by directions.
+
+The training goes on while the page is shown, rests while people play against the robot, and goes on after that.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+import pygame
+
+from pigaming_app.ai.rewards import RECIPES, Recipe
+from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import ALARM, FOCUS
+from pigaming_app.scenes.lab.dial import MOST
+from pigaming_app.scenes.lab.page import SPEEDS, LabPage, Shown, speed_at
+from pigaming_app.scenes.lab.places import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
+from pigaming_app.scenes.lab.workshop import Workshop
+from pigaming_app.scenes.match import new_seed
+from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.rose import LEVELS, SIGNS
+from pigaming_app.scenes.stack import Home, Pop, Push, Turn
+
+IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
+DEAF = 0.35  # seconds in which the press that led here counts for nothing
+SAID = 4.0  # seconds for which a sentence stays
+PATIENT = 2.0  # seconds of compiling after which a word about it is due
+LEAST = 2.0  # Q that makes at least a whole petal
+TURNS = {Act.LEFT: -1, Act.DOWN: -1, Act.RIGHT: 1, Act.UP: 1}
+
+
+class Lab:
+    """A robot that learns, from an empty table on. `fast`: compiled; left out: if numba is there."""
+
+    def __init__(self, house: House, fast: bool | None = None) -> None:
+        self.house = house
+        self.workshop = Workshop(RECIPES[1], new_seed(), fast)
+        self.name = ""  # under which it was saved or opened
+        self.shown = Shown()
+        self.page: LabPage | None = None
+        self.seen = -1  # number of the picture that the page has
+        self.held = ""  # the knob in hand
+        self.age = self.said = self.compiling = 0.0
+        self.sentence, self.wrong = "", False
+        self.focus = Focus([Spot("speed", SPEED), Spot("play", PLAY)]
+                           + [Spot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
+        self.prompts = Prompts(
+            house,
+            [
+                (Act.FIRE, "lab.hint_choose"),
+                (Act.EXTRA, "lab.hint_play"),
+                (Act.ALT, "lab.hint_faster"),
+                (Act.START, "lab.hint_more"),
+                (Act.BACK, "lab.hint_leave"),
+            ],
+            PROMPTS_Y,
+        )
+        self.turning = Prompts(house, [(Act.RIGHT, "lab.hint_turn"), (Act.FIRE, "lab.hint_done")], PROMPTS_Y)
+
+    # ---- what happens to it
+
+    def entered(self) -> None:
+        """Begin, or go on."""
+        self.age, self.held = 0.0, ""
+        self.house.sounds.music(True)
+        if self.page is None or self.page.language != self.house.words.language:
+            self.page, self.seen = LabPage(self.house), -1
+
+    def on(self, press: Press) -> Turn:
+        """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
+        if self.held:
+            return self._turn(self.turning.meant(press))
+        press = self.prompts.meant(press)
+        match press.act:
+            case Act.EXTRA:
+                return self.play(press.device)
+            case Act.ALT:
+                self._hurry((self.workshop.speed + 1) % len(SPEEDS))
+            case Act.START:
+                return self._menu()
+            case Act.BACK:
+                self.house.sounds.play("back")
+                return self.leave(Pop())
+            case Act.FIRE | Act.CLICK:
+                self.focus.on(press)
+                return self._choose(press) if self.age > DEAF else None
+            case _:
+                if self.focus.on(press):
+                    self.house.sounds.play("move")
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the training go on and the page follow it."""
+        self.age += seconds
+        self.said -= seconds
+        self.focus.update(seconds)
+        self.workshop.feed(seconds)
+        self.compiling = self.compiling + seconds if self.workshop.compiling else 0.0
+        self._follow(seconds)
+        if self.house.idle > IDLE:
+            self.workshop.begin(new_seed())
+            return self.leave(Home())
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        if self.page:
+            self.page.draw(screen, self.shown)
+        if not self.held:
+            self.focus.draw(screen)
+        (self.turning if self.held else self.prompts).draw(screen)
+        words, x = self.house.words, MATCH.centerx
+        if self.said > 0.0:
+            color = ALARM if self.wrong else FOCUS
+            plate(self.sentence, color).draw(screen, 960, MATCH.bottom - 40)
+        elif self.compiling > PATIENT:
+            plate(words("lab.warming"), sign="clock").draw(screen, x, MATCH.top + 60)
+
+    # ---- what the pages above it may do
+
+    def say(self, sentence: str, wrong: bool = False) -> None:
+        """Show a sentence for a while."""
+        self.sentence, self.wrong, self.said = sentence, wrong, SAID
+        self.house.sounds.play("error" if wrong else "accept")
+
+    def play(self, device: Device) -> Turn:
+        """A match against what the robot is now."""
+        from pigaming_app.scenes.lab.fight import fight
+
+        self.house.sounds.play("accept")
+        driver = self.house.controls.last if device.kind == "mouse" else device
+        robot = self.workshop.checkpoint(self.name or self.house.words("lab.robot"))
+        self.workshop.close()
+        return Push(fight(self.house, robot.kind, driver))
+
+    def begin(self) -> None:
+        """Everything from an empty table."""
+        self.workshop.begin(new_seed())
+        self.name, self.seen = "", -1
+
+    def leave(self, turn: Turn) -> Turn:
+        """The training rests."""
+        self.workshop.close()
+        return turn
+
+    # ---- inside
+
+    def _choose(self, press: Press) -> Turn:
+        chosen = self.focus.chosen(press)
+        if chosen == "play":
+            return self.play(press.device)
+        if chosen == "speed":
+            at = press.at
+            here = self.workshop.speed
+            self._hurry(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
+        elif chosen and press.at:
+            self._set(chosen, self._value(chosen) + (1 if press.at[0] > self.focus.rect(chosen).centerx else -1))
+        elif chosen:
+            self.held = chosen
+            self.house.sounds.play("lift")
+        return None
+
+    def _turn(self, press: Press) -> Turn:
+        """A press while a knob is in hand."""
+        if press.act in TURNS:
+            self._set(self.held, self._value(self.held) + TURNS[press.act])
+        elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.CLICK):
+            self.held = ""
+            self.house.sounds.play("set_down")
+        return None
+
+    def _hurry(self, speed: int) -> None:
+        self.workshop.speed = speed
+        self.house.sounds.play("move")
+
+    def _menu(self) -> Turn:
+        from pigaming_app.scenes.lab.menu import LabMenu
+
+        self.house.sounds.play("accept")
+        return self.leave(Push(LabMenu(self)))
+
+    def _value(self, knob: str) -> int:
+        return int(getattr(self.workshop.recipe, knob))
+
+    def _set(self, knob: str, value: int) -> None:
+        """Turn a knob as far as it goes."""
+        value = max(-MOST, min(MOST, value))
+        if value != self._value(knob):
+            self.workshop.recipe = turned(self.workshop.recipe, knob, value)
+            self.house.sounds.play("tick")
+
+    def _follow(self, seconds: float) -> None:
+        """Tell the page what is so."""
+        workshop, shown, moment = self.workshop, self.shown, self.workshop.moment
+        if self.page and moment.number != self.seen:
+            self.seen = moment.number
+            self.page.watch(moment.state)
+        if self.page:
+            self.page.update(seconds)
+        shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, workshop.progress.measures
+        shown.handmade = HANDMADE
+        shown.speed, shown.focus, shown.held = workshop.speed, self.focus.name, self.held
+        shown.values = {name: self._value(name) for name in KNOB_NAMES}
+        plan = workshop.progress.plan
+        most = max([LEAST] + [abs(one.worth) for one in plan if one])
+        shown.levels = [round(LEVELS * one.worth / most) if one else 0 for one in plan]
+        shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
+
+
+HANDMADE = 0.5
+
+
+def turned(recipe: Recipe, knob: str, value: int) -> Recipe:
+    """A recipe with one reward changed."""
+    reward: dict[str, Any] = {knob: float(value)}
+    return replace(recipe, **reward)
