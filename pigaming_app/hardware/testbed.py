@@ -60,10 +60,17 @@ class Testbed:
         self.floor = np.zeros_like(self._busy)
 
     def find(self) -> None:
-        """Let the tracker find the robots on a dark mat, as while places are taken; then show a busy floor."""
+        """Let the tracker find the robots on a dark mat, as while places are taken; then begin."""
         for _ in range(50):
             self.tick()
+        self.begin()
+
+    def begin(self) -> None:
+        """Show a floor as games have them."""
         self.floor = self._busy
+
+    def count(self) -> None:
+        """Count pictures anew."""
         self.tracker.seconds, self.tracker.pictures, self.tracker.complete = 0.0, 0, 0
 
     def tick(self) -> None:

@@ -38,10 +38,11 @@ FAULTS = {
     "garbage": "rubbish comes on every line",
     "battery_low": "the cells of the robot have 3.9 V",
     "robot_off": "the robot is switched off",
+    "robot_mute": "the robot hears, but nothing that it says arrives",
 }
 CAMERA = {"camera_frozen": "frozen", "camera_stuck": "stuck", "camera_gone": "gone"}
 RADIO = {"radio_dead": "dead", "radio_unplugged": "unplugged"}
-HELD_AT, TURNED_AT, CARRIED_AT = 220.0, 60.0, 120.0  # mm over the mat
+HELD_AT, TURNED_AT, CARRIED_AT = 400.0, 60.0, 120.0  # mm over the mat
 CARRY_SPEED, CARRY_WAY = 600.0, 500.0  # mm/s, mm
 DARKER = 0.5
 HAND = 56.0  # mm, reach
@@ -85,6 +86,8 @@ class Faults:
             struck.battery = EMPTY_CELLS if on else struck.body.battery
         elif name == "robot_off":
             struck.powered = not on
+        elif name == "robot_mute":
+            arena.firmwares[robot].mute = on
 
     def on(self) -> list[tuple[str, int]]:
         """Every fault that is on, with the robot that it was switched on for."""
@@ -94,7 +97,7 @@ class Faults:
         """Hands move what they hold."""
         for robot, (since, (x, y, heading)) in self._robots["marker_held"].items():
             held, time = self._arena.robots[robot], now - since
-            held.height = min(HELD_AT, 900.0 * time)
+            held.height = HELD_AT
             held.x, held.y = x + 25.0 * sin(5.0 * time), y + 25.0 * sin(3.7 * time)
             held.heading = heading + 0.4 * sin(4.3 * time)
         for robot in self._robots["upside_down"]:

@@ -20,6 +20,7 @@ class Firmware:
 
     def __init__(self, robot: Robot, address: int) -> None:
         self.robot, self.address = robot, address
+        self.mute = False  # whether its reports get lost
         self.heard = -1e9  # s, when the last valid packet ended
         self.packets = self.rejected = 0
         self._packet = bytearray()
@@ -59,7 +60,7 @@ class Firmware:
         if due <= self._reported:
             return b""
         self._reported = due
-        return self._report(now)
+        return b"" if self.mute else self._report(now)
 
     def _obey(self, packet: bytes, now: float) -> None:
         if check(packet[:-1]) != packet[-1]:
