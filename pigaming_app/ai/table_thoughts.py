@@ -4,7 +4,7 @@ Its rose says how good it would be to have the opponent in each direction, wall 
 """
 
 from collections.abc import Iterator
-from math import cos, sin
+from math import copysign, cos, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.qlearning import ACTIONS, MOVES, best, preferences
@@ -52,9 +52,9 @@ def _plain(k: int) -> Move:
 
 
 def _scaled(values: list[float]) -> list[float]:
-    """Values so that the farthest from 0 is 1 or -1."""
+    """Values so that the farthest from 0 is 1 or -1; roots, since one that hits is worth many times all others."""
     most = max(abs(value) for value in values)
-    return [value / most if most else 0.0 for value in values]
+    return [copysign(sqrt(abs(value) / most), value) if most else 0.0 for value in values]
 
 
 def _sights(match: Any, seat: int, opponent: int, here: int) -> Iterator[Sight]:

@@ -56,12 +56,7 @@ def blank(screen: pygame.Surface, left: int, right: int) -> None:
 def draw_words(screen: pygame.Surface, x: int, w: int, seat: int, doing: str, because: str) -> None:
     """The left box."""
     put_on(screen, box(seat, w, True), x, Y)
-    room = w - TEXT - 20
-    for text, size, face, color, y in ((doing, LABEL, "head", WHITE, 34), (because, BODY, "body", MIST, 80)):
-        if text:
-            size = fitted(text, size, room, face)
-            lit = word(text, size, color, face, 0.35 if face == "head" else 0.0)
-            lit.draw(screen, x + TEXT + text_width(text, size, face) / 2, Y + y)
+    lines(screen, x + TEXT, w - TEXT - 20, doing, because)
 
 
 def draw_wishes(screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object) -> None:
@@ -94,12 +89,12 @@ def draw_held(screen: pygame.Surface, right: int, seat: int, held: Move, buttons
 
 
 def draw_moves(
-    screen: pygame.Surface, x: int, w: int, seat: int, moves: Mapping[Move, float], chosen: object, sure: str
+    screen: pygame.Surface, x: int, w: int, seat: int, moves: Mapping[Move, float], chosen: object, sure: Sequence[str]
 ) -> None:
-    """The right box of a brain that chooses among moves: how good each is, without and with fire."""
+    """The right box of a brain that chooses among moves: how good each is, without and with fire, and how `sure`."""
     put_on(screen, box(seat, w, False), x, Y)
     light: Batch = []
-    for fire, at in ((0, x + 90), (1, x + 260)):
+    for fire, at in ((0, x + 84), (1, x + 228)):
         values = {
             (linear, angular): value for (linear, angular, with_fire), value in moves.items() if with_fire == fire
         }
@@ -108,9 +103,16 @@ def draw_moves(
         if fire:
             put(light, sign("fire", WHITE if held else dim(MIST, 0.5)), at + 76, Y + H / 2)
     screen.fblits(light, pygame.BLEND_RGB_ADD)
-    room = w - 400
-    size = fitted(sure, BODY, room, "body")
-    word(sure, size, MIST, "body", 0.0).draw(screen, x + 380 + room / 2, Y + H / 2)
+    lines(screen, x + 360, w - 380, *sure)
+
+
+def lines(screen: pygame.Surface, x: float, room: float, title: str, text: str) -> None:
+    """A title and a smaller line below it, from x on."""
+    for said, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
+        if said:
+            size = fitted(said, size, room, face)
+            lit = word(said, size, color, face, 0.35 if face == "head" else 0.0)
+            lit.draw(screen, x + text_width(said, size, face) / 2, Y + y)
 
 
 def stick(

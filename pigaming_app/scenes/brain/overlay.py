@@ -95,7 +95,7 @@ class BrainOverlay:
         because = self.words(f"brain.because_{thoughts.because}", **thoughts.names) if thoughts.because else ""
         cards.draw_words(screen, left, w, seat, doing, because)
         if thoughts.moves:
-            sure = self.words("brain.sure", **thoughts.names) if "percent" in thoughts.names else ""
+            sure = f"{thoughts.names.get('percent', 0)} %", self.words("brain.sure")
             cards.draw_moves(screen, right, w, seat, thoughts.moves, thoughts.chosen, sure)
         else:
             cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen)
