@@ -97,6 +97,6 @@ def _pdf(drawing: str) -> bytes:
     for number, body in enumerate(objects, 1):
         begins.append(len(out))
         out += b"%d 0 obj\n%s\nendobj\n" % (number, body)
-    table = b"".join(b"%010d 00000 n \n" % begin for begin in begins)
-    out += b"xref\n0 %d\n0000000000 65535 f \n%s" % (len(objects) + 1, table)
-    return bytes(out + b"trailer << /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (len(objects) + 1, len(out)))
+    count, table = len(objects) + 1, b"".join(b"%010d 00000 n \n" % begin for begin in begins)
+    end = b"trailer << /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (count, len(out))
+    return bytes(out + b"xref\n0 %d\n0000000000 65535 f \n%s" % (count, table) + end)
