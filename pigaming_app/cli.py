@@ -71,7 +71,7 @@ def parser() -> argparse.ArgumentParser:
     _duel_options(league)
     _train_options(jobs.add_parser("train", help="a robot learns from nothing"))
     bench = jobs.add_parser("bench", help="how fast it all is here")
-    bench.add_argument("game", nargs="?", default="pitanks")
+    bench.add_argument("game", nargs="?", default="pitanks", help="a game, or `robots`: the proof of the robot loop")
     bench.add_argument("--json", action="store_true")
     doctor = jobs.add_parser("doctor", help="what is there, what is missing, what to do")
     doctor.add_argument("--json", action="store_true")
@@ -231,14 +231,36 @@ def bench(arguments: argparse.Namespace) -> int:
     from pigaming_app.games import GAMES
     from pigaming_app.games.choices import one_of
 
-    one_of("game", arguments.game, list(GAMES))
-    figures = benches.measure(arguments.game)
+    if arguments.game == "robots":
+        figures = _bench_robots(arguments.json)
+    else:
+        one_of("game", arguments.game, [*GAMES, "robots"])
+        figures = benches.measure(arguments.game)
     if arguments.json:
         print(json.dumps(figures))
     else:
         for key, value in figures.items():
             print(f"{key:28} {value if not isinstance(value, float) else f'{value:,.3f}'}")
     return 0
+
+
+def _bench_robots(quiet: bool) -> dict[str, Any]:
+    """The proof of the robot loop; says on the way what it found, unless `quiet`."""
+    from pigaming_app.bench_robots import Unproven, measure, reached
+    from pigaming_app.hardware.markers import NoVision, opencv
+
+    def note(line: str) -> None:
+        if not quiet:
+            print(line, flush=True)
+
+    try:
+        opencv()
+        figures = measure(note)
+    except (NoVision, Unproven) as reason:
+        raise Wrong(str(reason)) from None
+    missed = [key for key, good in reached(figures).items() if not good]
+    note(f"not reached: {', '.join(missed)}" if missed else "everything is reached")
+    return figures
 
 
 def doctor(arguments: argparse.Namespace) -> int:

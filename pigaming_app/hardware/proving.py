@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, Protocol
 from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.live import Live, Terminal
 from pigaming_app.hardware.plant import RealPlant
-from pigaming_app.hardware.testbed import Testbed
+from pigaming_app.hardware.testbed import Bed
 from pigaming_app.sim.action import press
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robots import RADIUS
@@ -43,7 +43,7 @@ class Followed:
 class Trail:
     """Four robots that drive figures of eight, each in its quarter, steered by what the rig says."""
 
-    def __init__(self, bed: Testbed) -> None:
+    def __init__(self, bed: Bed) -> None:
         self.bed, self.world = bed, World()
         for robot in self.world.robots:
             robot.present = 1
@@ -74,7 +74,7 @@ class Trail:
 
 def follow(seed: int, fps: float, seconds: float) -> Followed:
     """Drive for so long at 0.35 m/s, after two seconds to get up speed."""
-    bed = Testbed(seed, fps)
+    bed = Bed(seed, fps)
     bed.find()
     trail, misses = Trail(bed), []
     for _ in range(2 * HZ):
@@ -276,7 +276,7 @@ class Played(NamedTuple):
     places: float  # s until all had taken their places
 
 
-def play(bed: Testbed, match: Playable, seconds: float) -> Played:
+def play(bed: Bed, match: Playable, seconds: float) -> Played:
     """Let the robots take their places and play to the end. Raises RuntimeError if either takes too long.
 
     Pauses are as the arcade makes them: as long as a fault that pauses is there, nobody plays.

@@ -47,7 +47,7 @@ class Watched(Tracker):
         return fixes
 
 
-class Testbed:
+class Bed:
     """A calibrated arena with a rig on it. Robots stand on their starts; `tick` lets 1/50 s pass."""
 
     def __init__(self, seed: int, fps: float, drops: float = 0.0, air: Air = MODERATE) -> None:

@@ -1,0 +1,90 @@
+"""The proof of the robot loop, in small: `bench robots` does the same for longer."""
+
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.bench_robots import TARGETS, Job, jobs, on_mat, reached
+from pigaming_app.games import GAMES
+from pigaming_app.hardware.proving import EMERGENCIES, Trail, entered, follow, hang, leave, stop
+from pigaming_app.hardware.testbed import Bed
+from pigaming_app.sim.world import World
+
+
+@pytest.fixture(scope="module")
+def trail():
+    """Robots that drive on a calibrated mat; emergencies leave it as it was."""
+    bed = Bed(5, 30.0)
+    bed.find()
+    return Trail(bed)
+
+
+def test_robots_are_followed_to_three_millimetres():
+    run = follow(1, 30.0, 4.0)
+    assert run.rmse_mm < TARGETS["pose_rmse_mm"]
+    assert run.rmse_deg < TARGETS["pose_rmse_deg"]
+    assert run.complete >= TARGETS["frames_complete"]
+
+
+def test_a_calibration_is_accepted_and_true(trail):
+    bed = trail.bed
+    assert bed.residuals.mean_mm < TARGETS["calibration_mean_mm"]
+    assert bed.residuals.max_mm < TARGETS["calibration_max_mm"]
+    assert max(mm for mm, _ in bed.misses()) < 5.0
+
+
+@pytest.mark.parametrize("name", EMERGENCIES)
+def test_in_every_emergency_motors_stand_and_it_is_said_why(trail, name):
+    run = stop(trail, name)
+    assert run.seconds <= 0.3
+    assert run.said
+
+
+def test_when_the_game_hangs_the_link_stops_the_robots(trail):
+    assert hang(trail) < 0.3
+
+
+def test_when_the_program_ends_the_robots_are_told_so(trail):
+    assert leave(trail) < 0.1
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_a_match_on_the_mat_plays_to_its_end(game):
+    run = on_mat(Job(game, jobs()[list(GAMES).index(game)].arena, 30.0, 7, 0.1, mashed=False))
+    assert run.deepest_mm < TARGETS["wall_entry_mm"]
+    assert 6.0 <= run.seconds - run.paused < 8.0
+
+
+def test_how_deep_a_robot_is_in_a_wall():
+    world = World()
+    assert entered(world, 800.0, 30.0) == 6.0, "over the upper edge"
+    wall = world.walls[0]
+    world.wall_count, wall.ax, wall.bx, wall.ay, wall.by, wall.half, wall.health = (
+        1,
+        400.0,
+        600.0,
+        300.0,
+        300.0,
+        15.0,
+        5,
+    )
+    assert entered(world, 500.0, 345.0) == pytest.approx(6.0)
+    wall.health = 0
+    assert entered(world, 500.0, 345.0) < 0.0
+
+
+def test_twenty_minutes_are_played_in_every_game():
+    planned = jobs()
+    assert sum(job.minutes for job in planned) == 20.0
+    assert {job.game for job in planned} == set(GAMES)
+    assert {job.fps for job in planned} == {30.0, 60.0}
+
+
+def test_figures_are_compared_with_what_they_must_reach():
+    assert all(reached(dict(TARGETS)).values())
+    assert [
+        key for key, good in reached({**TARGETS, "frames_complete": 0.99, "tracker_ms": 5.0}).items() if not good
+    ] == [
+        "tracker_ms",
+        "frames_complete",
+    ]
