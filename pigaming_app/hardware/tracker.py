@@ -5,7 +5,7 @@ Nothing here moves a robot or stops one: `safety` judges `lost`, `doubled` and `
 """
 
 from collections.abc import Sequence
-from math import cos, inf, pi, sin, sqrt
+from math import cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 
@@ -68,7 +68,7 @@ class Tracker:
 
     def sense(self, now: float) -> list[Sighting]:
         """Where every robot is at a time, and how old its newest sight is then."""
-        return [follower.at(now) for follower in self._followers]
+        return _apart([follower.at(now) for follower in self._followers])
 
     def lost(self, robot: int) -> float:
         """Seconds since a robot was seen and believed; 1e9 if it never was."""
@@ -143,6 +143,20 @@ class Tracker:
             else:
                 fixes[robot].append(fix)
         return fixes
+
+
+def _apart(sights: list[Sighting]) -> list[Sighting]:
+    """Predictions that overlap, half the way back each: robots push each other, and do not drive through."""
+    for i, one in enumerate(sights):
+        for j in range(i + 1, len(sights)):
+            other = sights[j]
+            dx, dy = other.x - one.x, other.y - one.y
+            gap = hypot(dx, dy)
+            if 1e-6 < gap < 2.0 * RADIUS and max(one.age, other.age) < COAST:
+                push = 0.5 * (2.0 * RADIUS - gap) / gap
+                one = sights[i] = one._replace(x=one.x - push * dx, y=one.y - push * dy)
+                sights[j] = other._replace(x=other.x + push * dx, y=other.y + push * dy)
+    return sights
 
 
 def _outline(pose: Sighting, edge: float) -> Points:

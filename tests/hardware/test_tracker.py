@@ -181,6 +181,19 @@ def test_a_robot_that_drives_is_where_its_commands_have_brought_it():
     assert ahead.age == pytest.approx(0.1)
 
 
+def test_a_robot_that_drives_into_another_is_not_predicted_to_be_inside_of_it():
+    """Rim to rim, and one is told to go on: half of its way is taken back, and given to the other."""
+    mat = Mat()
+    mat.tracker.correct(marks({0: (500.0, 400.0, 0.0), 1: (572.0, 400.0, 0.0)}), 0.0)
+    for tick in range(6):
+        mat.tracker.sent(tick * 0.02, [(260.0, 0.0), None, None, None])
+    alone = mat.tracker._followers[0].at(0.1)
+    one, other = mat.tracker.sense(0.1)[:2]
+    assert alone.x > 505.0
+    assert other.x - one.x == pytest.approx(72.0)
+    assert other.x - 572.0 == pytest.approx(alone.x - one.x, abs=0.01)
+
+
 @pytest.mark.parametrize("wide", [1280, 1920])
 def test_a_picture_without_robots_costs_nothing_but_time(wide):
     tracker = Tracker(nominal((wide, wide * 9 // 16)), lambda: 0.0)
