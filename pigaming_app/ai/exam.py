@@ -71,7 +71,7 @@ def compile_all() -> None:
     training = Training(Recipe(), 1, fast=True)
     training.run(1)
     learned, handmade = training.checkpoint().kind, BRAINS[GAME][HANDMADE]
-    for one, other in ((learned, handmade), (learned, learned)):
+    for one, other in ((learned, handmade), (learned, learned), (handmade, handmade)):
         exam = Exam(one, other, 2, 1, minutes=1 / (60 * HZ), fast=True)
         while not exam.over:
             exam.play(1)

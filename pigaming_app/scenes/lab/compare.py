@@ -15,7 +15,7 @@ from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.exam import HANDMADE, Exam
 from pigaming_app.ai.training import GAME
 from pigaming_app.scenes.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
-from pigaming_app.scenes.lab.menu import Bench
+from pigaming_app.scenes.lab.menu import IDLE, Bench
 from pigaming_app.scenes.lab.places import GOOD, NOTHING
 from pigaming_app.scenes.page import heading, text
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted
@@ -29,7 +29,7 @@ SEED = 3000
 SLICE = 0.005  # seconds of a frame
 TICKS = 60  # between two looks at the clock
 TOP, PITCH, HIGH = 292, 104, 88
-COLUMNS = (("won", 1200), ("tied", 1370), ("lost", 1540), ("points", 1772))  # right edges, px
+COLUMNS = (("won", 1130), ("tied", 1330), ("lost", 1540), ("points", 1772))  # right edges, px
 WIN, TIE = 3, 1  # points, as in football
 GLIDE = 8.0  # of the way to its new place that a row goes in a second
 
@@ -83,6 +83,8 @@ class Compare:
 
     def update(self, seconds: float) -> Turn:
         """Play on for some milliseconds, and let the rows glide."""
+        if self.house.idle > IDLE:
+            return Pop()
         end = perf_counter() + SLICE
         while self.pairs and perf_counter() < end:
             self._play()
@@ -145,5 +147,5 @@ def row(name: str, own: bool, best: bool) -> Lit:
     pane.hot.line(cut(0, 0, w, HIGH, 14), FOCUS if best else STEEL, THIN, True)
     icon(pane.hot, "crown" if best else "ai", 62, HIGH / 2, 26, FOCUS if best else MIST, THIN)
     color = FOCUS if best else ICE if own else MIST
-    pane.page.body(name, 124, HIGH / 2, color, "l", fitted(name, LABEL, 800, "body"))
+    pane.page.body(name, 124, HIGH / 2, color, "l", fitted(name, LABEL, 780, "body"))
     return pane.done()

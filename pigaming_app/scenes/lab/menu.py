@@ -16,6 +16,7 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Swap, Turn
 
 ITEMS = ("save", "open", "compare", "anew")
+IDLE = 90.0  # seconds without a press until the Lab
 DARK = 72  # of 255: how bright the Lab is behind a page
 
 
@@ -72,7 +73,7 @@ class LabMenu:
     def update(self, seconds: float) -> Turn:
         """Only the focus moves."""
         self.focus.update(seconds)
-        return None
+        return Pop() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The page, painted once, and the item in focus."""

@@ -19,7 +19,7 @@ from pigaming_app.scenes.ink import (
     icon,
     panel,
 )
-from pigaming_app.scenes.lab.menu import Bench
+from pigaming_app.scenes.lab.menu import IDLE, Bench
 from pigaming_app.scenes.lab.robots import LENGTH, LETTERS, NotKept, keep, names, proposal
 from pigaming_app.scenes.page import heading, text
 from pigaming_app.scenes.pane import Lit, Pane, backdrop, word
@@ -87,7 +87,7 @@ class Naming:
         """Let a letter roll."""
         self.age += seconds
         self.rolling += seconds
-        return None
+        return Pop() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the question and the letters."""

@@ -19,7 +19,7 @@ ARENA = pygame.Rect(MATCH.centerx - round(SCALE * WIDTH) // 2, MATCH.centery - r
                     round(SCALE * WIDTH), round(SCALE * HEIGHT))  # fmt: skip
 
 KNOB_NAMES = ("hit", "miss", "behind", "still")
-KNOB_Y = KNOBS.top + 132
+KNOB_Y = KNOBS.top + 129
 
 ROSE = (PLAN.left + 222, PLAN.top + 208)
 WORDS_X = PLAN.left + 456

@@ -5,6 +5,7 @@ from time import perf_counter
 from typing import Any
 
 from pigaming_app.ai import BRAINS
+from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.exam import HANDMADE, Exam
 from pigaming_app.ai.plan import Direction, direction
 from pigaming_app.ai.training import GAME, Checkpoint, Training
@@ -34,8 +35,9 @@ class Moment:
 class Progress:
     """What is known about one training. Only whoever may touch the training may call this."""
 
-    def __init__(self, training: Training) -> None:
-        self.training = training
+    def __init__(self, training: Training, handmade: float | None = None) -> None:
+        """`handmade`: how often the hand-made robot wins against one like itself, if that is known already."""
+        self.training, self.handmade = training, handmade
         self.measures: list[Measure] = []
         self.plan: list[Direction | None] = [None] * PETALS
         self.checkpoints: dict[int, Checkpoint] = {}
@@ -48,7 +50,9 @@ class Progress:
 
     def go_on(self, training: Training) -> None:
         """The same table goes on in another body."""
-        self.training, self._exam = training, None
+        self.training = training
+        if self._exam:
+            self._exam = examined(*self._exam.kinds, training.fast)
 
     @property
     def played(self) -> float:
@@ -80,21 +84,25 @@ class Progress:
             self._sector = (self._sector + 1) % PETALS
 
     def exam_due(self) -> Exam | None:
-        """The exam that is going on, or one that should begin now."""
+        """The exam that is going on, or one that should begin now; the very first is the hand-made robot's own."""
+        if self._exam is None and self.handmade is None:
+            self._exam = examined(BRAINS[GAME][HANDMADE], BRAINS[GAME][HANDMADE], self.training.fast)
         if self._exam is None:
             played, now = self.played, perf_counter()
             grain = max(1.0, played / GRAIN)
             if played - self._at >= grain or (played > self._at and now - self._when >= SOON):
                 self._at, self._when = played, now
-                fast = self.training.fast
-                kind = self.training.checkpoint().kind
-                self._exam = Exam(kind, BRAINS[GAME][HANDMADE], MATCHES[fast], EXAM_SEED, fast=fast)
+                learned = self.training.checkpoint().kind
+                self._exam = examined(learned, BRAINS[GAME][HANDMADE], self.training.fast)
         return self._exam
 
     def note(self) -> None:
         """Take down how an exam went, if it is over."""
         if self._exam and self._exam.over:
-            self.measures = [*self.measures, Measure(self._at, self._exam.share)]
+            if self.handmade is None:
+                self.handmade = self._exam.share
+            else:
+                self.measures = [*self.measures, Measure(self._at, self._exam.share)]
             self._exam = None
 
     def _mark(self) -> None:
@@ -108,3 +116,8 @@ def knowing(training: Training) -> float:
     """How far the way from guessing to knowing is gone, 0..1: as far as the temperature has fallen."""
     recipe = training.recipe
     return min(1.0, max(0.0, (recipe.hot - training.temperature) / (recipe.hot - recipe.cold)))
+
+
+def examined(one: Kind, other: Kind, fast: bool) -> Exam:
+    """An exam of one brain by another."""
+    return Exam(one, other, MATCHES[fast], EXAM_SEED, fast=fast)

@@ -100,7 +100,7 @@ class Lab:
         self.compiling = self.compiling + seconds if self.workshop.compiling else 0.0
         self._follow(seconds)
         if self.house.idle > IDLE:
-            self.workshop.begin(new_seed())
+            self.begin()
             return self.leave(Home())
         return None
 
@@ -113,8 +113,8 @@ class Lab:
         (self.turning if self.held else self.prompts).draw(screen)
         words, x = self.house.words, MATCH.centerx
         if self.said > 0.0:
-            color = ALARM if self.wrong else FOCUS
-            plate(self.sentence, color).draw(screen, 960, MATCH.bottom - 40)
+            sheet = plate(self.sentence, ALARM if self.wrong else FOCUS)
+            sheet.draw(screen, x if sheet.width < MATCH.w - 40 else 960, MATCH.top + 60)
         elif self.compiling > PATIENT:
             plate(words("lab.warming"), sign="clock").draw(screen, x, MATCH.top + 60)
 
@@ -200,16 +200,13 @@ class Lab:
         if self.page:
             self.page.update(seconds)
         shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, workshop.progress.measures
-        shown.handmade = HANDMADE
+        shown.handmade = workshop.progress.handmade
         shown.speed, shown.focus, shown.held = workshop.speed, self.focus.name, self.held
         shown.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = workshop.progress.plan
         most = max([LEAST] + [abs(one.worth) for one in plan if one])
         shown.levels = [round(LEVELS * one.worth / most) if one else 0 for one in plan]
         shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
-
-
-HANDMADE = 0.5
 
 
 def turned(recipe: Recipe, knob: str, value: int) -> Recipe:

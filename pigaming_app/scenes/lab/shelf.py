@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut
-from pigaming_app.scenes.lab.menu import Bench
+from pigaming_app.scenes.lab.menu import IDLE, Bench
 from pigaming_app.scenes.lab.robots import NotKept, fetch, file_of, names
 from pigaming_app.scenes.page import blacked, heading, text
 from pigaming_app.scenes.pane import Lit, Pane, backdrop, span
@@ -54,7 +54,7 @@ class Shelf:
         """Let the focus glide."""
         self.age += seconds
         self.focus.update(seconds)
-        return None
+        return Pop() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the cards."""
