@@ -80,6 +80,14 @@ class Name:
         return None if isinstance(value, str) and len(value) <= 60 else "not a short text"
 
 
+class Corners:
+    """Nothing, or eight whole numbers: where the corners of the picture are, px of the canvas."""
+
+    def wrong(self, value: object) -> str | None:
+        whole = isinstance(value, list) and all(isinstance(one, int) and abs(one) < 10000 for one in value)
+        return None if whole and len(value) in (0, 8) else "neither empty nor eight whole numbers"  # type: ignore[arg-type]
+
+
 def _setting(default: Any, fit: Fit) -> Any:
     return field(default=default, metadata={"fit": fit})
 
@@ -106,6 +114,7 @@ class Settings:
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Switch())
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # of nobody pressing anything
+    corners: list[int] = field(default_factory=list, metadata={"fit": Corners()})  # of the picture on the projector
     strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 

@@ -17,7 +17,7 @@ from typing import IO, Any
 import pygame
 
 from pigaming_app.keeping import NotSaved
-from pigaming_app.scenes.canvas import Canvas
+from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.notices import Gauge, Notices
@@ -86,6 +86,7 @@ class App:
             print(f"PiGaming: {line}", file=sys.stderr)
         if troubles:
             self.notices.say(house.words("app.settings"))
+        self._pin()
         self.frames, self.seconds = 0, 0.0
         self.failures, self.failed_at = 0, -QUIET
         self.stack = self._begin()
@@ -120,6 +121,14 @@ class App:
         if self.options.first:
             stack.turn(Push(self.options.first(self.house)))
         return stack
+
+    def _pin(self) -> None:
+        """Draw the picture into the corners that the operator has set."""
+        try:
+            self.house.canvas.pin(self.house.settings.corners)
+        except NoPin as trouble:
+            log.warning("%s", trouble)
+            self.notices.say(self.house.words("app.pin"))
 
     def _frame(self, seconds: float) -> None:
         """One picture: hear, move, paint."""

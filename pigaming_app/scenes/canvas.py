@@ -8,10 +8,14 @@ import os
 import sys
 import time
 import warnings
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import pygame
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.warp import Warp
 
 SIZE = (1920, 1080)
 CURSOR_SECONDS = 3.0  # the mouse pointer hides after so long without motion
@@ -22,6 +26,10 @@ class NoDisplay(Exception):
     """There is no display to open a window on; the text is one plain sentence."""
 
 
+class NoPin(Exception):
+    """The picture cannot be drawn into these corners; the text is one plain sentence."""
+
+
 class Wishes(Protocol):
     """What the settings say about the window."""
 
@@ -30,13 +38,19 @@ class Wishes(Protocol):
 
 
 class Canvas:
-    """The one window of the arcade. `notices` collects plain sentences about what could not be done as asked."""
+    """The one window of the arcade. `notices` collects plain sentences about what could not be done as asked.
+
+    Each of `watchers` sees every picture as it is shown in the window.
+    """
 
     def __init__(self, display: int, fullscreen: bool, headless: bool) -> None:
         self.headless = headless
         self.fullscreen = fullscreen and not headless
         self.display = display
         self.notices: list[str] = []
+        self.watchers: list[Callable[[pygame.Surface], None]] = []
+        self.corners: tuple[float, ...] = ()  # of the corner pin, if there is one
+        self._warp: Warp | None = None
         self._picture: pygame.Surface | None = None
         self._pointer = (0, 0)
         self._pointer_moved = 0.0
@@ -74,7 +88,7 @@ class Canvas:
     def screen(self) -> pygame.Surface:
         """The surface to paint the next frame on, always 1920 x 1080. Ask for it in every frame."""
         window = pygame.display.get_surface()
-        if window is not None and window.get_size() == SIZE:
+        if window is not None and window.get_size() == SIZE and self._warp is None:
             return window
         if self._picture is None:
             self._picture = pygame.Surface(SIZE, depth=32)
@@ -89,9 +103,14 @@ class Canvas:
             area = _fitted(window.get_size())
             if area.w and area.h:
                 _paint_bars(window, area)
-                factor = area.w / SIZE[0]
-                scale = pygame.transform.scale if factor == int(factor) else pygame.transform.smoothscale
-                scale(picture, area.size, window.subsurface(area))
+                if self._warp is None:
+                    factor = area.w / SIZE[0]
+                    scale = pygame.transform.scale if factor == int(factor) else pygame.transform.smoothscale
+                    scale(picture, area.size, window.subsurface(area))
+                else:
+                    self._draw_warped(picture, window, area)
+        for watch in self.watchers:
+            watch(window)
         pygame.display.flip()
         self._hide_pointer()
 
@@ -101,7 +120,33 @@ class Canvas:
         area = _fitted(window.get_size()) if window else pygame.Rect((0, 0), SIZE)
         if not area.w or not area.h:
             return (-1.0, -1.0)
+        if self._warp is not None and self._warp.size == area.size:
+            return self._warp.back((mouse[0] - area.x, mouse[1] - area.y))
         return ((mouse[0] - area.x) * SIZE[0] / area.w, (mouse[1] - area.y) * SIZE[1] / area.h)
+
+    def pin(self, corners: Sequence[float]) -> None:
+        """Draw the picture into these corners, px of the canvas, see hardware/warp.py; none: straight again.
+
+        Raises NoPin where OpenCV is missing or nothing fits into the corners; then all stays as it is.
+        """
+        if not corners:
+            self.corners, self._warp = (), None
+            return
+        from pigaming_app.hardware.markers import NoVision
+        from pigaming_app.hardware.warp import Warp
+
+        try:
+            self._warp = Warp(corners)
+        except (NoVision, ValueError) as trouble:
+            raise NoPin(str(trouble)) from trouble
+        self.corners = tuple(corners)
+
+    @property
+    def projection(self) -> str:
+        """The name of how the picture comes onto the mat: which display, all of it or a window, pinned where."""
+        name = self.displays()[self.display] if self.display < len(self.displays()) else str(self.display + 1)
+        window = "" if self.fullscreen or self.headless else ", in a window"
+        return name + window + (f", pinned {' '.join(f'{value:g}' for value in self.corners)}" if self.corners else "")
 
     def toggle_fullscreen(self) -> bool:
         """Change between window and full screen; true when it is full screen now."""
@@ -152,6 +197,14 @@ class Canvas:
                 size = _window_size(sizes[self.display])
                 pygame.display.set_mode(size, pygame.RESIZABLE, display=self.display)
         self._pointer_moved = time.monotonic()
+
+    def _draw_warped(self, picture: pygame.Surface, window: pygame.Surface, area: pygame.Rect) -> None:
+        from pigaming_app.hardware.warp import Warp
+        from pigaming_app.scenes.pixels import pixels_of
+
+        if self._warp is None or self._warp.size != area.size:
+            self._warp = Warp(self.corners, area.size)
+        self._warp.draw(pixels_of(picture), pixels_of(window)[area.top : area.bottom, area.left : area.right])
 
     def _hide_pointer(self) -> None:
         now, pointer = time.monotonic(), pygame.mouse.get_pos()

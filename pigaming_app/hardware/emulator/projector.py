@@ -1,0 +1,23 @@
+"""The emulated projector: what the arcade's window shows falls on the emulated mat."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.optics import CANVAS
+
+
+class Projector:
+    """Hangs over an arena. `see` takes the window's pixels, (height, width, 4) with blue first, of any size."""
+
+    def __init__(self, arena: EmulatedArena) -> None:
+        self.arena = arena
+
+    def see(self, pixels: NDArray[np.uint8]) -> None:
+        """Show a picture."""
+        import cv2
+
+        grey = cv2.cvtColor(pixels, cv2.COLOR_BGRA2GRAY)
+        if (grey.shape[1], grey.shape[0]) != CANVAS:
+            grey = cv2.resize(grey, CANVAS, interpolation=cv2.INTER_AREA)
+        self.arena.project(np.asarray(grey, dtype=np.uint8))
