@@ -4,7 +4,7 @@ Nothing is moved but by its own motors. Before a match the robots take their pla
 it says so); while a match waits, somebody must `watch`, so that faults are noticed when they come and when they go.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from math import exp
 from typing import Any
 
@@ -29,7 +29,6 @@ class RealPlant:
         self.real = set(real)
         self.safety = Safety()
         self.motion: list[Twist] = [REST] * ROBOTS  # px/s and rad/s, when what was said last begins to act
-        self.record: Callable[[Sequence[Wheels | None]], None] | None = None  # told what the wheels are told
         self._homing: Homing | None = None
         self._left_at: list[float | None] = [None] * ROBOTS  # s, when a robot left the arena
 
@@ -50,15 +49,15 @@ class RealPlant:
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Ask the real robots among these to drive; walls and safety have the last word."""
-        held = self._judge()
+        seen = self.rig.sense()
+        held = self._judge(seen)
         ahead = self._ahead()
-        wheels = [self._wheels(i, twists[i], held[i], ahead) for i in range(ROBOTS)]
+        solid = [i for i in range(ROBOTS) if self._is_solid(i, seen[i])]
+        wheels = [self._wheels(i, twists[i], held[i], ahead, solid) for i in range(ROBOTS)]
         for i, robot in enumerate(self.world.robots):
             if i in self.real:
                 self._roll(i, wheels[i], dt)
                 robot.linear, robot.angular = self.motion[i]
-        if self.record:
-            self.record(wheels)
         self.rig.tell(wheels)
 
     def place(self, poses: Sequence[Pose]) -> None:
@@ -105,10 +104,10 @@ class RealPlant:
         """Stop the robots and let go of the hardware."""
         self.rig.close()
 
-    def _judge(self) -> list[Does]:
+    def _judge(self, seen: Sequence[Sighting]) -> list[Does]:
         """What safety says of every robot."""
         now, signs = self.rig.clock(), list[Signs | None]()
-        for i, sighting in enumerate(self.rig.sense()):
+        for i, sighting in enumerate(seen):
             inside = 0.0 <= sighting.x <= WIDTH and 0.0 <= sighting.y <= HEIGHT
             left_at = self._left_at[i]
             self._left_at[i] = None if inside or sighting.age > FORGOTTEN else now if left_at is None else left_at
@@ -119,20 +118,26 @@ class RealPlant:
 
     def _ahead(self) -> list[Pose]:
         """Where every robot, real or not, comes to rest if it is told to stop now."""
+        trains = [one.drivetrain for one in self.rig.kinematics]
+        later = {dead: self.rig.sense(dead) for dead in {train.dead_time for train in trains}}
         poses = []
-        for i, robot in enumerate(self.world.robots):
-            train = self.rig.kinematics[i].drivetrain
-            if i in self.real:
-                seen = self.rig.sense(train.dead_time)[i]
-                poses.append(coasting((seen.x, seen.y, seen.heading), self.motion[i], train.lag))
-            else:
-                poses.append((robot.x, robot.y, robot.heading))
+        for i, (robot, train) in enumerate(zip(self.world.robots, trains, strict=True)):
+            seen = later[train.dead_time][i]
+            simulated = robot.present and i not in self.real
+            pose = (robot.x, robot.y, robot.heading) if simulated else (seen.x, seen.y, seen.heading)
+            poses.append(coasting(pose, self.motion[i], train.lag) if i in self.real else pose)
         return poses
 
-    def _wheels(self, robot: int, asked: Twist, held: Does, ahead: Sequence[Pose]) -> Wheels | None:
+    def _is_solid(self, robot: int, seen: Sighting) -> bool:
+        """Whether it must not be run into: all in the match, and what else the camera sees."""
+        simulated = self.world.robots[robot].present and robot not in self.real
+        return bool(simulated) or seen.age < FORGOTTEN
+
+    def _wheels(
+        self, robot: int, asked: Twist, held: Does, ahead: Sequence[Pose], solid: Sequence[int]
+    ) -> Wheels | None:
         """What one robot is told: nothing, to stand, or what walls and safety leave of what was asked."""
-        present = self.world.robots[robot].present
-        if robot not in self.real or not present or held == Does.OFF:
+        if robot not in self.real or not self.world.robots[robot].present or held == Does.OFF:
             return None
         kinematics = self.rig.kinematics[robot]
         if held == Does.STOP:
@@ -140,18 +145,9 @@ class RealPlant:
         if held == Does.HALF:
             asked = (0.5 * asked[0], 0.5 * asked[1])
         x, y, _ = ahead[robot]
-        others = [(ahead[i][0], ahead[i][1]) for i in self._obstacles() if i != robot]
+        others = [(ahead[i][0], ahead[i][1]) for i in solid if i != robot]
         left = clipped(ahead[robot], asked, limits(self.world, x, y, others), kinematics.drivetrain.lag)
         return kinematics.wheels(left)
-
-    def _obstacles(self) -> list[int]:
-        """Whoever must not be run into: all in the match, and what else the camera sees."""
-        seen = self.rig.sense()
-        return [
-            i
-            for i, robot in enumerate(self.world.robots)
-            if (robot.present and i not in self.real) or seen[i].age < FORGOTTEN
-        ]
 
     def _roll(self, robot: int, wheels: Wheels | None, dt: float) -> None:
         """Follow the motors: how fast the robot will go when the next command acts."""

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.kinematics import Kinematics
+from pigaming_app.hardware.runs import Recorder
 from pigaming_app.hardware.safety import Signs
-from pigaming_app.hardware.signals import Clock, Eye, Frame, Telemetry, Wheels
+from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Telemetry, Wheels
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.world import DT, ROBOTS
@@ -35,7 +36,7 @@ class Follows(Protocol):
 
     def sent(self, time: float, twists: Sequence[Twist | None]) -> None: ...
 
-    def see(self, frame: Frame) -> object: ...
+    def see(self, frame: Frame) -> Sequence[Fix]: ...
 
     def sense(self, now: float) -> list[Sighting]: ...
 
@@ -78,6 +79,7 @@ class Rig:
         self.kinematics = [Kinematics(one) for one in drivetrains]
         self.channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # mm by which the corner markers have moved
+        self.recorder: Recorder | None = None  # notes all that is sent and seen
         self._begun = clock()
         self._sample: NDArray[np.uint8] | None = None  # of the newest picture
         self._lock = threading.Lock()
@@ -101,8 +103,12 @@ class Rig:
         for robot, one in enumerate(wheels):
             sent[self.channels[robot]] = one
         twists = [one and self.kinematics[i].comes_to(one) for i, one in enumerate(wheels)]
+        now = self.clock()
         with self._lock:
-            self.tracker.sent(self.clock(), twists)
+            self.tracker.sent(now, twists)
+            if self.recorder:
+                self.recorder.sent(now, wheels)
+                self.recorder.believed(now, self.tracker.sense(now))
         self.link.send(sent)
         self.pump()
 
@@ -157,4 +163,6 @@ class Rig:
             return  # a driver that hands out the same picture again: real ones differ by their noise
         self._sample = sample
         with self._lock:
-            self.tracker.see(frame)
+            fixes = self.tracker.see(frame)
+            if self.recorder:
+                self.recorder.seen(self.clock(), frame.captured, fixes)

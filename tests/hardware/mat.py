@@ -31,11 +31,14 @@ class Robot:
     def roll(self):
         goal = twist(self.train, *self.told) if self.told else (0.0, 0.0)
         share = 1.0 - exp(-STEP / self.train.lag)
+        mean = 1.0 - share * self.train.lag / STEP  # of the way to the goal, over the step
+        way = STEP * (self.linear + (goal[0] - self.linear) * mean)
+        turn = STEP * (self.angular + (goal[1] - self.angular) * mean)
+        self.x += way * cos(self.heading + 0.5 * turn)
+        self.y += way * sin(self.heading + 0.5 * turn)
+        self.heading += turn
         self.linear += (goal[0] - self.linear) * share
         self.angular += (goal[1] - self.angular) * share
-        self.x += STEP * self.linear * cos(self.heading)
-        self.y += STEP * self.linear * sin(self.heading)
-        self.heading += STEP * self.angular
 
 
 class Mat:
@@ -54,10 +57,10 @@ class Mat:
 
     def pass_time(self, seconds=0.02):
         for _ in range(round(seconds / STEP)):
-            self.now += STEP
             while self.coming and self.coming[0][0] <= self.now + 1e-9:
                 for robot, told in zip(self.robots, self.coming.popleft()[1], strict=True):
                     robot.told = told
+            self.now += STEP
             for robot in self.robots:
                 robot.roll()
                 if not self.blind and not robot.hidden:
