@@ -35,6 +35,11 @@ BRAINS: dict[str, dict[str, Kind]] = {
 }
 
 STRENGTHS = ("easy", "normal", "hard")
+RIVALS: dict[str, tuple[str, ...]] = {  # who can be invited in the lobby, each to be stepped to from its neighbour
+    "pitanks": (*STRENGTHS, "q1", "q2"),
+    "factory": STRENGTHS,
+    "race": STRENGTHS,
+}
 
 
 def make(game: str, name: str, seed: int) -> Thinker:

@@ -6,6 +6,7 @@ anybody may still join. Every device acts for its own seat; the mouse acts on wh
 
 import pygame
 
+from pigaming_app.ai import RIVALS, STRENGTHS
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
@@ -31,7 +32,7 @@ class Lobby:
 
     def __init__(self, house: House, game: str) -> None:
         self.house, self.game = house, game
-        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides)
+        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game])
         self.now = Moment()
         self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
         self.focus = Focus(spots(self.seats))
@@ -176,8 +177,13 @@ class Lobby:
         if self.seats.teams and seat is not None and act in (Act.LEFT, Act.RIGHT):
             self._change_team(seat)
         elif self.seats.strengthen(1 if act in (Act.RIGHT, Act.UP) else -1):
-            self.house.settings.strength = self.seats.strength
+            self._remember()
             self.house.sounds.play("move")
+
+    def _remember(self) -> None:
+        """The next lobby, of any game, begins with AIs of this strength; one that only one game has is not kept."""
+        if self.seats.strength in STRENGTHS:
+            self.house.settings.strength = self.seats.strength
 
     def _change_team(self, seat: int) -> None:
         self.seats.change_team(seat)
@@ -201,7 +207,7 @@ class Lobby:
             self._change_team(seat)
         elif what in ("weaker", "stronger"):
             self.seats.strengthen(1 if what == "stronger" else -1, seat)
-            self.house.settings.strength = self.seats.strength
+            self._remember()
             self.house.sounds.play("move")
         elif kind == AI:
             self.seats.leave(seat)

@@ -26,11 +26,12 @@ class Place:
 
 @dataclass
 class Seats:
-    """The four seats. `strength` is that of the next AI; `sides`: what teams the game knows."""
+    """The four seats. `strength` is that of the next AI, one of `rivals`; `sides`: what teams the game knows."""
 
     strength: str = "normal"
     teams: bool = False
     sides: str = FREE
+    rivals: tuple[str, ...] = STRENGTHS
     places: list[Place] = field(default_factory=lambda: [Place(team=i % 2) for i in range(PLACES)])
 
     def __post_init__(self) -> None:
@@ -100,12 +101,12 @@ class Seats:
             self.leave(seat)
 
     def strengthen(self, by: int, seat: int | None = None) -> bool:
-        """Make the AI of one seat, or all, stronger or weaker by a step; the next ones will be like it."""
+        """Make the AI of one seat, or all, the next or last of `rivals`; the next ones will be like it."""
         chosen = self.like(AI) if seat is None else [seat]
         if not chosen:
             return False
-        now = STRENGTHS.index(self.places[chosen[0]].strength) + by
-        self.strength = STRENGTHS[now % len(STRENGTHS) if seat is not None else max(0, min(len(STRENGTHS) - 1, now))]
+        now, count = self.rivals.index(self.places[chosen[0]].strength) + by, len(self.rivals)
+        self.strength = self.rivals[now % count if seat is not None else max(0, min(count - 1, now))]
         changed = any(self.places[one].strength != self.strength for one in chosen)
         for one in chosen:
             self.places[one].strength = self.strength

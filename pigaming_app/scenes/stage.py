@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import pygame
 
+from pigaming_app.ai import RIVALS
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.house import House
@@ -21,7 +22,6 @@ BEHIND = 72  # of 255: how bright a match is behind a page
 LAST = 10  # seconds before the end in which each second is heard
 LEFT, TOP = 160, 140  # of the arena on the canvas
 BESIDE = 104  # px from a robot to what is said about it
-STRENGTHS = ("easy", "normal", "hard")
 
 
 class Stage:
@@ -97,7 +97,7 @@ class Stage:
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"
-        return (words(f"match.{brain}") if brain in STRENGTHS else brain.upper()), "ai"
+        return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
 
     def _count_down(self) -> None:
         second = int(self.match.seconds_left) + 1

@@ -102,6 +102,19 @@ def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade)
     assert Lobby(arcade.house, "pitanks").seats.strength == "hard"
 
 
+def test_beyond_the_strongest_ai_come_those_that_taught_themselves_and_they_play(arcade: Arcade) -> None:
+    arcade.press(Act.FIRE)
+    arcade.press(Act.ALT)
+    for wanted in ("hard", "q1", "q2", "q2"):
+        arcade.press(Act.UP)
+        assert arcade.shown(Lobby).seats.places[1].strength == wanted
+        arcade.frame(draw=True)
+    assert arcade.house.settings.strength == "hard"
+    arcade.press(Act.START)
+    arcade.press(Act.START)
+    assert [seat.brain for seat in arcade.shown(SetupPage).seats.seats()] == ["human", "q2", "off", "off"]
+
+
 def test_with_teams_left_and_right_choose_ones_own_and_nobody_plays_against_nobody(arcade: Arcade) -> None:
     arcade.press(Act.FIRE)
     arcade.press(Act.FIRE, KEYS[1])

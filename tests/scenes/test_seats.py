@@ -126,3 +126,13 @@ def test_in_a_race_everyone_drives_alone_against_three() -> None:
     assert seats.fill() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
     assert not seats.one_team
+
+
+def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
+    seats = Seats(rivals=("easy", "normal", "hard", "q1", "q2"))
+    seats.add()
+    for wanted in ("hard", "q1", "q2", "q2"):
+        seats.strengthen(1)
+        assert seats.seats()[0] == Seat(wanted, 0)
+    seats.strengthen(1, 0)
+    assert seats.places[0].strength == "easy"
