@@ -2,8 +2,9 @@
 
 Twice a second it lists what its team could do next, reckons what each job costs itself and its mate, and takes its part
 of the cheapest way to share two of them out. Its mate, if it is one of these, reckons alike; a person's next job is
-guessed from where they are, and left to them. A slot that a mate makes for is taken. The three strengths differ in
-speed, in how long they think after each job, and in how well they reckon, never in rules.
+guessed from where they are, and left to them. To put down, a slot that a mate makes for is taken;
+to lift, it is so while the mate carries something: of two free mates with one job left both go, and one gets it. The
+three strengths differ in speed, in how long they think after each job, and in how well they reckon, never in rules.
 """
 
 from typing import Any

@@ -186,7 +186,8 @@ def test_what_was_put_in_can_be_taken_out_again_before_a_worker_comes():
     p = shop.carry(0, entry(shop, ICE), shop.input_of(A))
     assert shop.press(2, shop.input_of(A))
     assert (shop.pallets[p].state, shop.loads[2].pallet) == (RAW, p + 1)
-    shop.until(lambda: len(busy(shop, RESTING)) == 3, 5.0)
+    shop.tick()
+    assert len(busy(shop, RESTING)) == 3, "who was on the way turns back"
 
 
 def test_nobody_takes_a_pallet_out_of_a_machine_at_work():
@@ -297,6 +298,17 @@ def test_the_nearest_of_those_who_rest_is_sent_and_no_second_one():
     assert (left.task, middle.task) == (RESTING, RESTING)
 
 
+@pytest.mark.parametrize("longer", [0, 1])
+def test_where_something_has_waited_longest_comes_first(longer):
+    shop = Shop()
+    for which in (0, 1):
+        shop.give(shop.own(ICE)[which], RAW, shop.input_of(A, which))
+        shop.pallets[shop.own(ICE)[which]].waited = 100 if which == longer else 50
+    shop.tick()
+    (sent,) = busy(shop, GOING)
+    assert sent.machine == shop.slots[shop.input_of(A, longer)].machine
+
+
 def test_with_three_at_work_the_fourth_machine_waits_for_the_first_who_is_free():
     shop = Shop()
     for p, s in zip(shop.own(ICE), (shop.input_of(A), shop.input_of(A, 1)), strict=False):
@@ -328,6 +340,7 @@ def test_after_twenty_seconds_a_worker_carries_it_to_its_owners_entry(team, make
     shop = Shop()
     state, out = (HALF, DONE)[makes], shop.output_of(makes)
     p = shop.own(team)[0]
+    assert shop.press(1 - team, entry(shop, 1 - team)), "the others have room too"
     shop.give(p, state, out)
     shop.tick(20 * HZ - 1)
     assert not busy(shop, FETCHING)
@@ -341,6 +354,16 @@ def test_after_twenty_seconds_a_worker_carries_it_to_its_owners_entry(team, make
     assert (slot.kind, slot.team, slot.pallet) == (ENTRY, team, p + 1)
     assert (shop.pallets[p].state, carrier.pallet, carrier.task) == (state, 0, RESTING)
     assert shop.press(team, shop.pallets[p].at), "its team lifts it there"
+
+
+def test_two_pallets_carried_home_at_once_go_to_two_slots():
+    shop = Shop()
+    shop.give(shop.own(ICE)[0], HALF, shop.output_of(A))
+    shop.give(shop.own(ICE)[1], HALF, shop.output_of(A, 1))
+    shop.until(lambda: len(busy(shop, CARRYING)) == 2, 40.0)
+    assert sorted(worker.shelf for worker in busy(shop, CARRYING)) == [entry(shop, ICE, 0), entry(shop, ICE, 1)]
+    shop.until(lambda: len(busy(shop, RESTING)) == 3, 20.0)
+    assert {shop.pallets[p].place for p in shop.own(ICE)} == {IN_SLOT}
 
 
 def test_an_owner_who_comes_in_time_sends_the_worker_home():
@@ -596,6 +619,7 @@ def test_whoever_has_delivered_everything_wins_at_once(pallets):
         deliver(shop, (1, 3)[k % 2], room[0])
     assert shop.match.over
     assert shop.state.winner == 1 + FIRE
+    assert sum(shop.pallets[p].place == SHIPPED for p in shop.own(FIRE)) == max(0, pallets - 4), "the last stay"
     outcome = shop.match.outcome()
     assert sorted(outcome.winners) == [1, 3]
     assert [row.place for row in outcome.rows] == [1, 1, 3, 3]
