@@ -58,10 +58,10 @@ class Job(NamedTuple):
 def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
     """All figures by name; `note` is told what was found on the way. Raises Unproven."""
     with ProcessPoolExecutor(2, get_context("spawn")) as pool:
-        played = [(job, pool.submit(on_mat, job)) for job in jobs()]
         followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
         stopped = {fps: pool.submit(emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
+        played = [(job, pool.submit(on_mat, job)) for job in jobs()]
         tracks = _noted(followed, note)
         stops = _stops(stopped, note)
         entries = [_entry(job, future, note) for job, future in played]

@@ -120,6 +120,16 @@ def _drifted(millimetres: float) -> Callable[[Trail, int], None]:
     return drift
 
 
+def _twice(on: bool) -> Callable[[Trail, int], None]:
+    """Where a game shows hard edges, a second marker cannot always be read, and does no harm: so without them."""
+
+    def double(trail: Trail, robot: int) -> None:
+        trail.bed.show(busy=not on)
+        trail.bed.arena.faults.switch("marker_twice", on, robot)
+
+    return double
+
+
 EMERGENCIES: Mapping[str, Emergency] = {
     "camera frozen": fault("camera_frozen", "camera", everyone=True),
     "camera gone": fault("camera_gone", "camera", everyone=True),
@@ -127,7 +137,7 @@ EMERGENCIES: Mapping[str, Emergency] = {
     "marker covered": fault("marker_covered", "lost"),
     "marker upside down": fault("upside_down", "lost"),
     "marker in a hand": fault("marker_held", "lost"),
-    "marker twice": fault("marker_twice", "twice"),
+    "marker twice": Emergency(_twice(True), _twice(False), "twice"),
     "radio dead": fault("radio_dead", "silent", everyone=True),
     "radio unplugged": fault("radio_unplugged", "radio", everyone=True),
     "robot mute": fault("robot_mute", "silent", allowed=1.0),
@@ -288,7 +298,7 @@ def play(bed: Bed, match: Playable, seconds: float) -> Played:
         bed.tick()
         if ready > 90 * HZ:
             raise RuntimeError(f"not all took their places: {plant.places}, {plant.faults}")
-    bed.begin()
+    bed.show(busy=True)
     deepest, ticks, paused = 0.0, 0, 0
     while not match.over:
         if plant.safety.pauses:

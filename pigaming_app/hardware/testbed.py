@@ -26,7 +26,7 @@ from pigaming_app.sim.world import DT, ROBOTS
 MODERATE = Air(loss=0.005, doubled=0.005, broken=0.002)
 UNREST = 0.15  # size of the exposure steps
 DELAY = 0.060  # s that pictures are late; with tick, line and air that is 80 ms of dead time
-DISC = 53.0  # px: 70 mm, what is projected under a robot
+DISC = 72.0  # px: 95 mm; light from the side falls on a lid 70 mm up as much as 40 mm beside where it would on the mat
 GREY = 128
 RULER = (1.5, 8.0)  # mm by which the operator measures the mat's width and the camera's height wrongly
 QUICK = 30  # pictures between two that are painted whole
@@ -57,17 +57,17 @@ class Bed:
         self.link = Link(self.arena.radio.open, self.arena.clock)
         self.rig = Rig(self.arena.camera, self.tracker, self.link, self.arena.clock)
         self._busy = busy_floor(seed)
-        self.floor = np.zeros_like(self._busy)
+        self.show(busy=False)
 
     def find(self) -> None:
         """Let the tracker find the robots on a dark mat, as while places are taken; then begin."""
         for _ in range(50):
             self.tick()
-        self.begin()
+        self.show(busy=True)
 
-    def begin(self) -> None:
-        """Show a floor as games have them."""
-        self.floor = self._busy
+    def show(self, busy: bool) -> None:
+        """Show a floor as games have them, or a dark one."""
+        self.floor = self._busy if busy else np.zeros_like(self._busy)
 
     def count(self) -> None:
         """Count pictures anew."""
