@@ -99,9 +99,9 @@ def _goal(view: Any, mind: Any) -> tuple[float, float]:
 
 
 def _ahead(view: Any) -> int:
-    """The nearest robot before it that matters; -1: none."""
+    """The nearest robot before it, else beside it, that matters; -1: none."""
     near = [i for i in range(OTHERS) if view.others[i].present and -CLEAR < view.others[i].ahead < FAR]
-    return min(near, key=lambda i: float(view.others[i].distance), default=-1)
+    return min(near, key=lambda i: (view.others[i].ahead <= 0.0, view.others[i].distance), default=-1)
 
 
 def _facts(view: Any, mind: Any) -> dict[str, float]:
