@@ -65,7 +65,6 @@ def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(s
     feed(shop, lambda: shop.training.matches >= 12 and len(shop.progress.measures) >= 2)
     assert {0, 10} <= set(shop.checkpoints())
     assert shop.checkpoints()[10].matches == 10
-    assert shop.progress.handmade is not None
     number = shop.moment.number
     feed(shop, lambda: shop.moment.number > number + 3)
     shop.close()

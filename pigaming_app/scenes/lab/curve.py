@@ -1,5 +1,5 @@
 """How often it wins against the hand-made robot, over the matches it has learned from: dots as measured, a line through
-them. The dashed line is how often the hand-made robot wins against one like itself.
+them. A tie is half a win, so the hand-made robot itself would be on the dashed line: above it, it has been outdone.
 """
 
 from collections.abc import Sequence
@@ -15,6 +15,7 @@ from pigaming_app.scenes.page import text
 from pigaming_app.scenes.pane import Lit, word
 
 FIRST = 50  # matches that the plot has room for in the beginning; it doubles
+HANDMADE = 0.5  # how often one wins against one like itself
 CALM = 0.3  # share of a new measure in the line
 GLOW = ((17, 0.14), (11, 0.3), (6, 1.0))  # px wide, brightness
 
@@ -50,17 +51,16 @@ class Curve:
         self.bare = ground.subsurface(CURVE).copy()
         self.sheet = self.bare.copy()
         self.share: float | None = None  # where the line has come to
-        self.shown: tuple[int, float | None] = (0, None)
+        self.shown = -1  # measures
 
-    def show(self, measures: Sequence[Measure], handmade: float | None) -> None:
+    def show(self, measures: Sequence[Measure]) -> None:
         """What has been measured so far."""
-        if (len(measures), handmade) == self.shown:
+        if len(measures) == self.shown:
             return
-        self.shown = len(measures), handmade
+        self.shown = len(measures)
         self.sheet.blit(self.bare, (0, 0))
         left, foot = PLOT.left - CURVE.left, PLOT.bottom - CURVE.top
-        if handmade is not None:
-            _dashes(self.sheet, left, foot - round(PLOT.h * handmade))
+        _dashes(self.sheet, left, foot - round(PLOT.h * HANDMADE))
         self.share = None
         if measures:
             line = smoothed(measures)
@@ -74,11 +74,8 @@ class Curve:
     def draw(self, screen: pygame.Surface, name: str, waiting: str) -> None:
         """Paint it; `name`: of the hand-made robot; `waiting`: what to say before anything is measured."""
         screen.blit(self.sheet, CURVE)
-        handmade = self.shown[1]
-        if handmade is not None:
-            y = PLOT.bottom - PLOT.h * handmade
-            below = y + 34 < PLOT.bottom - 20
-            text(name, BODY, MIST, "body", "r", PLOT.w - 20).draw(screen, PLOT.right, y + (34 if below else -34))
+        y = PLOT.bottom - PLOT.h * HANDMADE
+        text(name, BODY, MIST, "body", "r", PLOT.w - 20).draw(screen, PLOT.right, y + 36)
         if self.share is None:
             text(waiting, BODY, MIST, "body", "r", 190).draw(screen, RIGHT - 36, CURVE.centery)
         else:

@@ -72,7 +72,6 @@ class Shown:
 
     matches: int = 0
     measures: Sequence[Measure] = ()
-    handmade: float | None = None
     levels: list[int] = field(default_factory=lambda: [0] * PETALS)  # how good it is in each direction
     signs: Sequence[str] = ("unknown",) * PETALS
     knowing: float = 0.0  # 0: it only guesses, 1: it does what it knows
@@ -105,7 +104,7 @@ class LabPage:
         screen.blit(self.ground, (0, 0))
         self.arena.draw(screen)
         stamp(screen, tag(self.words("lab.match", number=now.matches + 1)), ARENA.left + 12, ARENA.bottom - 66)
-        self.curve.show(now.measures, now.handmade)
+        self.curve.show(now.measures)
         self.curve.draw(screen, self.words("lab.handmade"), "…")
         self._plan(screen, now)
         for i, name in enumerate(KNOB_NAMES):
@@ -145,6 +144,7 @@ def ground(language: str) -> pygame.Surface:
         panel(page.hot, *box)
     _named(page, words("lab.likes"), KNOBS)
     _named(page, words("lab.wins"), CURVE)
+    _aside(page, words("lab.ties"), words("lab.wins"))
     page.cold.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
     _legend(page, words)
     _bar(page, words)
@@ -155,6 +155,12 @@ def ground(language: str) -> pygame.Surface:
 
 def _named(page: Page, name: str, box: pygame.Rect) -> None:
     page.body(name, box.left + 32, box.top + 40, ICE, "l", fitted(name, BODY + 4, box.w - 64, "body"))
+
+
+def _aside(page: Page, said: str, title: str) -> None:
+    """A smaller word beside the title of the curve, at its right end."""
+    size = fitted(said, BODY, CURVE.w - 64 - text_width(title, BODY + 4, "body") - 40, "body")
+    page.body(said, CURVE.right - 32, CURVE.top + 40, MIST, "r", size)
 
 
 def _saying(page: Page, said: str, x: float) -> None:

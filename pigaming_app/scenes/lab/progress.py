@@ -35,9 +35,8 @@ class Moment:
 class Progress:
     """What is known about one training. Only whoever may touch the training may call this."""
 
-    def __init__(self, training: Training, handmade: float | None = None) -> None:
-        """`handmade`: how often the hand-made robot wins against one like itself, if that is known already."""
-        self.training, self.handmade = training, handmade
+    def __init__(self, training: Training) -> None:
+        self.training = training
         self.measures: list[Measure] = []
         self.plan: list[Direction | None] = [None] * PETALS
         self.checkpoints: dict[int, Checkpoint] = {}
@@ -84,9 +83,7 @@ class Progress:
             self._sector = (self._sector + 1) % PETALS
 
     def exam_due(self) -> Exam | None:
-        """The exam that is going on, or one that should begin now; the very first is the hand-made robot's own."""
-        if self._exam is None and self.handmade is None:
-            self._exam = examined(BRAINS[GAME][HANDMADE], BRAINS[GAME][HANDMADE], self.training.fast)
+        """The exam that is going on, or one that should begin now."""
         if self._exam is None:
             played, now = self.played, perf_counter()
             grain = max(1.0, played / GRAIN)
@@ -99,10 +96,7 @@ class Progress:
     def note(self) -> None:
         """Take down how an exam went, if it is over."""
         if self._exam and self._exam.over:
-            if self.handmade is None:
-                self.handmade = self._exam.share
-            else:
-                self.measures = [*self.measures, Measure(self._at, self._exam.share)]
+            self.measures = [*self.measures, Measure(self._at, self._exam.share)]
             self._exam = None
 
     def _mark(self) -> None:

@@ -200,7 +200,6 @@ class Lab:
         if self.page:
             self.page.update(seconds)
         shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, workshop.progress.measures
-        shown.handmade = workshop.progress.handmade
         shown.speed, shown.focus, shown.held = workshop.speed, self.focus.name, self.held
         shown.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = workshop.progress.plan

@@ -108,7 +108,7 @@ class Workshop:
 
     def _train(self, training: Training) -> None:
         self.training, self._owed = training, 0.0
-        self.progress = Progress(training, self.progress.handmade)
+        self.progress = Progress(training)
 
     @property
     def _wanted(self) -> bool:
