@@ -6,16 +6,18 @@ a robot stands on four projected outlines, and how far the camera sees it beside
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import cos, exp, log, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.ground import Ground, NoGround
+from pigaming_app.hardware.ground import Ground, NoGround, Points, project
+from pigaming_app.hardware.solver import least_squares
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
-
-MIDDLE = np.array((WIDTH / 2.0, HEIGHT / 2.0))  # of the arena, px
+FOCAL = 0.3, 4.0  # in widths of the picture: from a fish-eye to a telephoto lens
+UNLIKE = 20.0  # mm by which the mat may look other than from there: the image on it is not quite a rectangle
 
 Matrix = NDArray[np.float64]
 
@@ -23,20 +25,20 @@ Matrix = NDArray[np.float64]
 def hung(ground: Ground, height: float) -> Ground:
     """The ground with its camera `height` mm above the mat, as measured, and the foot point that follows.
 
-    The plane of the mat and the height fix the focal length (it is not calibrated, only used here), and that the
-    camera's pose: H = K (r1 r2 t). Raises NoGround.
+    Fits the camera's turn, its foot and a focal length (not calibrated, only used here) to how the plane of the mat is
+    seen. Raises NoGround.
     """
     if not LOWEST <= height <= HIGHEST:
         raise NoGround(f"A camera {height:.0f} mm above the mat: {LOWEST:.0f} to {HIGHEST:.0f} mm are possible.")
-    matrix = _mat_to_rays(ground)
-    low, high = 0.1, 20.0  # focal lengths in widths of the picture; the height grows with them
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if _eye(matrix, middle)[2] < height else (low, middle)
-    eye = _eye(matrix, low)
-    if abs(eye[2] - height) > 1.0:
+    x, y = np.meshgrid(np.linspace(0.0, WIDTH, 5), np.linspace(0.0, HEIGHT, 4))
+    view = _View(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
+    first = min((view.start(focal) for focal in np.geomspace(*FOCAL, 24)), key=view.cost)
+    best = least_squares(view.misses, first)
+    if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > UNLIKE:
         raise NoGround(f"The mat does not look as from {height:.0f} mm above: measure the camera's height again.")
-    return replace(ground, foot=(float(eye[0] / ground.mm), float(eye[1] / ground.mm)), height=height)
+    return replace(
+        ground, foot=(float(best[3] * 1000.0 / ground.mm), float(best[4] * 1000.0 / ground.mm)), height=height
+    )
 
 
 def stood(ground: Ground, places: Sequence[tuple[float, float]], seen: Sequence[tuple[float, float]]) -> Ground:
@@ -56,21 +58,61 @@ def stood(ground: Ground, places: Sequence[tuple[float, float]], seen: Sequence[
     return replace(ground, foot=(float(foot[0]), float(foot[1])), height=ground.lid * grown / (grown - 1.0))
 
 
+class _View:
+    """How a pinhole `height` mm over the mat would see places on it (mm), against how they are seen.
+
+    Six numbers are a camera: its turn as a rotation vector, its foot in m, the logarithm of its focal length in widths.
+    """
+
+    def __init__(self, ground: Ground, places: Points, height: float) -> None:
+        self.places, self.height = places, height
+        self.matrix = _mat_to_rays(ground)
+        self.rays = project(self.matrix, places)
+        reach = project(self.matrix, places + np.array((1.0, 0.0))) - self.rays
+        self.fine = float(np.sqrt((reach * reach).sum(axis=1)).mean())  # widths to a mm of the mat
+
+    def start(self, focal: float) -> Matrix:
+        """The camera with this focal length that the homography comes closest to: H = K (r1 r2 t)."""
+        rays = np.diag([1.0 / focal, 1.0 / focal, 1.0]) @ self.matrix
+        r1, r2, t = (rays / (0.5 * (np.linalg.norm(rays[:, 0]) + np.linalg.norm(rays[:, 1])))).T
+        left, _, right = np.linalg.svd(np.stack([r1, r2, np.cross(r1, r2)], axis=1))
+        eye = -(left @ right).T @ t
+        return np.array([*_vector(left @ right), eye[0] / 1000.0, eye[1] / 1000.0, log(focal)])
+
+    def misses(self, camera: Matrix) -> Matrix:
+        """By how many mm of the mat the places are seen elsewhere."""
+        away = np.column_stack([self.places - camera[3:5] * 1000.0, np.full(len(self.places), self.height)])
+        seen = away @ _turn(camera[:3]).T
+        rays = exp(camera[5]) * seen[:, :2] / np.maximum(seen[:, 2:], 1.0)
+        return np.asarray((rays - self.rays).reshape(-1) / self.fine)
+
+    def cost(self, camera: Matrix) -> float:
+        """The sum of their squares."""
+        misses = self.misses(camera)
+        return float(misses @ misses)
+
+
 def _mat_to_rays(ground: Ground) -> Matrix:
     """The homography from mm on the mat to straightened camera px round the lens's centre, in widths."""
     back = np.linalg.inv(np.array(ground.plane).reshape(3, 3))
     (x, y), width = ground.lens.centre, ground.lens.size[0]
     to_rays = np.array([[1.0 / width, 0.0, -x / width], [0.0, 1.0 / width, -y / width], [0.0, 0.0, 1.0]])
     matrix = to_rays @ back @ np.diag([1.0 / ground.mm, 1.0 / ground.mm, 1.0])
-    ahead = matrix[2, :2] @ MIDDLE * ground.mm + matrix[2, 2]
+    ahead = matrix[2] @ (WIDTH / 2.0 * ground.mm, HEIGHT / 2.0 * ground.mm, 1.0)
     return np.asarray(matrix if ahead > 0.0 else -matrix)
 
 
-def _eye(matrix: Matrix, focal: float) -> Matrix:
-    """The camera's centre over the mat in mm (z up, positive), for a focal length in widths."""
-    rays = np.diag([1.0 / focal, 1.0 / focal, 1.0]) @ matrix
-    scale = 0.5 * (np.linalg.norm(rays[:, 0]) + np.linalg.norm(rays[:, 1]))
-    r1, r2, t = (rays / scale).T
-    left, _, right = np.linalg.svd(np.stack([r1, r2, np.cross(r1, r2)], axis=1))
-    eye = -(left @ right).T @ t
-    return np.array([eye[0], eye[1], abs(eye[2])])
+def _turn(vector: Matrix) -> Matrix:
+    """The rotation about a vector by its length (Rodrigues)."""
+    angle = sqrt(float(vector @ vector))
+    x, y, z = vector / max(angle, 1e-12)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + sin(angle) * cross + (1.0 - cos(angle)) * (cross @ cross))
+
+
+def _vector(turn: Matrix) -> Matrix:
+    """The rotation vector of a rotation: its axis is what the rotation leaves alone."""
+    axis = np.linalg.svd(turn - np.eye(3))[2][-1]
+    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    angle = np.arctan2(0.5 * float(axis @ skew), 0.5 * (float(np.trace(turn)) - 1.0))
+    return np.asarray(axis * angle)

@@ -139,6 +139,20 @@ def test_the_place_of_the_camera_follows_from_its_height():
     assert true_error_mm(ground, 70.0) < 0.1
 
 
+@pytest.mark.parametrize("tilt", [(0.0, 0.0), (0.3, -0.3), (-0.35, 0.1)])
+def test_the_place_of_the_camera_is_found_however_it_looks_down(tilt):
+    camera = Pinhole(tilt=tilt, height=3000.0)
+    ground = hung(solve(perfect(BOARD, camera), BOARD, SIZE, WIDTH_MM, "1"), 3000.0)
+    assert ground.foot == pytest.approx((760.0, 430.0), abs=2.0)
+
+
+def test_a_height_that_does_not_fit_how_the_mat_looks_is_refused():
+    """Straight from above a wrong height only looks like another lens; from aside it does not."""
+    camera = Pinhole(tilt=(0.3, -0.3), height=3000.0)
+    with pytest.raises(NoGround, match="does not look as from 900 mm"):
+        hung(solve(perfect(BOARD, camera), BOARD, SIZE, WIDTH_MM, "1"), 900.0)
+
+
 def test_a_ruler_that_is_wrong_by_a_hand_costs_a_millimetre_or_two():
     ground = hung(solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1"), 2320.0)
     assert true_error_mm(ground, 70.0) < 2.0
