@@ -1,0 +1,87 @@
+"""The emulated arena as a site that can be calibrated, with a window or without one.
+
+Live, its time is the real time; stepped, it passes only when told so, and a run is the same every time.
+"""
+
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.cameras import Known
+from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
+from pigaming_app.hardware.emulator.camera import Pace
+from pigaming_app.hardware.emulator.live import Live
+from pigaming_app.hardware.emulator.projector import Projector
+from pigaming_app.hardware.signals import Frame
+from pigaming_app.hardware.site import Measures
+
+RULER = (1.5, 8.0)  # mm by which the mat's width and the camera's height are measured wrongly
+ASIDE = ((60.0, 60.0), (1540.0, 60.0), (1540.0, 840.0), (60.0, 840.0))  # arena px, where robots wait
+HEADING = -1.2  # rad, as somebody happens to put a robot down
+
+
+class EmulatedEye:
+    """The camera over the emulated mat, as one that can be let go of and used again."""
+
+    trouble: str | None = None
+
+    def __init__(self, arena: EmulatedArena) -> None:
+        self.arena = arena
+
+    def newest(self) -> Frame | None:
+        """The newest frame that was not given out before, or None."""
+        return self.arena.camera.newest()
+
+    def close(self) -> None:
+        """It goes on looking."""
+
+
+class EmulatedSite:
+    """An emulated arena without robots on the mat, until one is asked to stand on an outline."""
+
+    name = "emulated"
+    settle = 0.3
+
+    def __init__(self, seed: int = 1, live: bool = False) -> None:
+        self.stepped = not live
+        self.arena = EmulatedArena(seed, Pace(30.0), begin=time.monotonic() if live else 0.0)
+        self.arena.cleared = True
+        self.clock = self.arena.clock
+        self.projector = Projector(self.arena)
+        self._live = Live(self.arena).start() if live else None
+
+    @property
+    def measures(self) -> Measures:
+        """What somebody with a ruler finds."""
+        rim = self.arena.optics.mat(np.array([[0.0, 450.0], [1600.0, 450.0]]) + ARENA_AT)
+        width, height = float(np.hypot(*(rim[1] - rim[0]))), float(self.arena.optics.lens.eye[2])
+        return Measures(round(width + RULER[0]), round(height + RULER[1]))
+
+    def cameras(self) -> list[Known]:
+        """The one that there is."""
+        return [Known(0, "emulated")]
+
+    def open(self, number: int) -> EmulatedEye:
+        """Use the camera."""
+        return EmulatedEye(self.arena)
+
+    def advance(self, seconds: float) -> None:
+        """Let made-up time pass."""
+        if self.stepped:
+            self.arena.advance(seconds)
+
+    def see(self, pixels: NDArray[np.uint8]) -> None:
+        """The window shows these pixels now."""
+        self.projector.see(pixels)
+
+    def stand(self, x: float, y: float) -> None:
+        """Carry the first robot there; the others wait aside."""
+        self.arena.cleared = False
+        for robot, (left, top) in enumerate(ASIDE):
+            self.arena.place(robot, (x, y, HEADING) if robot == 0 else (left, top, 0.0))
+
+    def close(self) -> None:
+        """Stop its time."""
+        if self._live is not None:
+            self._live.close()

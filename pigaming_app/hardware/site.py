@@ -1,0 +1,82 @@
+"""What is there to calibrate: which cameras, which clock, and what has been measured with a ruler."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from pigaming_app.hardware.camera import Camera
+from pigaming_app.hardware.cameras import Known, cameras
+from pigaming_app.hardware.ground import LID
+from pigaming_app.hardware.signals import Clock, Frame
+
+SETTLED = 2.6  # s after which a real camera has locked its exposure
+
+
+class Sees(Protocol):
+    """An Eye that says what is wrong with it; None: nothing."""
+
+    trouble: str | None
+
+    def newest(self) -> Frame | None: ...
+
+    def close(self) -> None: ...
+
+
+@dataclass(frozen=True)
+class Measures:
+    """What the operator measures, all in mm: the arena's width on the mat, the camera's and the lids' height above it.
+
+    Without a camera's height (0), a robot that stands on outlines tells it.
+    """
+
+    width: float = 2112.0
+    height: float = 2500.0
+    lid: float = LID
+
+
+class Site(Protocol):
+    """A mat with a projector and cameras. `stepped`: its time is made up, and passes only in `advance`."""
+
+    name: str
+    stepped: bool
+    clock: Clock
+    settle: float  # s until an opened camera's pictures can be used
+    measures: Measures  # to begin with
+
+    def cameras(self) -> list[Known]: ...
+
+    def open(self, number: int) -> Sees:
+        """Use a camera. Raises NoVision."""
+
+    def advance(self, seconds: float) -> None: ...
+
+    def stand(self, x: float, y: float) -> None:
+        """A person is asked to put a robot there, arena px."""
+
+
+class RealSite:
+    """The world. `open_capture` makes a `cv2.VideoCapture`."""
+
+    name = "real"
+    stepped = False
+    settle = SETTLED
+    measures = Measures()
+
+    def __init__(self, open_capture: Callable[[int], object] | None = None) -> None:
+        self.clock: Clock = time.monotonic
+        self._open_capture = open_capture
+
+    def cameras(self) -> list[Known]:
+        """The cameras that are plugged in."""
+        return cameras()
+
+    def open(self, number: int) -> Sees:
+        """Use a camera. Raises NoVision."""
+        return Camera(number, clock=self.clock, open_capture=self._open_capture)
+
+    def advance(self, seconds: float) -> None:
+        """Time passes by itself."""
+
+    def stand(self, x: float, y: float) -> None:
+        """Somebody sees the outline and does it."""
