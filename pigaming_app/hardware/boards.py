@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.ground import NoGround, Points
 from pigaming_app.hardware.markers import Markers, opencv
+from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.signals import Frame, Image
 
 CANVAS = (1920, 1080)
@@ -96,15 +97,18 @@ class Look:
         """The mean corners of the markers seen in at least half of the pictures, camera px. Raises NoGround."""
         often = {number: np.array(seen) for number, seen in self._seen.items() if 2 * len(seen) >= self.frames}
         if len(often) < ENOUGH:
-            raise NoGround(
+            sentence = (
                 f"The camera sees {len(often)} of the {COLUMNS * ROWS} markers of the board, {ENOUGH} are needed: "
                 "aim it at the whole picture, focus it, dim the lights, clear the mat."
             )
+            raise NoGround(Said(sentence, "few", seen=len(often), all=COLUMNS * ROWS, needed=ENOUGH))
         if missing := _empty_corners(often):
-            raise NoGround(f"The camera sees nothing of the board's {missing} corner: aim it at the whole picture.")
+            sentence = f"The camera sees nothing of the board's {missing} corner: aim it at the whole picture."
+            raise NoGround(Said(sentence, missing.replace(" ", "_")))
         shake = float(np.median([seen.std(axis=0).max() for seen in often.values()]))
         if shake > SHAKE:
-            raise NoGround(f"The picture moves by {shake:.1f} px: hold camera, projector and mat still.")
+            sentence = f"The picture moves by {shake:.1f} px: hold camera, projector and mat still."
+            raise NoGround(Said(sentence, "moves", shake=f"{shake:.1f}"))
         return {number: np.median(seen, axis=0) for number, seen in often.items()}
 
 

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, Self
 
 from pigaming_app.hardware.cameras import why_not
 from pigaming_app.hardware.markers import opencv
+from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.signals import Clock, Frame
 
 SETTLE = 2.0  # s until exposure and the like are locked
@@ -47,7 +48,7 @@ class Camera:
     ) -> None:
         self._cv = opencv()
         self.number, self.wanted, self.clock, self.settle = number, wanted or Wanted(), clock, settle
-        self.trouble: str | None = f"Camera {number} has not shown a picture yet."
+        self.trouble: str | None = Said(f"Camera {number} has not shown a picture yet.", "yet", number=number)
         self.loose: Sequence[str] = ()  # what it goes on correcting by itself
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: Frame | None = None
@@ -124,7 +125,11 @@ class Camera:
                 last = now
                 self._keep(capture, picture)
             elif now - last > STALE:
-                self.trouble = f"Camera {self.number} has stopped sending pictures: is it unplugged?"
+                self.trouble = Said(
+                    f"Camera {self.number} has stopped sending pictures: is it unplugged?",
+                    "stopped",
+                    number=self.number,
+                )
                 return
             else:
                 self._closing.wait(0.005)

@@ -6,6 +6,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from pigaming_app.hardware.said import Said
+
 DEVICES = Path("/sys/class/video4linux")
 NODES = Path("/dev")
 
@@ -29,17 +31,21 @@ def cameras() -> list[Known]:
     return sorted(found)
 
 
-def why_not(number: int) -> str:
+def why_not(number: int) -> Said:
     """Why the camera with this number could not be opened."""
     if not sys.platform.startswith("linux"):
-        return f"Camera {number} cannot be used: it is not plugged in, or another program uses it."
+        sentence = f"Camera {number} cannot be used: it is not plugged in, or another program uses it."
+        return Said(sentence, "unusable", number=number)
     node = NODES / f"video{number}"
     if not node.exists():
         there = ", ".join(f"{known.number} ({known.name})" for known in cameras())
-        return f"There is no camera {number}" + (f"; there are {there}." if there else ": plug one in.")
+        sentence = f"There is no camera {number}" + (f"; there are {there}." if there else ": plug one in.")
+        return Said(sentence, "other_cameras" if there else "no_camera", number=number, there=there)
     if not os.access(node, os.R_OK | os.W_OK):
-        return f"The camera {node} may not be used by this user: add the user to the group video and log in again."
-    return f"The camera {node} does not open: another program uses it, or it sends no pictures."
+        sentence = f"The camera {node} may not be used by this user: add the user to the group video and log in again."
+        return Said(sentence, "not_allowed", node=node)
+    sentence = f"The camera {node} does not open: another program uses it, or it sends no pictures."
+    return Said(sentence, "busy", node=node)
 
 
 def _text(path: Path) -> str:

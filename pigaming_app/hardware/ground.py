@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.lens import Lens
+from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.signals import Fix, Mark
 from pigaming_app.sim.table import Table, Wrong
 from pigaming_app.sim.world import WIDTH
@@ -127,21 +128,24 @@ def read(text: str, display: str, camera: tuple[int, int]) -> Ground:
     try:
         entries = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise NoGround(f"The calibration cannot be read ({error}): calibrate again.") from error
+        raise NoGround(Said(f"The calibration cannot be read ({error}): calibrate again.", "damaged")) from error
     if entries.get("version") != VERSION:
-        raise NoGround(f"The calibration is of version {entries.get('version')!r}, not {VERSION}: calibrate again.")
+        sentence = f"The calibration is of version {entries.get('version')!r}, not {VERSION}: calibrate again."
+        raise NoGround(Said(sentence, "version"))
     check = entries.pop("check", None)
     if check != _check(entries):
-        raise NoGround("The calibration was changed by hand or is damaged: calibrate again.")
+        raise NoGround(Said("The calibration was changed by hand or is damaged: calibrate again.", "damaged"))
     try:
         ground = _ground(Table(entries))
     except (Wrong, np.linalg.LinAlgError) as wrong:
-        raise NoGround(f"The calibration cannot be used ({wrong}): calibrate again.") from wrong
+        raise NoGround(Said(f"The calibration cannot be used ({wrong}): calibrate again.", "damaged")) from wrong
     if ground.display != display:
-        raise NoGround(f"The calibration was made on display {ground.display}, not {display}: calibrate again.")
+        sentence = f"The calibration was made on display {ground.display}, not {display}: calibrate again."
+        raise NoGround(Said(sentence, "other_display"))
     if ground.lens.size != camera:
         theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
-        raise NoGround(f"The calibration was made with a camera of {theirs} px, not {ours}: calibrate again.")
+        sentence = f"The calibration was made with a camera of {theirs} px, not {ours}: calibrate again."
+        raise NoGround(Said(sentence, "other_camera", theirs=theirs, ours=ours))
     return ground
 
 

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.signals import Image, Mark
 
 ROBOT_IDS = (0, 1, 2, 3)
@@ -124,9 +125,8 @@ def opencv() -> Any:
     try:
         import cv2
     except ImportError as error:
-        raise NoVision(
-            f"OpenCV is not installed ({error}), so no camera can be used: install opencv-python-headless."
-        ) from error
+        sentence = f"OpenCV is not installed ({error}), so no camera can be used: install opencv-python-headless."
+        raise NoVision(Said(sentence, "no_opencv")) from error
     return cv2
 
 

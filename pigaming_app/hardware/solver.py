@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.boards import ENOUGH, Board
 from pigaming_app.hardware.ground import Ground, NoGround, Points, project
 from pigaming_app.hardware.lens import Lens
+from pigaming_app.hardware.said import Said
 
 MEAN_MM, MAX_MM = 1.5, 3.0  # the largest errors on the held-out board with which a calibration is accepted
 ROUNDS = 60
@@ -39,12 +40,14 @@ class Residuals:
         return self.mean_mm <= MEAN_MM and self.max_mm <= MAX_MM
 
     @property
-    def verdict(self) -> str:
+    def verdict(self) -> Said:
         """One sentence for the operator."""
         said = f"The error is {self.mean_mm:.1f} mm in the mean and {self.max_mm:.1f} mm at most"
+        errors = {"mean": f"{self.mean_mm:.1f}", "most": f"{self.max_mm:.1f}"}
         if self.accepted:
-            return f"{said}."
-        return f"{said}, but {MEAN_MM} and {MAX_MM:.0f} are needed: hold everything still, focus, calibrate again."
+            return Said(f"{said}.", "accurate", **errors)
+        sentence = f"{said}, but {MEAN_MM} and {MAX_MM:.0f} are needed: hold everything still, focus, calibrate again."
+        return Said(sentence, "inaccurate", **errors, need_mean=MEAN_MM, need_most=f"{MAX_MM:.0f}")
 
 
 def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width_mm: float, display: str) -> Ground:
@@ -56,7 +59,8 @@ def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width
     numbers = [number for number in seen if number in truth]
     for _ in range(3):
         if len(numbers) < ENOUGH:
-            raise NoGround("The board looks wrong to the camera: is it the picture of this program, and is it flat?")
+            sentence = "The board looks wrong to the camera: is it the picture of this program, and is it flat?"
+            raise NoGround(Said(sentence, "wrong_board"))
         places, points = _stacked(truth, numbers), _stacked(seen, numbers)
         found = _fit(places, points, size)
         errors = np.abs(_model(found, places, size) - points).reshape(len(numbers), -1).max(axis=1)
