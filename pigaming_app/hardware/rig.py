@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.kinematics import Kinematics
-from pigaming_app.hardware.runs import Recorder
 from pigaming_app.hardware.safety import Signs
 from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Telemetry, Wheels
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
@@ -63,6 +62,16 @@ class Talks(Protocol):
     def close(self) -> None: ...
 
 
+class Notes(Protocol):
+    """Who wants to know all that is sent and seen."""
+
+    def sent(self, time: float, wheels: Sequence[Wheels | None]) -> None: ...
+
+    def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None: ...
+
+    def believed(self, now: float, sightings: Sequence[Sighting]) -> None: ...
+
+
 class Rig:
     """Robot i wears marker i; `channels[i]` is the place of its radio in what the link sends (see pairing)."""
 
@@ -79,7 +88,7 @@ class Rig:
         self.kinematics = [Kinematics(one) for one in drivetrains]
         self.channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # mm by which the corner markers have moved
-        self.recorder: Recorder | None = None  # notes all that is sent and seen
+        self.recorder: Notes | None = None
         self._begun = clock()
         self._sample: NDArray[np.uint8] | None = None  # of the newest picture
         self._lock = threading.Lock()
@@ -109,6 +118,13 @@ class Rig:
             if self.recorder:
                 self.recorder.sent(now, wheels)
                 self.recorder.believed(now, self.tracker.sense(now))
+        self.link.send(sent)
+        self.pump()
+
+    def tell_one(self, channel: int, wheels: Wheels) -> None:
+        """Tell the robot of one radio what to do, whichever marker it wears; the others are off."""
+        sent: list[Wheels | None] = [None] * ROBOTS
+        sent[channel] = wheels
         self.link.send(sent)
         self.pump()
 

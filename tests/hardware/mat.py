@@ -6,12 +6,15 @@ What is tried here is what lies between tracker and link; the emulated arena tri
 from collections import deque
 from math import cos, exp, sin
 
+import numpy as np
+
 from pigaming_app.hardware.rig import UNMEASURED, Rig
-from pigaming_app.hardware.signals import Telemetry
+from pigaming_app.hardware.signals import Fix, Frame, Telemetry
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
 from pigaming_app.sim.plant import Sighting
 
 STEP = 0.01  # s
+LATE = 0.06  # s
 TRUE = Drivetrain(Wheel(740.0, 0.04), Wheel(780.0, 0.03), 63.0, 0.09, 0.03)
 EVEN = Drivetrain(Wheel(760.0, 0.03), Wheel(760.0, 0.03), 63.0, 0.09, 0.03)
 STARTS = ((200.0, 200.0, 0.8), (1400.0, 200.0, 2.4), (1400.0, 700.0, 3.9), (200.0, 700.0, 5.5))
@@ -50,6 +53,9 @@ class Mat:
         self.blind, self.trouble, self.closed = False, None, False
         self.looked = 0.0
         self.coming = deque()
+        self.radio = [0, 1, 2, 3]  # by robot: the channel that it listens to
+        self.past = deque()  # (s, poses), as long as they are on their way through the camera
+        self.pictures = 0
         self.rig = Rig(self, self, self, self.clock, (UNMEASURED,) * 4)
 
     def clock(self):
@@ -58,8 +64,9 @@ class Mat:
     def pass_time(self, seconds=0.02):
         for _ in range(round(seconds / STEP)):
             while self.coming and self.coming[0][0] <= self.now + 1e-9:
-                for robot, told in zip(self.robots, self.coming.popleft()[1], strict=True):
-                    robot.told = told
+                told = self.coming.popleft()[1]
+                for robot, channel in zip(self.robots, self.radio, strict=True):
+                    robot.told = told[channel]
             self.now += STEP
             for robot in self.robots:
                 robot.roll()
@@ -69,9 +76,16 @@ class Mat:
                     robot.heard = self.now
             self.looked = self.looked if self.blind else self.now
 
-    # the eye
+            self.past.append((self.now, [(one.x, one.y, one.heading) for one in self.robots]))
+
+    # the eye: a picture of LATE s ago, 33 times a second, which is only a number
     def newest(self):
-        return None
+        if self.blind or self.now < self.pictures * 0.03 + LATE:
+            return None
+        while len(self.past) > 1 and self.past[0][0] < self.now - LATE - 1e-9:
+            self.past.popleft()
+        self.pictures += 1
+        return Frame(np.full((1, 1), self.pictures % 251, dtype=np.uint8), self.past[0][0], self.pictures)
 
     def close(self):
         self.closed = True
@@ -81,7 +95,7 @@ class Mat:
         pass
 
     def see(self, frame):
-        pass
+        return [Fix(i, *pose, frame.captured) for i, pose in enumerate(self.past[0][1])]
 
     def sense(self, now):
         ahead = now - self.now
