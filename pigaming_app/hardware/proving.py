@@ -113,13 +113,6 @@ def fault(name: str, says: str, everyone: bool = False, allowed: float = 0.0) ->
     )
 
 
-def _drifted(millimetres: float) -> Callable[[Trail, int], None]:
-    def drift(trail: Trail, _: int) -> None:
-        trail.bed.rig.drift = lambda: millimetres
-
-    return drift
-
-
 def _twice(on: bool) -> Callable[[Trail, int], None]:
     """Where a game shows hard edges, a second marker cannot always be read, and does no harm: so without them."""
 
@@ -146,7 +139,7 @@ EMERGENCIES: Mapping[str, Emergency] = {
     "all-stop": Emergency(
         lambda trail, _: trail.plant.safety.all_stop(), lambda trail, _: trail.plant.safety.release(), "stopped", True
     ),
-    "corner markers adrift": Emergency(_drifted(20.0), _drifted(0.0), "drift", True),
+    "camera bumped": fault("camera_bumped", "drift", everyone=True, allowed=1.0),
 }
 
 

@@ -9,6 +9,7 @@ from time import thread_time
 import numpy as np
 
 from pigaming_app.hardware.boards import BOARD, HELD_OUT, Board, Look
+from pigaming_app.hardware.drift import Drift, corner_markers
 from pigaming_app.hardware.emulator.arena import ARENA_AT, SHOWS_AFTER, EmulatedArena
 from pigaming_app.hardware.emulator.camera import Pace
 from pigaming_app.hardware.emulator.optics import CANVAS
@@ -55,8 +56,12 @@ class Bed:
         self.ground, self.residuals = calibrated(self.arena)
         self.tracker = Watched(self.ground, self.arena.clock, [UNMEASURED] * ROBOTS)
         self.link = Link(self.arena.radio.open, self.arena.clock)
-        self.rig = Rig(self.arena.camera, self.tracker, self.link, self.arena.clock)
-        self._busy = busy_floor(seed)
+        self.tracker.drift = drift = Drift(self.ground)
+        self.rig = Rig(self.arena.camera, self.tracker, self.link, self.arena.clock, drift=lambda: drift.mm)
+        self._busy, self._dark = busy_floor(seed), np.zeros((CANVAS[1], CANVAS[0]), np.uint8)
+        for left, top, marker in corner_markers():
+            for floor in (self._busy, self._dark):
+                floor[top : top + len(marker), left : left + len(marker)] = marker
         self.show(busy=False)
 
     def find(self) -> None:
@@ -67,7 +72,7 @@ class Bed:
 
     def show(self, busy: bool) -> None:
         """Show a floor as games have them, or a dark one."""
-        self.floor = self._busy if busy else np.zeros_like(self._busy)
+        self.floor = self._busy if busy else self._dark
 
     def count(self) -> None:
         """Count pictures anew."""

@@ -148,3 +148,12 @@ def test_the_same_seed_is_the_same_run():
 
     assert run(5) == run(5)
     assert run(5) != run(6)
+
+
+def test_it_shares_no_code_with_what_it_proves():
+    from tests.test_layers import PACKAGE, imported
+
+    for path in (PACKAGE / "hardware" / "emulator").glob("*.py"):
+        for module, _ in imported(path):
+            allowed = ("pigaming_app.hardware.emulator", "pigaming_app.hardware.signals", "pigaming_app.sim.plant")
+            assert not module.startswith("pigaming_app") or module.startswith(allowed), f"{path.name}: {module}"

@@ -41,7 +41,7 @@ class EmulatedCamera:
         self.exposed = self.delivered = 0
         self._random = Random(f"camera {seed}")
         self._under_way: deque[Exposure] = deque()
-        self._last: Frame | None = None
+        self.last: Frame | None = None  # the newest that was given out
 
     def expose(self, scene: Scene, middle: float) -> None:
         """The shutter closes; `middle` (s) is the middle of the time that it was open."""
@@ -64,11 +64,11 @@ class EmulatedCamera:
             return None
         self.delivered += 1
         captured = taken.arrives - self.pace.delay
-        if self.stuck and self._last is not None:
-            self._last = Frame(self._last.image, captured, taken.scene.number)
+        if self.stuck and self.last is not None:
+            self.last = Frame(self.last.image, captured, taken.scene.number)
         else:
-            self._last = Frame(self.painter.paint(taken.scene), captured, taken.scene.number)
-        return self._last
+            self.last = Frame(self.painter.paint(taken.scene), captured, taken.scene.number)
+        return self.last
 
     def close(self) -> None:
         """Nothing arrives any more."""

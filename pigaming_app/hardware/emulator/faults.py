@@ -3,9 +3,11 @@
 Some of them strike the camera or the radio, others one robot.
 """
 
+from dataclasses import replace
 from math import atan2, cos, hypot, sin
 from typing import TYPE_CHECKING
 
+from pigaming_app.hardware.emulator.optics import Optics
 from pigaming_app.hardware.emulator.things import (
     BODY_HEIGHT,
     LID_HEIGHT,
@@ -25,6 +27,7 @@ FAULTS = {
     "camera_frozen": "no picture arrives any more, though the camera is there",
     "camera_stuck": "the same picture arrives again and again",
     "camera_gone": "the camera is unplugged",
+    "camera_bumped": "somebody ran into the camera, and it looks elsewhere",
     "frames_dropped": "two pictures of three are lost",
     "exposure_step": "pictures are half as bright at once",
     "marker_covered": "a hand lies on the lid",
@@ -45,6 +48,7 @@ RADIO = {"radio_dead": "dead", "radio_unplugged": "unplugged"}
 HELD_AT, TURNED_AT, CARRIED_AT = 400.0, 60.0, 120.0  # mm over the mat
 CARRY_SPEED, CARRY_WAY = 600.0, 500.0  # mm/s, mm
 DARKER = 0.5
+BUMP = 25.0  # mm by which the camera looks beside where it did
 HAND = 56.0  # mm, reach
 EMPTY_CELLS = 3.9  # V
 
@@ -74,6 +78,10 @@ class Faults:
             setattr(arena.radio, RADIO[name], on)
         elif name in ("marker_held", "upside_down", "carried") and not on:
             struck.height = 0.0
+        elif name == "camera_bumped":
+            lens = arena.optics.lens
+            aim = (lens.aim[0] + BUMP, lens.aim[1])
+            arena.camera.painter.look_through(Optics(replace(lens, aim=aim)) if on else arena.optics)
         elif name == "frames_dropped":
             arena.camera.more_drops = 0.67 * on
         elif name == "exposure_step":

@@ -64,15 +64,20 @@ class Painter:
     """Paints scenes as one camera sees them. Two painters with the same seed paint the same."""
 
     def __init__(self, optics: Optics, seed: int, refresh: int = 1, noise: float = NOISE) -> None:
-        self.optics, self.refresh = optics, refresh
+        self.refresh = refresh
         self._seed = seed
         random = np.random.default_rng(seed)
         self._noise = np.clip(np.rint(random.normal(0.0, noise, (1400, 2300))), -127, 127).astype(np.int8)
-        self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
+        self.look_through(optics)
         self._mat = _cloth(random)
         self._shade = _vignette()
         self._room: Image | None = None
-        self._age = 0
+
+    def look_through(self, optics: Optics) -> None:
+        """Hang the camera elsewhere."""
+        self.optics = optics
+        self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
+        self._age = self.refresh
 
     def paint(self, scene: Scene) -> Image:
         """The picture, (1080, 1920)."""
