@@ -52,12 +52,12 @@ def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
 def _doing(view: Any, mind: Any) -> str:
     """What it is about, as a key of the texts."""
     aside = mind.lane - mind.line * view.ahead.ideal
+    if view.finished:  # what it still does no longer moves it
+        return "done"
     if mind.state == racer.BREAK_FREE:
         return "free"
     if mind.state == racer.GO_BACK or view.past > racer.SLACK:
         return "return"
-    if view.finished:
-        return "done"
     if abs(aside) > CHANGED:
         return "pass_left" if aside < 0.0 else "pass_right"
     if held_to(view, mind) < 1.0:

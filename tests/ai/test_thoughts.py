@@ -212,6 +212,13 @@ def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
     assert [(sight.x, sight.y) for sight in told.sights if sight.kind == GOAL] == [(321.0, 123.0)]
 
 
+def test_who_has_finished_is_not_stuck_though_nothing_moves_it_any_more():
+    match = run(play("race", "hard", "easy"), 100)
+    mind = match.brains[0].mind
+    mind.sight.finished, mind.state = 1, racer.BREAK_FREE
+    assert (thoughts(match).doing, thoughts(match).because) == ("done", "finish")
+
+
 def test_a_driver_makes_way_to_the_side_on_which_it_passes():
     match = run(play("race", "hard", "easy"), 100)
     mind = match.brains[0].mind

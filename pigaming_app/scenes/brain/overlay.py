@@ -22,6 +22,7 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 
 EVERY = 5  # ticks between two questions
 EASE = 10.0  # of what is missing, in a second: bars and petals do not jump
+GLOW = 6  # px by which the light of the panels reaches beside the clock
 TILTED = 0.35  # of a stick's way from which on it counts as held
 
 
@@ -89,8 +90,8 @@ class BrainOverlay:
         """The texts left of the clock, the wishes right of it."""
         thoughts, clock = self.thoughts, self.view.clock
         left, right, w = LEFT, clock.right + 8, clock.left - 8 - LEFT
-        cards.blank(screen, LEFT - 12, clock.left)
-        cards.blank(screen, clock.right, LEFT + int(WIDTH) + 12)
+        cards.blank(screen, LEFT - 12, clock.left + GLOW)
+        cards.blank(screen, clock.right - GLOW, LEFT + int(WIDTH) + 12)
         doing = self.words(f"brain.{thoughts.doing}", **thoughts.names)
         because = self.words(f"brain.because_{thoughts.because}", **thoughts.names) if thoughts.because else ""
         cards.draw_words(screen, left, w, seat, doing, because)
