@@ -116,6 +116,10 @@ class Settings:
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # of nobody pressing anything
     corners: list[int] = field(default_factory=list, metadata={"fit": Corners()})  # of the picture on the projector
     strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
+    camera: int = _setting(0, Range(0, 63))  # over the mat
+    port: str = _setting("", Name())  # of the radio; empty: the first there is
+    baud: int = _setting(57600, Range(1200, 921600))
+    radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # how it is set
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     @classmethod

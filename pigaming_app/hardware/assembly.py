@@ -1,0 +1,75 @@
+"""The real thing, put together from what the operator chose: camera, radio, calibration, measured robots.
+
+What is missing or broken at first may be plugged in later: camera and link say what is wrong and try again.
+"""
+
+import time
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from pigaming_app.hardware.air import Air, Mode
+from pigaming_app.hardware.camera import Camera
+from pigaming_app.hardware.ground import Ground, NoGround, read
+from pigaming_app.hardware.line import ports, serial_port
+from pigaming_app.hardware.link import Link
+from pigaming_app.hardware.rig import UNMEASURED, Rig
+from pigaming_app.hardware.stock import BAUD as STOCK_BAUD
+from pigaming_app.hardware.stock import Stock
+from pigaming_app.hardware.tracker import Tracker
+from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
+from pigaming_app.sim.world import ROBOTS
+
+STOCK = "stock"  # one robot as it is sold, on a cable
+NO_PORT = "no serial port"
+
+
+class Wiring(NamedTuple):
+    """What is plugged in where. `radio`: api2, api1, transparent or stock."""
+
+    camera: int = 0
+    port: str = ""  # empty: the first there is
+    baud: int = 57600
+    radio: str = "api2"
+
+
+def connect(wiring: Wiring, ground: Ground, drivetrains: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS) -> Rig:
+    """Camera, tracker and link, at work in their threads until close(). Raises NoVision where OpenCV is missing."""
+    clock = time.monotonic
+    tracker = Tracker(ground, clock, drivetrains)
+    return Rig(Camera(wiring.camera), tracker, linked(wiring), clock, drivetrains).start()
+
+
+def linked(wiring: Wiring) -> Link:
+    """The link alone, not yet started. It says itself what is wrong with the port."""
+    name = wiring.port or next((port.device for port in ports()), NO_PORT)
+    if wiring.radio == STOCK:
+        return Link(serial_port(name, STOCK_BAUD), time.monotonic, Stock(0), name)
+    return Link(serial_port(name, wiring.baud), time.monotonic, Air(Mode(wiring.radio)), name)
+
+
+def measured(path: Path) -> tuple[Drivetrain, ...]:
+    """The robots that `fidelity` measured, and unmeasured ones for the rest. Raises DrivetrainError."""
+    try:
+        found = parse(path.read_text(encoding="utf-8"), path.name)
+    except FileNotFoundError:
+        found = ()
+    except (OSError, UnicodeDecodeError):
+        raise DrivetrainError(f"{path.name}: cannot be read") from None
+    return (*found, *(UNMEASURED,) * (ROBOTS - len(found)))
+
+
+def ground_of(path: Path) -> Ground:
+    """The calibration in a file, whichever display it was made on. Raises NoGround."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        entries = tomllib.loads(text)
+        wide, high = entries["lens"]["size"]
+        return read(text, str(entries["display"]), (int(wide), int(high)))
+    except FileNotFoundError:
+        raise NoGround("There is no calibration yet: calibrate first.") from None
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, KeyError, TypeError, ValueError) as error:
+        if isinstance(error, NoGround):
+            raise
+        raise NoGround(f"The calibration {path.name} cannot be read: calibrate again.") from None
