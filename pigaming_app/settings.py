@@ -117,6 +117,9 @@ class Settings:
     corners: list[int] = field(default_factory=list, metadata={"fit": Corners()})  # of the picture on the projector
     strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
     camera: int = _setting(0, Range(0, 63))  # over the mat
+    arena_mm: float = _setting(2112.0, Range(500.0, 10000.0))  # the arena's width on the mat
+    camera_mm: float = _setting(2500.0, Range(0.0, 10000.0))  # the camera's height above it; 0: a robot tells it
+    lid_mm: float = _setting(70.0, Range(0.0, 300.0))  # the height of the robots' lids
     port: str = _setting("", Name())  # of the radio; empty: the first there is
     baud: int = _setting(57600, Range(1200, 921600))
     radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # how it is set
