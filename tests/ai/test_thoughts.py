@@ -18,7 +18,7 @@ from pigaming_app.scenes.words import texts
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import ROBOTS
 
-HAND_MADE = [(game, name) for game in GAMES for name in BRAINS[game] if name not in ("q1", "q2")]
+ALL = [(game, name) for game in GAMES for name in BRAINS[game]]
 KEPT = 0.9  # of a table's best move, for the second best
 
 
@@ -68,7 +68,7 @@ def run(match: Match, ticks: int) -> Match:
 # ------------------------------------------------------------------------------------------------------- all of them
 
 
-@pytest.mark.parametrize(("game", "name"), HAND_MADE)
+@pytest.mark.parametrize(("game", "name"), ALL)
 def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
     """Asked on every tick, on every seat: the same match, to the last bit of every mind."""
     others = (["hard"] if name == "easy" else ["easy"]) * 3
@@ -85,7 +85,7 @@ def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
         assert digest(one.mind) == digest(other.mind)
 
 
-@pytest.mark.parametrize(("game", "name"), HAND_MADE)
+@pytest.mark.parametrize(("game", "name"), ALL)
 def test_everything_told_is_plain_finite_and_has_words(game, name):
     words, match = texts("en"), play(game, name, "hard", name, "normal", seed=3)
     for tick in range(1500):
@@ -125,7 +125,7 @@ def test_no_text_is_written_that_no_brain_says():
 
 
 def test_before_its_first_look_nobody_knows_anything():
-    for game, name in HAND_MADE:
+    for game, name in ALL:
         if name not in ("idle", "random"):
             assert thoughts(play(game, name, "easy")).doing == "starts"
 
