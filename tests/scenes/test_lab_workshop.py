@@ -109,13 +109,16 @@ def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(
     assert not shop.compiling
 
 
-def test_where_compiling_fails_plain_training_goes_on(shop: Workshop, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("code", [0, 1], ids=["while loading", "in its process"])
+def test_where_compiling_fails_plain_training_goes_on(
+    shop: Workshop, monkeypatch: pytest.MonkeyPatch, code: int
+) -> None:
     def broken() -> None:
         raise ImportError("no LLVM")
 
     class Done(Endless):
         def poll(self) -> int | None:
-            return 1
+            return code
 
         def __exit__(self, *_: Any) -> None:
             pass

@@ -6,7 +6,9 @@ jumped (the training runs faster than eyes can follow) their shadows stay for a 
 
 import math
 from collections import deque
-from functools import cache
+from collections.abc import Iterator
+from functools import cache, partial
+from time import perf_counter
 from typing import Any
 
 import pygame
@@ -18,6 +20,8 @@ from pigaming_app.scenes.lab.places import ARENA, MATCH, SCALE
 from pigaming_app.scenes.sprites import HEADINGS, Batch, Sprite, faded, put, step
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.views.walled import wall_sprite
+from pigaming_app.scenes.views.warming import Job
+from pigaming_app.sim.world import SOLID
 
 JUMP = 150.0  # px of the arena between two moments: too far to have been driven before one's eyes
 SHADOWS = 4  # moments for which a jump is seen
@@ -43,9 +47,12 @@ class Arena:
         self.trails: deque[list[Pose]] = deque(maxlen=DOTS)
         self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, seconds old
         self.age, self.glide, self.dotted = 0.0, LONGEST, 0.0
+        self.jobs: Iterator[Job] = iter(())
 
     def show(self, state: Any) -> None:
         """How the match stands now."""
+        if not self.seats:
+            self.jobs = jobs(state)
         self._walls(state)
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
@@ -65,6 +72,14 @@ class Arena:
             for i, bullet in enumerate(state.bullets)
             if bullet.alive
         ]
+
+    def warm(self, milliseconds: float) -> None:
+        """Make sprites ahead for so long, while there are any to make."""
+        end = perf_counter() + milliseconds / 1000
+        for job in self.jobs:
+            job()
+            if perf_counter() >= end:
+                return
 
     def update(self, seconds: float) -> None:
         """Let it glide on."""
@@ -137,6 +152,23 @@ class Arena:
             x, y = _at((one.ax + one.bx) / 2, (one.ay + one.by) / 2)
             put(batch, little_wall(one.ax, one.ay, one.bx, one.by, one.half, one.whole, one.health), x, y)
         self.floor.fblits([(image, (x - MATCH.x, y - MATCH.y)) for image, (x, y) in batch], PRE)
+
+
+def jobs(state: Any) -> Iterator[Job]:
+    """Sprites that will be wanted: walls as they break, robots and shots in every direction."""
+    for health in range(max(one.whole for one in state.walls), -1, -1):
+        for i in range(state.wall_count):
+            one = state.walls[i]
+            if one.whole != SOLID:
+                yield partial(little_wall, one.ax, one.ay, one.bx, one.by, one.half, one.whole, health)
+    for seat in (0, 1):
+        for turn in range(HEADINGS):
+            yield partial(little_tank, seat, turn)
+        for turn in range(effects.TURNS):
+            yield partial(little_bullet, seat, turn)
+        for turn in range(HEADINGS // 4):
+            for level in range(1, SHADOWS + 1):
+                yield partial(shadow, seat, turn, level)
 
 
 def _at(x: float, y: float) -> tuple[float, float]:

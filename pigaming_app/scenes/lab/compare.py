@@ -120,8 +120,8 @@ class Compare:
     def _play(self) -> None:
         one, other = self.pairs[0]
         if self.exam is None:
-            fast = self.lab.workshop.fast
-            self.exam = Exam(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, fast=fast)
+            fast, arena = self.lab.workshop.fast, self.lab.workshop.training.arena
+            self.exam = Exam(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
         self.exam.play(TICKS)
         if self.exam.over:
             exam, self.exam = self.exam, None

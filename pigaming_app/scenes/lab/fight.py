@@ -13,7 +13,7 @@ from pigaming_app.scenes.pane import Pane
 from pigaming_app.scenes.pause import title
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.stack import Pop, Scene, Swap, Turn
+from pigaming_app.scenes.stack import Pop, Swap, Turn
 
 MINUTES = 1.0
 ROBOT = 1  # its seat; the person sits on the first
@@ -24,10 +24,10 @@ IDLE = 60.0  # seconds without a press until the Lab
 class Fight:
     """One match of a person against the robot."""
 
-    def __init__(self, house: House, kind: Kind, device: Device) -> None:
-        self.house, self.kind, self.device = house, kind, device
+    def __init__(self, house: House, kind: Kind, device: Device, arena: str = ARENA) -> None:
+        self.house, self.kind, self.device, self.arena = house, kind, device, arena
         off = Seat("off", 2), Seat("off", 3)
-        setup = Setup(GAME, ARENA, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
+        setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
         self.inner = MatchScene(house, setup, [device])
         self.inner.match.sit(ROBOT, Thinker(kind, setup.seed))
         self.inner.stage.players[ROBOT] = kind.name
@@ -44,7 +44,7 @@ class Fight:
         """Let the match run on; ended by hand, it leads back at once."""
         inner = self.inner
         if inner.repeated:
-            return Swap(Fight(self.house, self.kind, inner.devices[0] or self.device))
+            return Swap(self.again(inner.devices[0]))
         if inner.stopped:
             return Pop()
         if inner.match.over:
@@ -56,6 +56,10 @@ class Fight:
     def draw(self, screen: pygame.Surface) -> None:
         """The match."""
         self.inner.draw(screen)
+
+    def again(self, device: Device | None) -> "Fight":
+        """Once more, driven with this device, or with the same one."""
+        return Fight(self.house, self.kind, device or self.device, self.arena)
 
 
 class Verdict:
@@ -81,8 +85,7 @@ class Verdict:
             return None
         if press.act in (Act.FIRE, Act.START):
             self.house.sounds.play("accept")
-            device = self.fight.device if press.device.kind == "mouse" else press.device
-            return Swap(Fight(self.house, self.fight.kind, device))
+            return Swap(self.fight.again(None if press.device.kind == "mouse" else press.device))
         if press.act is Act.BACK:
             self.house.sounds.play("back")
             return Pop()
@@ -120,8 +123,3 @@ class Verdict:
             badge(pane.hot, seat, 960 + side * 430, middle - 28, 44)
             pane.page.body(who, 960 + side * 430, middle + 66, MIST, "c")
         pane.page.text(":", HERO - 70, 960, middle - 8, MIST, "hero", "c")
-
-
-def fight(house: House, kind: Kind, device: Device) -> Scene:
-    """A match against a robot of this kind."""
-    return Fight(house, kind, device)

@@ -62,6 +62,7 @@ from pigaming_app.scenes.words import Words
 
 SPEEDS = ("1×", "10×", "max")
 SPEED_SIGNS = ("play", "faster", "fastest")
+WARM = 1.5  # ms of a frame
 STEPS = 2  # petals that change in one frame
 UP = round(HEADINGS * 3 / 4)
 
@@ -96,8 +97,9 @@ class LabPage:
         self.arena.show(state)
 
     def update(self, seconds: float) -> None:
-        """Let robots glide."""
+        """Let robots glide, and make a little of what will be shown."""
         self.arena.update(seconds)
+        self.arena.warm(WARM)
 
     def draw(self, screen: pygame.Surface, now: Shown) -> None:
         """Paint everything but the focus and the hints."""

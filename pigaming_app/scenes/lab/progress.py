@@ -51,7 +51,7 @@ class Progress:
         """The same table goes on in another body."""
         self.training = training
         if self._exam:
-            self._exam = examined(*self._exam.kinds, training.fast)
+            self._exam = self._examined(self._exam.kinds[0])
 
     @property
     def played(self) -> float:
@@ -89,8 +89,7 @@ class Progress:
             grain = max(1.0, played / GRAIN)
             if played - self._at >= grain or (played > self._at and now - self._when >= SOON):
                 self._at, self._when = played, now
-                learned = self.training.checkpoint().kind
-                self._exam = examined(learned, BRAINS[GAME][HANDMADE], self.training.fast)
+                self._exam = self._examined(self.training.checkpoint().kind)
         return self._exam
 
     def note(self) -> None:
@@ -98,6 +97,12 @@ class Progress:
         if self._exam and self._exam.over:
             self.measures = [*self.measures, Measure(self._at, self._exam.share)]
             self._exam = None
+
+    def _examined(self, learned: Kind) -> Exam:
+        """An exam by the hand-made robot."""
+        training, handmade = self.training, BRAINS[GAME][HANDMADE]
+        matches, fast = MATCHES[training.fast], training.fast
+        return Exam(learned, handmade, matches, EXAM_SEED, training.minutes, training.arena, fast)
 
     def _mark(self) -> None:
         """Keep what it knows after so many matches."""
@@ -110,8 +115,3 @@ def knowing(training: Training) -> float:
     """How far the way from guessing to knowing is gone, 0..1: as far as the temperature has fallen."""
     recipe = training.recipe
     return min(1.0, max(0.0, (recipe.hot - training.temperature) / (recipe.hot - recipe.cold)))
-
-
-def examined(one: Kind, other: Kind, fast: bool) -> Exam:
-    """An exam of one brain by another."""
-    return Exam(one, other, MATCHES[fast], EXAM_SEED, fast=fast)

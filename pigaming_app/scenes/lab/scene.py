@@ -25,6 +25,7 @@ from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 
 IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
 DEAF = 0.35  # seconds in which the press that led here counts for nothing
+LAST = 20.0  # seconds before that in which it asks
 SAID = 4.0  # seconds for which a sentence stays
 PATIENT = 2.0  # seconds of compiling after which a word about it is due
 LEAST = 2.0  # Q that makes at least a whole petal
@@ -115,6 +116,8 @@ class Lab:
         if self.said > 0.0:
             sheet = plate(self.sentence, ALARM if self.wrong else FOCUS)
             sheet.draw(screen, x if sheet.width < MATCH.w - 40 else 960, MATCH.top + 60)
+        elif self.house.idle > IDLE - LAST:
+            plate(words("pause.still"), FOCUS, sign="clock").draw(screen, x, MATCH.top + 60)
         elif self.compiling > PATIENT:
             plate(words("lab.warming"), sign="clock").draw(screen, x, MATCH.top + 60)
 
@@ -127,13 +130,13 @@ class Lab:
 
     def play(self, device: Device) -> Turn:
         """A match against what the robot is now."""
-        from pigaming_app.scenes.lab.fight import fight
+        from pigaming_app.scenes.lab.fight import Fight
 
         self.house.sounds.play("accept")
         driver = self.house.controls.last if device.kind == "mouse" else device
         robot = self.workshop.checkpoint(self.name or self.house.words("lab.robot"))
         self.workshop.close()
-        return Push(fight(self.house, robot.kind, driver))
+        return Push(Fight(self.house, robot.kind, driver, self.workshop.training.arena))
 
     def begin(self) -> None:
         """Everything from an empty table."""

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from time import monotonic, perf_counter
+from time import monotonic, perf_counter, sleep
 
 from pigaming_app.ai.exam import compile_all
 from pigaming_app.ai.rewards import Recipe
@@ -59,7 +59,7 @@ class Workshop:
         """Called in every frame, `seconds` after the last one: let it go on."""
         self._fed, self._open = monotonic(), True
         if self.may_compile and (self._thread is None or not self._thread.is_alive()):
-            self._thread = threading.Thread(target=self._work, name="lab", daemon=True)
+            self._thread = threading.Thread(target=self._work, name="lab")
             self._thread.start()
         if not self.training.fast and self._lock.acquire(blocking=False):
             try:
@@ -161,11 +161,13 @@ class Workshop:
             command = [sys.executable, "-m", "pigaming_app.ai.exam"]
             quiet = subprocess.DEVNULL
             with subprocess.Popen(command, cwd=PACKAGE.parent, stdin=quiet, stdout=quiet, stderr=quiet) as process:
-                while process.poll() is None:
+                while (code := process.poll()) is None:
                     if not self._wanted:
                         process.kill()
                         return False
-                    threading.Event().wait(0.05)
+                    sleep(0.05)
+            if code:
+                raise RuntimeError(f"compiling ended with exit code {code}")
             compile_all()
             with self._lock:
                 old = self.training
@@ -176,7 +178,7 @@ class Workshop:
             self.compiling = False
 
     def _run(self) -> None:
-        last, pause = perf_counter(), threading.Event()
+        last = perf_counter()
         while self._wanted:
             now = perf_counter()
             with self._lock:
@@ -193,4 +195,4 @@ class Workshop:
             with self._lock:
                 progress.note()
             if self.speed < FASTEST:
-                pause.wait(max(0.0, 1 / HZ - (perf_counter() - now)))
+                sleep(max(0.0, 1 / HZ - (perf_counter() - now)))

@@ -1,0 +1,83 @@
+"""Does the Lab stutter? Frames of the Lab at 60 a second while it trains, in both bodies, at every speed.
+
+    python -m tests.bench.lab_frames [SECONDS]
+
+Twenty seconds of each if nothing is said. `work` is the main thread's own time for a frame (what others did on the same
+processor is not in it), `frame` the real time from picture to picture. The first line is the way in: until the first
+picture is there. Nothing is shown; the display is SDL's dummy. Exit code 1 where the work of a frame is too much.
+"""
+
+import os
+import sys
+import tempfile
+from time import perf_counter, thread_time
+
+os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
+
+import pygame
+
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.lab.page import SPEEDS
+from pigaming_app.scenes.lab.scene import Lab
+from pigaming_app.sim.kernel import _cache_folder, can_compile
+from tests.scenes.arcade import Arcade
+
+FPS = 60
+MEDIAN, P99 = 4.0, 8.0  # ms of work; plain training has its slice on top
+PLAIN = 5.0  # ms
+WARM = 60  # frames that are not counted
+
+
+def main(seconds: float) -> int:
+    """Measure, print, judge."""
+    pygame.display.init()
+    arcade = Arcade(Controls())
+    began = perf_counter()
+    lab = Lab(arcade.house)
+    arcade.open(lab)
+    arcade.frame(draw=True)
+    print(f"way in: {1000 * (perf_counter() - began):.0f} ms")
+    good = True
+    if can_compile():
+        good &= measured("compiling", arcade, lab, seconds, until_fast=True)
+        for lab.workshop.speed in range(len(SPEEDS)):
+            good &= measured("compiled", arcade, lab, seconds)
+    lab.workshop.close()
+    lab.workshop.join()
+    plain = Lab(arcade.house, fast=False)
+    arcade.open(plain)
+    for plain.workshop.speed in range(len(SPEEDS)):
+        good &= measured("plain", arcade, plain, seconds)
+    return 0 if good else 1
+
+
+def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, until_fast: bool = False) -> bool:
+    """Frames for so long, or until it is compiled; whether their work was little enough."""
+    clock, work, frames = pygame.time.Clock(), [], []
+    began = last = perf_counter()
+    matches = lab.workshop.moment.matches
+    while not lab.workshop.fast if until_fast else last - began < seconds:
+        now, busy = perf_counter(), thread_time()
+        arcade.frame(min(0.1, now - last), draw=True)
+        work.append(1000 * (thread_time() - busy))
+        frames.append(1000 * (now - last))
+        last = now
+        clock.tick(FPS)
+    matches = lab.workshop.moment.matches - matches
+    more = PLAIN if name != "compiled" else 0.0
+    work, frames = sorted(work[WARM:]), sorted(frames[WARM:])
+    if not work:
+        print(f"{name:9}  too short to tell: it was compiled before")
+        return True
+    median, p99 = work[len(work) // 2], work[int(0.99 * len(work))]
+    told = f"frame median {frames[len(frames) // 2]:.1f} p99 {frames[int(0.99 * len(frames))]:.1f} max {frames[-1]:.1f}"
+    said = f"{name:9} {SPEEDS[lab.workshop.speed]:>3}  work median {median:.2f} p99 {p99:.2f} ms"
+    print(f"{said}  {told} ms  {matches} matches")
+    return median <= MEDIAN + more and p99 <= P99 + more
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
+    with tempfile.TemporaryDirectory() as home:
+        os.environ["PIGAMING_HOME"] = home
+        sys.exit(main(float(sys.argv[1]) if len(sys.argv) > 1 else 20.0))
