@@ -1,0 +1,1 @@
+"""The operator's pages that bring picture, mat and camera together: calibration, corner pin, drift."""
