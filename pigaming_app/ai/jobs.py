@@ -28,7 +28,9 @@ def choose_job(view: Any, mind: Any) -> None:
     mind.near = 0
     best = cheapest_place(view, mind) if view.carries else share_out(view, mind)
     if best >= 0:
-        mind.target, mind.waiting = best, 0
+        mind.target = best
+        if not view.carries or takes(view.slots[best], view.carries - 1):
+            mind.waiting = 0  # but not on the way back to the shelf
         return
     mind.waiting += 1
     mind.near = 1

@@ -7,6 +7,7 @@ import pytest
 
 from pigaming_app.ai import STRENGTHS, make
 from pigaming_app.games.arenas import arenas
+from pigaming_app.games.factory.place import move
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DONE,
@@ -17,6 +18,7 @@ from pigaming_app.games.factory.state import (
     ICE,
     IN_SLOT,
     INPUT,
+    MOST_PALLETS,
     ON_ROBOT,
     RAW,
     SLOTS,
@@ -210,6 +212,27 @@ def test_two_laden_mates_never_make_for_the_same_slot():
             laden += 1
             assert one.aim != other.aim
     assert laden > 2 * HZ
+
+
+def test_what_it_cannot_get_rid_of_it_brings_back_after_a_while():
+    """Both machines B are full of the others' pallets, and nobody comes for them."""
+    match = begun(("hard", "idle", "off", "off"))
+    state = match.state
+    state.rules.collect = 10**6
+    others = iter(range(MOST_PALLETS, MOST_PALLETS + 4))
+    for s, slot in enumerate(state.slots):
+        if slot.machine >= 0 and state.machines[slot.machine].kind == B:
+            p = next(others)
+            move(state, p, IN_SLOT, s)
+            state.pallets[p].state = HALF if slot.kind == INPUT else DONE
+    while not state.loads[0].pallet:
+        match.tick()
+    pallet = state.pallets[state.loads[0].pallet - 1]
+    pallet.state = HALF
+    while pallet.place == ON_ROBOT and match.seconds < 40.0:
+        match.tick()
+    assert pallet.place == IN_SLOT
+    assert state.slots[pallet.at].kind == ENTRY
 
 
 # --------------------------------------------------------------------------------------------------- people as mates

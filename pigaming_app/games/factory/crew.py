@@ -158,11 +158,7 @@ def work(match: Any, w: int) -> None:
     worker = match.workers[w]
     machine = match.machines[worker.machine]
     look(worker, machine.x - worker.x, machine.y - worker.y)
-    if machine.pallet:
-        return
-    if has_work(match, worker.machine):
-        begin(match, w)
-    else:
+    if not machine.pallet:
         go_home(match, worker)
 
 
