@@ -8,7 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NoReturn
 
-JOBS = "play, replay, duel, league, train, bench, doctor, test"
+JOBS = "play, replay, duel, league, train, bench, robots, fidelity, doctor, test"
 
 
 class Wrong(Exception):
@@ -73,10 +73,29 @@ def parser() -> argparse.ArgumentParser:
     bench = jobs.add_parser("bench", help="how fast it all is here")
     bench.add_argument("game", nargs="?", default="pitanks", help="a game, or `robots`: the proof of the robot loop")
     bench.add_argument("--json", action="store_true")
+    robots = jobs.add_parser("robots", help="which robots, radios and cameras are there, and how well")
+    robots.add_argument("--pair", action="store_true", help="spin each robot in turn: who is who?")
+    robots.add_argument("--latency", action="store_true", help="shake each robot: how late is it all?")
+    _arena_options(robots)
+    fidelity = jobs.add_parser("fidelity", help="measure real robots, and let the simulator know")
+    fidelity.add_argument("what", choices=["record", "identify", "replay"])
+    fidelity.add_argument("file", type=Path, help="of the run (JSONL)")
+    fidelity.add_argument("--seconds", type=float, default=60.0, help="to record")
+    fidelity.add_argument("--out", type=Path, help="the file of the robots; left out: the arcade's own")
+    fidelity.add_argument("--plots", type=Path, metavar="FOLDER", help="draw how good it is (needs matplotlib)")
+    fidelity.add_argument("--robots", type=Path, metavar="FILE", help="the robots to replay with")
+    _arena_options(fidelity)
     doctor = jobs.add_parser("doctor", help="what is there, what is missing, what to do")
     doctor.add_argument("--json", action="store_true")
     jobs.add_parser("test", help="lint, types, tests; further arguments go to pytest")
     return whole
+
+
+def _arena_options(job: argparse.ArgumentParser) -> None:
+    job.add_argument("--emulate", type=int, nargs="?", const=1, metavar="SEED", help="an emulated arena, no hardware")
+    job.add_argument("--camera", type=int, help="its number, other than in the settings")
+    job.add_argument("--port", help="of the radio, other than in the settings")
+    job.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def _train_options(train: argparse.ArgumentParser) -> None:
@@ -263,6 +282,26 @@ def _bench_robots(quiet: bool) -> dict[str, Any]:
     return figures
 
 
+def robots(arguments: argparse.Namespace) -> int:
+    """What is there of real robots."""
+    from pigaming_app.robots import NotThere, run
+
+    try:
+        return run(arguments)
+    except NotThere as missing:
+        raise Wrong(str(missing)) from None
+
+
+def fidelity(arguments: argparse.Namespace) -> int:
+    """Record real robots, identify them, replay a run."""
+    from pigaming_app.fidelity import NotDone, run
+
+    try:
+        return run(arguments)
+    except NotDone as trouble:
+        raise Wrong(str(trouble)) from None
+
+
 def doctor(arguments: argparse.Namespace) -> int:
     """What is there and what is missing."""
     from pigaming_app.doctor import run
@@ -293,5 +332,7 @@ JOB = {
     "league": league,
     "train": train,
     "bench": bench,
+    "robots": robots,
+    "fidelity": fidelity,
     "doctor": doctor,
 }

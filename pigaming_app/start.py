@@ -16,6 +16,7 @@ PROJECT = ROOT / "pyproject.toml"
 ARCADE = "arcade"  # the group of packages that every job needs; the others are the extras of pyproject.toml
 NEEDED = {"test": {"test"}}
 WISHED = {job: {"train"} for job in ("test", "bench", "duel", "league", "train")}  # the job goes on without
+WISHED |= {"robots": {"hardware"}, "fidelity": {"hardware", "plots"}}
 WINDOWS = sys.platform == "win32"
 HANDED_OVER = "pigaming"  # python -X pigaming: main.py need not ask again
 

@@ -8,7 +8,7 @@ from pigaming_app.settings import Settings, folders
 from pigaming_app.sim.world import DT
 
 CALIBRATION = "calibration.toml"  # in the folder of the settings, as is
-ROBOTS = "robots.toml"
+ROBOTS, EMULATED = "robots.toml", "robots-emulated.toml"
 
 
 class Workshop(Protocol):
@@ -77,6 +77,6 @@ def open_workshop(emulate: int | None, camera: int | None, port: str | None) -> 
     return EmulatedWorkshop(emulate) if emulate is not None else RealWorkshop(camera, port)
 
 
-def default_robots() -> Path:
-    """Where the measured robots are kept."""
-    return folders().config / ROBOTS
+def kept_robots(emulated: bool) -> Path:
+    """Where the measured robots are kept; those of the emulated arena not among the real ones."""
+    return folders().config / (EMULATED if emulated else ROBOTS)

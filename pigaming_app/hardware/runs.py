@@ -49,15 +49,16 @@ class Run:
 
     mm: float  # of an arena px on the mat
     courses: dict[int, Course]
+    emulated: bool = False
 
 
 class Recorder:
     """Writes a run, line by line, so that a run that breaks off is still there. Raises OSError."""
 
-    def __init__(self, path: Path, mm: float) -> None:
+    def __init__(self, path: Path, mm: float, emulated: bool = False) -> None:
         self._file: TextIO = path.open("w", encoding="utf-8")
         self._seq = 0
-        self._write({"kind": "head", "format": FORMAT, "mm": mm})
+        self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
 
     def sent(self, time: float, wheels: Sequence[Wheels | None]) -> None:
         """The robots are told this."""
@@ -103,7 +104,7 @@ def load(path: Path, fewest: int = 50) -> Run:
     courses = {robot: _course(robot, told, fixes) for robot, fixes in enumerate(seen) if len(fixes) >= fewest}
     if not mm or not courses or not told:
         raise RunError(f"{path.name}: too little was seen or sent to tell anything from it")
-    return Run(mm, courses)
+    return Run(mm, courses, emulated=json.loads(lines[0]).get("emulated") is True)
 
 
 def _take_in(

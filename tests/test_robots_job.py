@@ -1,0 +1,90 @@
+"""The jobs `robots` and `fidelity`, without hardware and on the emulated arena."""
+
+import json
+
+import pytest
+
+from pigaming_app import robots
+from pigaming_app.cli import main
+from pigaming_app.sim.drivetrain import parse
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+    monkeypatch.setattr(robots, "LISTEN", 0.3)
+
+
+def told(capsys, *arguments):
+    """The one object that a job prints."""
+    assert main([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_without_hardware_everything_that_is_missing_is_said(capsys):
+    found = told(capsys, "robots", "--port", "/dev/nowhere")
+    assert "/dev/nowhere" in found["radio"]
+    assert found["eyes"]
+    assert [one["heard"] for one in found["robots"]] == [False] * 4
+    assert main(["robots", "--port", "/dev/nowhere"]) == 0
+    assert "robot 1   not heard" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("wish", ["--pair", "--latency"])
+def test_robots_that_nobody_sees_are_not_moved(capsys, wish):
+    assert main(["robots", wish]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "calibrat" in said or "opencv" in said.lower()
+
+
+def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
+    pytest.importorskip("cv2")
+    found = told(capsys, "robots", "--emulate", "--pair")
+    assert found["radio"] is None
+    for one in found["robots"]:
+        assert one["heard"]
+        assert one["seen"]
+        assert 4.8 < one["battery"] < 5.5
+    assert [(one["radio"], one["marker"], one["case"]) for one in found["pairing"]] == [
+        (i, i, "fits") for i in range(1, 5)
+    ]
+
+
+def test_emulated_robots_are_recorded_identified_and_replayed(tmp_path, capsys):
+    pytest.importorskip("cv2")
+    run, out = tmp_path / "run.jsonl", tmp_path / "robots.toml"
+    told(capsys, "fidelity", "record", str(run), "--emulate", "--seconds", "24")
+    found = told(capsys, "fidelity", "identify", str(run), "--out", str(out))
+    for one in found["robots"].values():
+        assert one["after_mm"][0] < 0.6 * one["before_mm"][0]
+    assert len(parse(out.read_text(), "robots.toml")) == 4
+    again = told(capsys, "fidelity", "replay", str(run), "--robots", str(out))
+    assert all(one["5"] < 80.0 for one in again["robots"].values())
+
+
+def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_path, capsys):
+    run = tmp_path / "run.jsonl"
+    lines = [{"kind": "head", "format": "pigaming-run-1", "mm": 1.3, "emulated": True}]
+    for i in range(60):
+        lines.append({"kind": "sent", "time": i, "seq": i, "wheels": [[0.1, 0.1], None, None, None]})
+        lines.append({"kind": "seen", "captured": i, "time": i, "fixes": [[0, 10.0 * i, 50.0, 0.0]]})
+    run.write_text("".join(json.dumps(line) + "\n" for line in lines))
+    assert told(capsys, "fidelity", "identify", str(run))["out"].endswith("robots-emulated.toml")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["fidelity", "identify", "nowhere.jsonl"],
+        ["fidelity", "replay", "nowhere.jsonl"],
+        ["fidelity", "record", "/nowhere/run.jsonl", "--emulate"],
+        ["fidelity", "dance", "run.jsonl"],
+        ["fidelity", "record", "run.jsonl"],
+    ],
+)
+def test_what_cannot_be_done_is_one_line(arguments, capsys):
+    assert main(arguments) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert said.startswith("PiGaming: ")
