@@ -17,6 +17,7 @@ from pigaming_app.hardware.signals import Image
 LAMP_LIGHT, ROOM_LIGHT = 130.0, 55.0  # grey levels of white paper under white of the projector, and in the room's light
 BLUR = 0.7  # px, of the lens
 SPARE = 4  # px around what is painted
+STEADY = 100  # steps in which the room's light goes through a turn
 NOISE = 2.5  # grey levels, standard deviation
 
 Floats = NDArray[np.float32]
@@ -72,6 +73,7 @@ class Painter:
         self._mat = _cloth(random)
         self._shade = _vignette()
         self._room: Image | None = None
+        self._glow: tuple[int, Floats] = (-1, self._mat)  # when the room's light was so, in STEADY ths of a turn
 
     def look_through(self, optics: Optics) -> None:
         """Hang the camera elsewhere."""
@@ -98,17 +100,17 @@ class Painter:
     ) -> Image:
         import cv2
 
-        room = _room_light(scene.light, window)
-        light = self._lit(scene, self._floor, window, room) * self._mat[window.cut()]
+        room = self._room_light(scene.light)[window.cut()]
+        light = self._lit(scene, self._floor, window, room)
+        cv2.multiply(light, self._mat[window.cut()], dst=light)
         for thing, place in sorted(things, key=lambda pair: pair[0].height):
             if place.meets(window):
                 self._lay(scene, thing, place, window, room, light)
-        light *= self._shade[window.cut()]
-        soft = cv2.GaussianBlur(light, (5, 5), BLUR)
+        cv2.multiply(light, self._shade[window.cut()], dst=light, scale=scene.gain)
         height, width = light.shape
         top, left = int(random.integers(1400 - height)), int(random.integers(2300 - width))
         noise = self._noise[top : top + height, left : left + width]
-        return np.asarray(cv2.addWeighted(soft, scene.gain, noise.astype(np.float32), 1.0, 0.0, dtype=cv2.CV_8U))
+        return np.asarray(cv2.add(light, noise, dtype=cv2.CV_8U))
 
     def _lay(self, scene: Scene, thing: Thing, place: Window, window: Window, room: Floats, light: Floats) -> None:
         """Paint one thing into the light of a window, in the mean over its poses."""
@@ -131,7 +133,15 @@ class Painter:
 
         cut = window.cut()
         shown = cv2.remap(scene.image, maps[0][cut], maps[1][cut], cv2.INTER_LINEAR)
-        return np.asarray(shown * np.float32(LAMP_LIGHT / 255.0) + room, dtype=np.float32)
+        shown = cv2.GaussianBlur(shown, (5, 5), BLUR)
+        return np.asarray(cv2.addWeighted(shown, LAMP_LIGHT / 255.0, room, 1.0, 0.0, dtype=cv2.CV_32F))
+
+    def _room_light(self, turn: float) -> Floats:
+        """The room's light on white paper: a bright spot wanders over the mat."""
+        when = int(turn * STEADY)
+        if self._glow[0] != when:
+            self._glow = when, _room_light(when / STEADY)
+        return self._glow[1]
 
     def _window(self, thing: Thing) -> Window:
         """Where on the sensor a thing may be seen."""
@@ -175,13 +185,11 @@ def _apart(windows: list[Window]) -> list[Window]:
     return apart
 
 
-def _room_light(turn: float, window: Window) -> Floats:
-    """The room's light in a window: a bright spot wanders over the mat."""
+def _room_light(turn: float) -> Floats:
     u, v = SENSOR[0] * (0.5 + 0.35 * sin(2 * pi * turn)), SENSOR[1] * (0.5 + 0.35 * sin(2 * pi * 1.7 * turn + 1.0))
-    across = np.exp(-(((np.arange(window.left, window.right) - u) / 500.0) ** 2)).astype(np.float32)
-    down = np.exp(-(((np.arange(window.top, window.bottom) - v) / 400.0) ** 2)).astype(np.float32)
-    spot = down[:, None] * across[None, :]
-    return np.asarray(np.float32(ROOM_LIGHT) * (1.0 + np.float32(0.4) * spot), dtype=np.float32)
+    across = np.exp(-(((np.arange(SENSOR[0]) - u) / 500.0) ** 2)).astype(np.float32)
+    down = np.exp(-(((np.arange(SENSOR[1]) - v) / 400.0) ** 2)).astype(np.float32)
+    return np.asarray(np.float32(ROOM_LIGHT) * (1.0 + np.outer(np.float32(0.4) * down, across)), dtype=np.float32)
 
 
 def _cloth(random: np.random.Generator) -> Floats:

@@ -43,13 +43,14 @@ class EmulatedSite:
     name = "emulated"
     settle = 0.3
 
-    def __init__(self, seed: int = 1, live: bool = False) -> None:
+    def __init__(self, seed: int = 1, live: bool = False, arena: EmulatedArena | None = None) -> None:
+        """`arena`: one that is there already; if it is `live`, somebody else lets its time pass."""
         self.stepped = not live
-        self.arena = EmulatedArena(seed, Pace(30.0), begin=time.monotonic() if live else 0.0)
+        self.arena = arena or EmulatedArena(seed, Pace(30.0), begin=time.monotonic() if live else 0.0)
         self.arena.cleared = True
         self.clock = self.arena.clock
         self.projector = Projector(self.arena)
-        self._live = Live(self.arena).start() if live else None
+        self._live = Live(self.arena).start() if live and arena is None else None
 
     @property
     def measures(self) -> Measures:

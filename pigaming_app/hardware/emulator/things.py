@@ -17,7 +17,7 @@ LID_RADIUS = 47.5
 MARKER = 50.0  # mm along an edge
 QUIET = 50.0 / 6.0  # mm of white around it: one cell
 WHITE, BLACK, DARK, SKIN = 0.92, 0.05, 0.10, 0.55  # share of light thrown back
-SOFT = 0.6  # mm, standard deviation of what one px gathers
+SOFT = 1.1  # mm, standard deviation of what one px gathers, through the blur of the lens
 
 Print = NDArray[np.uint8]  # (n, n, 2): light thrown back times cover, and cover, in 255ths
 Share = NDArray[np.float32]
