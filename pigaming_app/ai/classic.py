@@ -9,23 +9,23 @@ trained robots fare against it as published: see tests/bench/reproduce_table.py.
 """
 
 from dataclasses import dataclass
-from math import atan2, pi, sqrt
+from math import sqrt
 from typing import Any
 
 from pigaming_app.ai.brain import Kind
+from pigaming_app.ai.driving import bearing, follow, turning
 from pigaming_app.ai.sectors import nearest_opponent
 from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.games.pitanks.view import lead
 from pigaming_app.sim.action import press
-from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.navigate import Errand, find_way
+from pigaming_app.sim.navigate import Errand
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robots import RADIUS
 from pigaming_app.sim.sweep import clear
-from pigaming_app.sim.world import DT, HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, WIDTH
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
 HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px in ticks that are getting nowhere; ticks of backing out
@@ -40,6 +40,8 @@ class Unknown:
     tolerance: float = 0.02  # rad by which the gun may be off when it fires
     beside: float = 10.0  # px between the machine in its hiding place and the wall
     along: float = 0.0  # where along the wall it hides: 0 behind the middle, 1 behind the end farther from the opponent
+    opposite: int = 0
+    wary: float = 160.0
     arrived: float = 26.0  # px from the hiding place that count as there
 
 
@@ -93,9 +95,11 @@ def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
     if shows(match, robot, other, mind):
         shoot(match, seat, other, mind)
     elif dx * dx + dy * dy > mind.numbers.arrived * mind.numbers.arrived:
-        follow(match, seat, mind)
+        follow(match, seat, errand, mind.numbers.period)
     else:
-        press(match.actions[seat], 0.0, turning(match, robot, mind, bearing(robot, other.x, other.y)), 0, 0)
+        press(
+            match.actions[seat], 0.0, turning(match, robot, bearing(robot, other.x, other.y), mind.numbers.period), 0, 0
+        )
 
 
 @kernel
@@ -105,7 +109,7 @@ def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
         shoot(match, seat, other, mind)
     else:
         go_to(mind, other.x, other.y)
-        follow(match, seat, mind)
+        follow(match, seat, mind.errand, mind.numbers.period)
 
 
 @kernel
@@ -143,10 +147,10 @@ def feel_held_up(robot: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
-    """1 if the opponent is in sight and near enough to fire at."""
+    """1 if the opponent is in sight, and near enough to fire at in this state."""
+    reach = mind.numbers.engage if mind.state == ATTACK else mind.numbers.wary
     dx, dy = other.x - robot.x, other.y - robot.y
-    engage = mind.numbers.engage
-    if dx * dx + dy * dy > engage * engage:
+    if dx * dx + dy * dy > reach * reach:
         return 0
     return clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius)
 
@@ -169,6 +173,14 @@ def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
             nx, ny = -nx, -ny
         far = numbers.along if ex * (mx - other.x) + ey * (my - other.y) >= 0.0 else -numbers.along
         x, y = mx + nx + far * ex, my + ny + far * ey
+        if numbers.opposite:
+            ux, uy = mx - other.x, my - other.y
+            line = sqrt(ux * ux + uy * uy)
+            across = abs(ux * nx + uy * ny) / gap
+            t = half + gap
+            if across * t > gap * line:
+                t = gap * line / across
+            x, y = mx + ux / line * t, my + uy / line * t
         dx, dy = x - robot.x, y - robot.y
         away = dx * dx + dy * dy
         inside = RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS
@@ -185,45 +197,12 @@ def go_to(mind: Any, x: float, y: float) -> None:
 
 
 @kernel
-def bearing(robot: Any, x: float, y: float) -> float:
-    """The direction of a point, relative to the own heading."""
-    return turn_to(atan2(y - robot.y, x - robot.x) - robot.heading)
-
-
-@kernel
-def turning(match: Any, robot: Any, mind: Any, angle: float) -> float:
-    """The stick that turns by `angle` until the next decision, as far as the motors can."""
-    stick: float = 0.75 * (angle - 0.08 * robot.angular) / (match.rules.turn_rate * mind.numbers.period * DT)
-    return stick
-
-
-@kernel
-def follow(match: Any, seat: int, mind: Any) -> None:
-    """Drive on along the way; backwards where that saves a long turn."""
-    robot, errand = match.robots[seat], mind.errand
-    find_way(match, errand, robot.x, robot.y)
-    angle, ahead = bearing(robot, errand.way_x, errand.way_y), 1.0
-    dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
-    gap = sqrt(dx * dx + dy * dy)
-    if abs(angle) > 2.2 and gap < 200.0:
-        angle, ahead = turn_to(angle + pi), -1.0
-    speed = ahead
-    if abs(angle) > 0.9:
-        speed = 0.0
-    elif abs(angle) > 0.4:
-        speed = 0.5 * ahead
-    if errand.straight and gap < 70.0:
-        speed *= 0.3 + 0.7 * gap / 70.0
-    press(match.actions[seat], speed, turning(match, robot, mind, angle), 0, 0)
-
-
-@kernel
 def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     """Turn to the opponent, and fire when the gun points at it."""
     robot = match.robots[seat]
     angle = bearing(robot, other.x, other.y)
     fire = 1 if not match.tanks[seat].cooldown and abs(angle) < mind.numbers.tolerance else 0
-    press(match.actions[seat], 0.0, turning(match, robot, mind, angle), fire, 0)
+    press(match.actions[seat], 0.0, turning(match, robot, angle, mind.numbers.period), fire, 0)
 
 
 def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:

@@ -5,6 +5,7 @@ from math import atan2, pi
 from typing import Any
 
 from pigaming_app.ai import classic
+from pigaming_app.ai.driving import bearing
 from pigaming_app.ai.sectors import nearest_opponent
 from pigaming_app.ai.thoughts import GOAL, OPPONENT, WAY, Sight, Thoughts, share, towards
 from pigaming_app.games.pitanks.view import lead
@@ -18,7 +19,7 @@ def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
     if not mind.errand.wanted or opponent < 0:
         return Thoughts("starts")
     robot, other = match.robots[seat], match.robots[opponent]
-    aim = abs(classic.bearing(robot, other.x, other.y))
+    aim = abs(bearing(robot, other.x, other.y))
     away = max(1.0, _away(robot, other.x, other.y))
     shows = bool(classic.shows(match, robot, other, mind))
     ahead, hides = lead(match, seat), mind.state == classic.DEFEND
@@ -73,6 +74,6 @@ def _rose(robot: Any, other: Any, mind: Any, doing: str) -> list[float]:
     if doing == "free":
         return towards(0.0 if mind.escape > 0.0 else pi)
     if doing in ("duel", "wait"):
-        return towards(classic.bearing(robot, other.x, other.y))
+        return towards(bearing(robot, other.x, other.y))
     errand = mind.errand
     return towards(atan2(errand.way_y - robot.y, errand.way_x - robot.x) - robot.heading)

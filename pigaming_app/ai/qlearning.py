@@ -8,6 +8,7 @@ from math import exp
 from typing import Annotated, Any, NamedTuple
 
 from pigaming_app.ai.brain import Kind
+from pigaming_app.ai.freeing import Reflex, free
 from pigaming_app.ai.rewards import Knobs, worth_of_action, worth_of_change
 from pigaming_app.ai.sectors import STATES, nearest_opponent, situation
 from pigaming_app.ai.thoughts import Thoughts
@@ -54,6 +55,7 @@ class LearnerMind:
     move: int  # chosen then
     worth: float  # of that move as such
     random: int  # of a player; learners draw from their table's
+    reflex: Reflex
 
 
 @kernel
@@ -154,15 +156,21 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
     if match.tick % known.knobs.period:
         return
     opponent = nearest_opponent(match, seat)
-    if opponent >= 0:
+    if opponent >= 0 and not free(match, seat, opponent, mind, known.knobs.period):
         mind.state = situation(match, seat, opponent)
         mind.move = draw(known, mind.state, known.knobs.cold, mind)
         push(match.actions[seat], mind.move)
 
 
 def wake(mind: Any, seed: int) -> None:
-    """A fresh mind."""
+    """A fresh mind, which does what the table says and nothing else."""
     mind.random = seeded(seed)
+
+
+def wake_with_reflex(mind: Any, seed: int) -> None:
+    """A fresh mind that also frees itself where it pushes and gets nowhere."""
+    wake(mind, seed)
+    mind.reflex.on = 1
 
 
 def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
@@ -188,9 +196,9 @@ class Learned:
         return self.bodies[fast]
 
 
-def player(name: str, known: Callable[[bool], Any]) -> Kind:
-    """The kind of brain that plays by a table."""
-    return Kind(name, LearnerMind, think, wake, known, explain)
+def player(name: str, known: Callable[[bool], Any], reflex: bool = False) -> Kind:
+    """The kind of brain that plays by a table; with `reflex`, as on a seat, it also frees itself where it is stuck."""
+    return Kind(name, LearnerMind, think, wake_with_reflex if reflex else wake, known, explain)
 
 
 def preferences(table: Any, state: int, heat: float) -> list[float]:

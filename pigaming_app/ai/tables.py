@@ -97,7 +97,7 @@ def shipped(name: str) -> Learned:
 
 def seat(name: str) -> Kind:
     """The kind of brain that plays by a table that comes with the arcade; the file is read when it first plays."""
-    return player(name, lambda fast: shipped(name)(fast))
+    return player(name, lambda fast: shipped(name)(fast), reflex=True)
 
 
 def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:

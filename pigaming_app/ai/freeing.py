@@ -1,0 +1,73 @@
+"""A reflex for brains that learned nothing about being stuck: whoever pushes and gets nowhere lets go for a second.
+
+It stands outside what was learned, and is off in training and in measuring. It drives towards the opponent, round the
+walls; if that was no help the last time, it backs out with some turn.
+"""
+
+from typing import Any
+
+from pigaming_app.ai.driving import follow
+from pigaming_app.sim.action import press
+from pigaming_app.sim.chance import chance
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.navigate import Errand
+from pigaming_app.sim.record import record
+from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.world import HZ
+
+SOMEWHERE = 20.0  # px that count as having got somewhere
+PATIENCE = round(1.5 * HZ)  # ticks of pushing without getting there
+LETTING_GO = HZ  # ticks
+TOUCH = 2.0 * RADIUS + 12.0  # px between the middles of robots that push each other
+
+
+@record
+class Reflex:
+    """What the reflex remembers."""
+
+    on: int  # 0: there is none
+    errand: Errand
+    x: float  # where the robot was when it last got somewhere
+    y: float
+    held_up: int  # ticks since, of pushing
+    left: int  # ticks for which it still lets go
+    tries: int  # without getting anywhere
+    stick: float  # while it backs out
+    turn: float
+
+
+@kernel
+def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
+    """1 if the reflex has set the action of the next `period` ticks. `mind` has it as `reflex`, and a generator."""
+    reflex = mind.reflex
+    if not reflex.on:
+        return 0
+    robot, action = match.robots[seat], match.actions[seat]
+    feel(match, robot, opponent, reflex, action, period)
+    if reflex.held_up >= PATIENCE:
+        reflex.left, reflex.held_up = LETTING_GO, 0
+        reflex.tries += 1
+        reflex.stick = -1.0 if action.linear > 0.0 else 1.0
+        reflex.turn = 2.0 * chance(mind) - 1.0
+    if reflex.left <= 0:
+        return 0
+    reflex.left -= period
+    if reflex.tries % 2:
+        errand, other = reflex.errand, match.robots[opponent]
+        errand.wanted, errand.goal_x, errand.goal_y = 1, other.x, other.y
+        follow(match, seat, errand, period)
+    else:
+        press(action, reflex.stick, reflex.turn, 0, 0)
+    return 1
+
+
+@kernel
+def feel(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
+    """Count for how long it has pushed against something that is not its opponent."""
+    dx, dy = robot.x - reflex.x, robot.y - reflex.y
+    if dx * dx + dy * dy > SOMEWHERE * SOMEWHERE:
+        reflex.x, reflex.y, reflex.held_up, reflex.tries = robot.x, robot.y, 0, 0
+        return
+    ox, oy = match.robots[opponent].x - robot.x, match.robots[opponent].y - robot.y
+    if reflex.left <= 0 and action.linear != 0.0 and ox * ox + oy * oy > TOUCH * TOUCH:
+        reflex.held_up += period

@@ -1,0 +1,123 @@
+"""The published table of the Q-learner against the FSM, played again.
+
+    python -m tests.bench.reproduce_table [--seeds FIRST LAST] [--plain] [--csv FILE]
+    python -m tests.bench.reproduce_table --ship
+
+For each reward it trains robots from so many seeds (1 to 12 if nothing is said) in 200 matches of two minutes, plays
+100 matches of two minutes of each against the frozen FSM `classic`, sides swapped, without the freeing reflex that they
+have on a seat, and prints what came of it beside what was published, with Wilson's 95 % intervals. `--ship` only trains
+the two tables that come with the arcade, from their named seeds, and measures those. Exit code 1 where one of these two
+lies outside the published interval.
+"""
+
+import argparse
+import csv
+import sys
+from collections.abc import Iterator
+from statistics import median
+from typing import NamedTuple
+
+from pigaming_app import ASSETS
+from pigaming_app.ai import BRAINS
+from pigaming_app.ai.league import wilson
+from pigaming_app.ai.rewards import RECIPES
+from pigaming_app.ai.training import Training, contest
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.world import HZ
+
+PUBLISHED = {1: (32, 68, 0), 2: (94, 6, 0)}
+WITHIN = {1: (0.237, 0.417), 2: (0.875, 0.972)}  # wins: Wilson's interval of the published share
+MOST_LOST = 0.037  # the same for no loss in 100
+NAMED = {1: 4, 2: 8}  # the seeds of the tables that come with the arcade
+MATCHES, MEASURED, MEASURE_SEED = 200, 100, 1000
+
+
+class Row(NamedTuple):
+    """How the robot of one seed fared."""
+
+    reward: int
+    seed: int
+    wins: int
+    ties: int
+    losses: int
+
+    @property
+    def within(self) -> bool:
+        """Whether it fared as published."""
+        low, high = WITHIN[self.reward]
+        return low <= self.wins / MEASURED <= high and self.losses / MEASURED <= MOST_LOST
+
+
+def trained(reward: int, seed: int, fast: bool) -> Training:
+    """A robot after its 200 matches."""
+    course = Training(RECIPES[reward], seed, fast=fast)
+    course.run(MATCHES * round(course.minutes * 60 * HZ))
+    return course
+
+
+def measured(course: Training, reward: int, seed: int) -> Row:
+    """How it fares against the frozen FSM."""
+    opponent = BRAINS["pitanks"]["classic"]
+    return Row(reward, seed, *contest(course.checkpoint().kind, opponent, MEASURED, MEASURE_SEED, fast=course.fast))
+
+
+def rows(reward: int, seeds: range, fast: bool) -> Iterator[Row]:
+    """One after the other, told as they come."""
+    for seed in seeds:
+        row = measured(trained(reward, seed, fast), reward, seed)
+        tell(str(seed) + ("*" if seed == NAMED[reward] else ""), row.wins, row.ties, row.losses, row.within)
+        yield row
+
+
+def tell(what: str, wins: float, ties: float, losses: float, within: bool | None = None) -> None:
+    """One line of the table."""
+    low, high = wilson(round(wins), MEASURED)
+    mark = {None: "", True: "  as published", False: ""}[within]
+    print(f"{what:>16}{wins:7g}{ties:7g}{losses:7g}   {100 * low:5.1f} to {100 * high:5.1f} %{mark}", flush=True)
+
+
+def table(reward: int, seeds: range, fast: bool) -> list[Row]:
+    """The table of one reward."""
+    print(f"\nreward {reward}{'seed':>7}{'wins':>8}{'ties':>7}{'losses':>8}   wins, 95 %")
+    tell("published", *PUBLISHED[reward])
+    found = list(rows(reward, seeds, fast))
+    if len(found) > 1:
+        tell("median", *[median(row[k] for row in found) for k in (2, 3, 4)])
+        print(f"{sum(row.within for row in found):16} of {len(found)} seeds fare as published")
+    return found
+
+
+def ship(fast: bool) -> list[Row]:
+    """Train the two tables that come with the arcade."""
+    found = []
+    for reward, seed in NAMED.items():
+        course = trained(reward, seed, fast)
+        course.save(ASSETS / "brains" / f"q{reward}.npz", f"q{reward}")
+        found.append(measured(course, reward, seed))
+        tell(f"q{reward}, seed {seed}", *found[-1][2:], found[-1].within)
+    return found
+
+
+def main() -> int:
+    """The whole bench."""
+    parser = argparse.ArgumentParser(description="The published table of the Q-learner, played again.")
+    parser.add_argument("--seeds", type=int, nargs=2, default=(1, 12), metavar=("FIRST", "LAST"))
+    parser.add_argument("--plain", action="store_true", help="without numba")
+    parser.add_argument("--csv", help="write the rows")
+    parser.add_argument("--ship", action="store_true", help="train assets/brains/q1.npz and q2.npz")
+    arguments = parser.parse_args()
+    fast = can_compile() and not arguments.plain
+    if arguments.ship:
+        found = ship(fast)
+    else:
+        seeds = range(arguments.seeds[0], arguments.seeds[1] + 1)
+        found = [row for reward in PUBLISHED for row in table(reward, seeds, fast)]
+    if arguments.csv:
+        with open(arguments.csv, "w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows([Row._fields, *found])
+    named = [row for row in found if row.seed == NAMED[row.reward]]
+    return 0 if all(row.within for row in named) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
