@@ -146,6 +146,7 @@ class Calibration(_Looking):
     def shown(self, board: Board) -> None:
         """This board is projected from now on; to be said with every picture."""
         if board is self.board and self._shown == inf:
+            self.site.clear(True)
             self._shown = self.site.clock()
 
     def look(self, frame: Frame) -> None:
@@ -182,6 +183,10 @@ class Calibration(_Looking):
         if self.residuals.accepted:
             self.ground = verified(self.ground, self.residuals)
         self.stage, self.board, self._look = Stage.DONE, None, None
+
+    def end(self) -> None:
+        super().end()
+        self.site.clear(False)
 
 
 class Standing(_Looking):

@@ -51,6 +51,9 @@ class Site(Protocol):
 
     def advance(self, seconds: float) -> None: ...
 
+    def clear(self, off: bool) -> None:
+        """A person is asked to take everything off the mat, or may put it back."""
+
     def stand(self, x: float, y: float) -> None:
         """A person is asked to put a robot there, arena px."""
 
@@ -77,6 +80,9 @@ class RealSite:
 
     def advance(self, seconds: float) -> None:
         """Time passes by itself."""
+
+    def clear(self, off: bool) -> None:
+        """Somebody has read that on the first page."""
 
     def stand(self, x: float, y: float) -> None:
         """Somebody sees the outline and does it."""

@@ -209,6 +209,12 @@ def _drawn(name: str, chosen: int, beat: int) -> Lit:
         icon(ink, "pad", 0, 10, 130, FOCUS, LINE)
         if beat:
             ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)
+    elif name == "robots":
+        ink.ring(0, 0, 104, FOCUS, LINE).line(cut(-46, -46, 92, 92, 4), ICE, LINE, True)
+        ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)
+        for y in (-118, 118):
+            ink.line([(-34, y), (34, y)], FOCUS, LINE)
+        ink.line([(122, -22), (146, 0), (122, 22)], FOCUS, LINE)
     elif name == "reset":
         icon(ink, "crown", 0, 0, 96, FOCUS, LINE)
         ink.line([(-120, 96), (120, -96)], ICE, LINE)

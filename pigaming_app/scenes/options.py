@@ -28,9 +28,9 @@ IDLE = 90.0  # seconds without a press until the title
 SAID, SURE = 3.0, 3.0  # seconds for which a sentence stays; in which a second press deletes
 NAMES = {"en": "English", "pt": "Português"}
 FLASHES = ("off", "soft", "full")
-ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "reset")
+ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
 FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
-TOP, BOTTOM, HIGH = 246, 896, 64
+TOP, BOTTOM, HIGH = 240, 908, 64
 log = logging.getLogger("pigaming")
 
 
@@ -115,7 +115,7 @@ class OptionsPage:
         box, value = self._box(i), self._value(name)
         dials.label(self.house.words(f"options.{name}"), hot).draw(screen, box.x + 40, box.centery)
         dials.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
-        if i:
+        if i and box.y > self._box(i - 1).bottom:
             dials.rule(box.w).draw(screen, box.x, (box.y + self._box(i - 1).bottom) // 2)
 
     def _box(self, i: int) -> pygame.Rect:
@@ -159,7 +159,7 @@ class OptionsPage:
             case "reset":
                 key = "cleared" if self.cleared else "sure" if self.sure > 0.0 else "clear"
                 return Value("deed", (words(f"options.{key}"),))
-        return Value("deed", (words("options.open" if name == "padtest" else "options.end"),))
+        return Value("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
         """The next value of a row, or the one before it."""
@@ -181,6 +181,10 @@ class OptionsPage:
             from pigaming_app.scenes.padtest import PadTest
 
             return Push(PadTest(self.house))
+        if name == "robots":
+            from pigaming_app.scenes.robots_menu import RobotsMenu
+
+            return Push(RobotsMenu(self.house))
         self._clear()
         return None
 

@@ -38,7 +38,7 @@ class EmulatedEye:
 
 
 class EmulatedSite:
-    """An emulated arena without robots on the mat, until one is asked to stand on an outline."""
+    """An emulated arena whose robots go where a person is asked to put them."""
 
     name = "emulated"
     settle = 0.3
@@ -47,7 +47,6 @@ class EmulatedSite:
         """`arena`: one that is there already; if it is `live`, somebody else lets its time pass."""
         self.stepped = not live
         self.arena = arena or EmulatedArena(seed, Pace(30.0), begin=time.monotonic() if live else 0.0)
-        self.arena.cleared = True
         self.clock = self.arena.clock
         self.projector = Projector(self.arena)
         self._live = Live(self.arena).start() if live and arena is None else None
@@ -76,9 +75,12 @@ class EmulatedSite:
         """The window shows these pixels now."""
         self.projector.see(pixels)
 
+    def clear(self, off: bool) -> None:
+        """Take the robots off the mat, or put them back."""
+        self.arena.cleared = off
+
     def stand(self, x: float, y: float) -> None:
         """Carry the first robot there; the others wait aside."""
-        self.arena.cleared = False
         for robot, (left, top) in enumerate(ASIDE):
             self.arena.place(robot, (x, y, HEADING) if robot == 0 else (left, top, 0.0))
 

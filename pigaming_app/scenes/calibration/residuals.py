@@ -23,6 +23,7 @@ def arrows(residuals: Residuals) -> tuple[Lit, int]:
     mm = residuals.max_mm / max(float(lengths.max()), 1e-9)
     pane = Pane(*AREA)
     panel(pane.hot, *AREA)
+    pane.page.cold.line(cut(*_at(-160, -140), 1920 * SCALE, 1080 * SCALE, 0), STEEL, HAIR, True)
     pane.hot.line(cut(*_at(0, 0), 1600 * SCALE, 900 * SCALE, 12), STEEL, THIN, True)
     for (x, y), (dx, dy), length in zip(
         residuals.places.tolist(), residuals.misses.tolist(), lengths.tolist(), strict=True

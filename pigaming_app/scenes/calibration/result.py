@@ -116,7 +116,7 @@ class ResultPage:
     # ---- what is seen
 
     def _box(self, i: int) -> pygame.Rect:
-        return pygame.Rect(AREA.x + 400 * i, FOOT, 372, HIGH)
+        return pygame.Rect(AREA.x + 388 * i, FOOT, 368, HIGH)
 
     def _draw_errors(self, screen: pygame.Surface, residuals: Residuals) -> None:
         words, finding = self.house.words, self.finding
@@ -128,7 +128,7 @@ class ResultPage:
         )
         y = SIDE.y
         for key, value, limit in (("mean", residuals.mean_mm, MEAN_MM), ("most", residuals.max_mm, MAX_MM)):
-            need = words("calibrate.limit", mm=f"≤ {limit:g}")
+            need = words("calibrate.limit", mm=f"{limit:g}")
             figure(words(f"calibrate.{key}"), value, limit, need).draw(screen, SIDE.x, y)
             y += 214
         if not finding.good:
