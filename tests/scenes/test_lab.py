@@ -137,6 +137,13 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     assert here.workshop.training.table.knobs.still == -2.0
 
 
+def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
+    lab(arcade).focus.go("hit")
+    arcade.press(Act.FIRE)
+    arcade.press(Act.EXTRA)
+    arcade.shown(Fight)
+
+
 @pytest.mark.parametrize(("act", "end"), [(Act.RIGHT, 10.0), (Act.LEFT, -10.0)])
 def test_a_knob_stops_at_its_ends(arcade: Arcade, act: Act, end: float) -> None:
     lab(arcade).focus.go("miss")

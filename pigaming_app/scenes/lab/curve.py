@@ -16,6 +16,7 @@ from pigaming_app.scenes.pane import Lit, word
 
 FIRST = 50  # matches that the plot has room for in the beginning; it doubles
 HANDMADE = 0.5  # how often one wins against one like itself
+NAME_FROM = 0.4  # of the width, where its name begins
 CALM = 0.3  # share of a new measure in the line
 GLOW = ((17, 0.14), (11, 0.3), (6, 1.0))  # px wide, brightness
 
@@ -52,6 +53,7 @@ class Curve:
         self.sheet = self.bare.copy()
         self.share: float | None = None  # where the line has come to
         self.shown = -1  # measures
+        self.above = False  # the name of the hand-made robot stands above its line: below it there is a curve
 
     def show(self, measures: Sequence[Measure]) -> None:
         """What has been measured so far."""
@@ -69,13 +71,15 @@ class Curve:
             xs = [left + PLOT.w * one.matches / most for one in measures]
             for x, one in zip(xs, measures, strict=True):
                 pygame.draw.circle(self.sheet, dim(GOOD, 0.42), (x, foot - PLOT.h * one.share), 4)
+            late = [share for x, share in zip(xs, line, strict=True) if x > left + PLOT.w * NAME_FROM]
+            self.above = sum(late) < HANDMADE * len(late)
             _tube(self.sheet, [(x, foot - PLOT.h * share) for x, share in zip(xs, line, strict=True)])
 
     def draw(self, screen: pygame.Surface, name: str, waiting: str) -> None:
         """Paint it; `name`: of the hand-made robot; `waiting`: what to say before anything is measured."""
         screen.blit(self.sheet, CURVE)
         y = PLOT.bottom - PLOT.h * HANDMADE
-        text(name, BODY, MIST, "body", "r", PLOT.w - 20).draw(screen, PLOT.right, y + 36)
+        text(name, BODY, MIST, "body", "r", PLOT.w - 20).draw(screen, PLOT.right, y + (-34 if self.above else 36))
         if self.share is None:
             text(waiting, BODY, MIST, "body", "r", 190).draw(screen, RIGHT - 36, CURVE.centery)
         else:

@@ -118,8 +118,8 @@ class Verdict:
         middle = (HEAD + FOOT) / 2
         for seat, side, score, who in ((0, -1, mine, words("lab.you")), (ROBOT, 1, its, name)):
             pane.page.text(
-                str(score).replace("-", "−"), HERO - 50, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
+                str(score).replace("-", "−"), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
             )
             badge(pane.hot, seat, 960 + side * 430, middle - 28, 44)
             pane.page.body(who, 960 + side * 430, middle + 66, MIST, "c")
-        pane.page.text(":", HERO - 70, 960, middle - 8, MIST, "hero", "c")
+        pane.page.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")

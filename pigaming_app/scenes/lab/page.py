@@ -146,7 +146,7 @@ def ground(language: str) -> pygame.Surface:
         panel(page.hot, *box)
     _named(page, words("lab.likes"), KNOBS)
     _named(page, words("lab.wins"), CURVE)
-    _aside(page, words("lab.ties"), words("lab.wins"))
+    page.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
     page.cold.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
     _legend(page, words)
     _bar(page, words)
@@ -157,12 +157,6 @@ def ground(language: str) -> pygame.Surface:
 
 def _named(page: Page, name: str, box: pygame.Rect) -> None:
     page.body(name, box.left + 32, box.top + 40, ICE, "l", fitted(name, BODY + 4, box.w - 64, "body"))
-
-
-def _aside(page: Page, said: str, title: str) -> None:
-    """A smaller word beside the title of the curve, at its right end."""
-    size = fitted(said, BODY, CURVE.w - 64 - text_width(title, BODY + 4, "body") - 40, "body")
-    page.body(said, CURVE.right - 32, CURVE.top + 40, MIST, "r", size)
 
 
 def _saying(page: Page, said: str, x: float) -> None:

@@ -36,4 +36,4 @@ __all__ = ["ARENA", "BAD", "BAR_Y", "CURVE", "GOOD", "KNOBS", "KNOB_NAMES", "KNO
 def knob_rect(i: int) -> pygame.Rect:
     """What is clicked on and shown in focus: the i-th knob; its name stands below."""
     w = KNOBS.w // len(KNOB_NAMES)
-    return pygame.Rect(KNOBS.left + w * i + w // 2 - 74, KNOB_Y - 70, 148, 134)
+    return pygame.Rect(KNOBS.left + w * i + w // 2 - 72, KNOB_Y - 64, 144, 120)

@@ -71,9 +71,10 @@ class Lab:
 
     def on(self, press: Press) -> Turn:
         """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
-        if self.held:
-            return self._turn(self.turning.meant(press))
-        press = self.prompts.meant(press)
+        press = (self.turning if self.held else self.prompts).meant(press)
+        if self.held and press.act not in (Act.EXTRA, Act.ALT):
+            return self._turn(press)
+        self.held = ""
         match press.act:
             case Act.EXTRA:
                 return self.play(press.device)
@@ -111,15 +112,15 @@ class Lab:
             self.page.draw(screen, self.shown)
         if not self.held:
             self.focus.draw(screen)
-        (self.turning if self.held else self.prompts).draw(screen)
-        words, x = self.house.words, MATCH.centerx
+        words = self.house.words
         if self.said > 0.0:
-            sheet = plate(self.sentence, ALARM if self.wrong else FOCUS)
-            sheet.draw(screen, x if sheet.width < MATCH.w - 40 else 960, MATCH.top + 60)
-        elif self.house.idle > IDLE - LAST:
-            plate(words("pause.still"), FOCUS, sign="clock").draw(screen, x, MATCH.top + 60)
+            plate(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
+        else:
+            (self.turning if self.held else self.prompts).draw(screen)
+        if self.house.idle > IDLE - LAST:
+            plate(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > PATIENT:
-            plate(words("lab.warming"), sign="clock").draw(screen, x, MATCH.top + 60)
+            plate(words("lab.warming"), sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
 
     # ---- what the pages above it may do
 
