@@ -50,6 +50,7 @@ class EmulatedSite:
         self.clock = self.arena.clock
         self.projector = Projector(self.arena)
         self._live = Live(self.arena).start() if live and arena is None else None
+        self._refresh = self.arena.camera.painter.refresh
 
     @property
     def measures(self) -> Measures:
@@ -76,8 +77,9 @@ class EmulatedSite:
         self.projector.see(pixels)
 
     def clear(self, off: bool) -> None:
-        """Take the robots off the mat, or put them back."""
+        """Take the robots off the mat, or put them back. A mat that is measured is painted whole in every picture."""
         self.arena.cleared = off
+        self.arena.camera.painter.refresh = 1 if off else self._refresh
 
     def stand(self, x: float, y: float) -> None:
         """Carry the first robot there; the others wait aside."""
