@@ -199,10 +199,24 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     arcade.wait(3.0)
     arcade.shown(Verdict)
     assert here.workshop.training.experiences == experiences, "it rests meanwhile"
+    assert here.workshop.join()
     arcade.press(Act.BACK)
     assert lab(arcade) is here
     arcade.wait(0.5)
     assert here.workshop.training.experiences > experiences
+
+
+def test_one_can_look_into_the_brain_that_one_plays_against(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    at_full_speed(arcade, monkeypatch)
+    arcade.wait(0.2)
+    arcade.press(Act.EXTRA)
+    fight = arcade.shown(Fight)
+    arcade.until(lambda: fight.inner.match.state.tick > 20)
+    before = digest(fight.inner.match.state)
+    arcade.press(Act.BRAIN)
+    arcade.shown(Fight)
+    assert fight.inner.stage.brain.seats == [ROBOT]
+    assert digest(fight.inner.match.state) == before
 
 
 def test_once_more_and_an_early_end(arcade: Arcade) -> None:

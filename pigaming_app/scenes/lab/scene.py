@@ -122,6 +122,10 @@ class Lab:
         elif self.compiling > PATIENT:
             plate(words("lab.warming"), sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
 
+    def left(self) -> None:
+        """Taken off the stack: the training rests."""
+        self.workshop.close()
+
     # ---- what the pages above it may do
 
     def say(self, sentence: str, wrong: bool = False) -> None:
