@@ -80,6 +80,19 @@ class Name:
         return None if isinstance(value, str) and len(value) <= 60 else "not a short text"
 
 
+@dataclass(frozen=True)
+class Numbers:
+    """Different whole numbers from 1 to 4: any of them, or, if `all_of_them`, all."""
+
+    all_of_them: bool = False
+
+    def wrong(self, value: object) -> str | None:
+        known = isinstance(value, list) and all(type(one) is int and 1 <= one <= 4 for one in value)
+        if not known or len(set(value)) != len(value):  # type: ignore[call-overload, arg-type]
+            return "not a list of different numbers from 1 to 4"
+        return "not all of 1, 2, 3, 4" if self.all_of_them and len(value) != 4 else None  # type: ignore[arg-type]
+
+
 class Corners:
     """Nothing, or eight whole numbers: where the corners of the picture are, px of the canvas."""
 
@@ -123,6 +136,9 @@ class Settings:
     port: str = _setting("", Name())  # of the radio; empty: the first there is
     baud: int = _setting(57600, Range(1200, 921600))
     radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # how it is set
+    mat: bool = _setting(False, Switch())  # real robots can be chosen
+    real: list[int] = field(default_factory=list, metadata={"fit": Numbers()})  # seats with real robots, last chosen
+    radios: list[int] = field(default_factory=lambda: [1, 2, 3, 4], metadata={"fit": Numbers(True)})  # of each marker
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     @classmethod

@@ -1,9 +1,13 @@
 """Who plays when nobody does, and the only list of them."""
 
+from collections.abc import Callable
+from typing import Any
+
 from pigaming_app.ai import classic, foreman, fsm, racer, simple, tables
 from pigaming_app.ai.brain import Kind, Thinker
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
+from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import ROBOTS
 
 BRAINS: dict[str, dict[str, Kind]] = {
@@ -47,9 +51,9 @@ def make(game: str, name: str, seed: int) -> Thinker:
     return Thinker(BRAINS[game][name], seed)
 
 
-def seated(setup: Setup) -> Match:
+def seated(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:
     """A match with an AI on every seat that names one; people's seats stand still."""
-    match = Match(setup)
+    match = Match(setup, plant)
     for i, seat in enumerate(setup.seats):
         if seat.brain in BRAINS[setup.game]:
             match.sit(i, make(setup.game, seat.brain, setup.seed * ROBOTS + i))

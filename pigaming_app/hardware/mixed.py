@@ -20,7 +20,7 @@ class MixedPlant(RealPlant):
 
     def __init__(self, world: World, rig: Rig, real: Iterable[int] = ()) -> None:
         super().__init__(world, rig, real)
-        self._arriving: set[int] = set()  # real robots that will take over
+        self.arriving: set[int] = set()  # real robots that will take over
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Real robots drive as they may; simulated ones among them as on their own floor."""
@@ -43,11 +43,11 @@ class MixedPlant(RealPlant):
         """Hand a robot of the match to the real or the simulated one. A real one must take its place first."""
         if not real:
             self.real.discard(robot)
-            self._arriving.discard(robot)
-            self._call(self._arriving)
+            self.arriving.discard(robot)
+            self._call(self.arriving)
         elif robot not in self.real:
-            self._arriving.add(robot)
-            self._call(self._arriving)
+            self.arriving.add(robot)
+            self._call(self.arriving)
 
     def take_places(self) -> bool:
         """One tick of driving to the places; whether all have arrived."""
@@ -59,8 +59,8 @@ class MixedPlant(RealPlant):
     def accept_places(self) -> None:
         """Let everybody begin where it stands; who was summoned takes over."""
         super().accept_places()
-        self.real |= self._arriving
-        self._arriving.clear()
+        self.real |= self.arriving
+        self.arriving.clear()
 
     def _call(self, robots: set[int]) -> None:
         """Summon robots to where their simulated ones stand."""

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.kinematics import Kinematics
+from pigaming_app.hardware.rolling import Wear
 from pigaming_app.hardware.safety import Signs
 from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Telemetry, Wheels
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
@@ -32,6 +33,7 @@ class Follows(Protocol):
     """The part of a tracker that a rig uses."""
 
     looked: float  # s, when the newest picture was taken that was looked at
+    expected: set[int]  # robots worth searching for
 
     def sent(self, time: float, twists: Sequence[Twist | None]) -> None: ...
 
@@ -42,6 +44,8 @@ class Follows(Protocol):
     def lost(self, robot: int) -> float: ...
 
     def doubled(self) -> set[int]: ...
+
+    def wear(self, robot: int) -> Wear: ...
 
 
 class Talks(Protocol):
@@ -180,5 +184,7 @@ class Rig:
         self._sample = sample
         with self._lock:
             fixes = self.tracker.see(frame)
+            for robot, kinematics in enumerate(self.kinematics):
+                kinematics.wear = self.tracker.wear(robot)
             if self.recorder:
                 self.recorder.seen(self.clock(), frame.captured, fixes)

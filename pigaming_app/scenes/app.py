@@ -17,9 +17,11 @@ from typing import IO, Any
 import pygame
 
 from pigaming_app.keeping import NotSaved
+from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.house import House
+from pigaming_app.scenes.mat import EmulatedMat, NoMat, RealMat
 from pigaming_app.scenes.notices import Gauge, Notices
 from pigaming_app.scenes.press import Act
 from pigaming_app.scenes.sounds import Sounds
@@ -49,6 +51,7 @@ class Options:
     shot: Path | None = None
     shot_due: Callable[[], bool] = lambda: True
     step: float | None = None  # s of made-up time for each frame, instead of real time
+    emulate: int | None = None  # the seed of an emulated arena that stands in for the mat
 
 
 def run(options: Options) -> int:
@@ -61,6 +64,8 @@ def run(options: Options) -> int:
     pygame.font.init()
     house = House(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
     house.sounds.volume(settings.music, settings.sounds)
+    house.mat = mat = _mat(options, settings, canvas)
+    house.stops.append(mat.close)
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
         return App(options, house, [*said, *more]).loop()
@@ -69,6 +74,7 @@ def run(options: Options) -> int:
     finally:
         signal.signal(signal.SIGTERM, before)
         house.stand_still()
+        mat.end()
         house.sounds.close()
         _keep(settings, where.config)
         canvas.close()
@@ -81,6 +87,7 @@ class App:
     def __init__(self, options: Options, house: House, troubles: list[str]) -> None:
         self.options, self.house = options, house
         self.notices, self.gauge = Notices(), Gauge()
+        self.window = CameraWindow(house.mat) if isinstance(house.mat, EmulatedMat) else None
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -133,8 +140,8 @@ class App:
     def _frame(self, seconds: float) -> None:
         """One picture: hear, move, paint."""
         events = pygame.event.get()
-        if any(event.type == pygame.QUIT for event in events) and not self.house.kiosk:
-            self.stack.scenes.clear()
+        if any(self._closes(event) for event in events) and not self.house.kiosk:
+            self.stack.clear()
             return
         for event in events:
             if event.type == pygame.KEYDOWN:
@@ -150,9 +157,19 @@ class App:
         self.gauge.note(seconds, played - began, perf_counter() - played)
         if self.options.shot and self.options.shot_due():
             self.house.canvas.screenshot(self.options.shot)
-            self.stack.scenes.clear()
+            self.stack.clear()
             return
         self.house.canvas.flip()
+        if self.window:
+            self.window.update(seconds)
+
+    def _closes(self, event: pygame.Event) -> bool:
+        """Whether an event closes the arcade: with a second window, closing the first one no longer says QUIT."""
+        if event.type == pygame.QUIT:
+            return True
+        if self.window is None or self.window.asked(event):
+            return False
+        return event.type == pygame.WINDOWCLOSE
 
     def _play(self, events: list[pygame.Event], seconds: float) -> None:
         """Let the scenes hear what was pressed, and let time pass for the top one."""
@@ -176,6 +193,7 @@ class App:
         if self.failures >= TROUBLES or self.options.alone or not self.stack.scenes:
             print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
             return False
+        self.stack.clear()
         self.stack = Stack(_title(self.house))
         self.notices.say(self.house.words("app.error"))
         return True
@@ -205,6 +223,20 @@ class App:
             self.notices.say(self.house.words("app.display"))
         self.notices.draw(screen, seconds)
         self.gauge.draw(screen)
+
+
+def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedMat | RealMat:
+    """Where real robots drive."""
+    if options.emulate is None:
+        return RealMat(settings, canvas)
+    mat = EmulatedMat(canvas, options.emulate)
+    print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
+    try:
+        mat.open()  # now, while nobody waits for a picture; it is closed until somebody plays
+        mat.close()
+    except NoMat as trouble:
+        print(f"PiGaming: {trouble}", file=sys.stderr)
+    return mat
 
 
 def _title(house: House) -> Scene:

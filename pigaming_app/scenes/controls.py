@@ -14,7 +14,7 @@ from pigaming_app.scenes.held import DIRECTIONS, Change, Held
 from pigaming_app.scenes.press import Act, Device, Drive, Press
 
 _MOUSE = Device("mouse")
-_NOBODYS = (Act.FOUND, Act.LOST, Act.BRAIN)  # say nothing about what somebody plays with
+_NOBODYS = (Act.FOUND, Act.LOST, Act.BRAIN, Act.STOP)  # say nothing about what somebody plays with
 _TAP_SECONDS = 0.1  # a fire button that went down and up between two ticks still fires within this time
 _MAPPED = (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP, pygame.CONTROLLERAXISMOTION)
 _PLAIN = (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYAXISMOTION, pygame.JOYHATMOTION)

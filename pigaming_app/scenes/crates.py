@@ -176,13 +176,14 @@ def busy(team: int, kind: int) -> Sprite:
 
 
 @cache
-def frozen(part: int) -> Sprite:
-    """The ring that runs down while a robot must stand still, `part` of COUNTS left."""
-    ink = Ink(170, 170).to(85, 85)
-    ink.ring(0, 0, 54, dim(ALARM, 0.3), 8)
+def frozen(part: int, r: int = 54) -> Sprite:
+    """The ring, of `r` px, that runs down while a robot must stand still, `part` of COUNTS left."""
+    half = r + 31
+    ink = Ink(2 * half, 2 * half).to(half, half)
+    ink.ring(0, 0, r, dim(ALARM, 0.3), 8)
     if part:
-        ink.arc(0, 0, 54, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, ALARM, 8)
-    return trim(ink.lit(0.9), 85, 85)
+        ink.arc(0, 0, r, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, ALARM, 8)
+    return trim(ink.lit(0.9), half, half)
 
 
 @cache

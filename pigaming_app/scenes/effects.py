@@ -154,15 +154,15 @@ def light(color: Color, level: int) -> Sprite:
 
 
 @cache
-def shield(player: int, turn: int) -> Sprite:
-    """A robot's shield: a hexagon, turned by `turn` of 24 parts of the way to where it looks the same again."""
-    return turned(painted(_shield, (player,)), turn, 6 * 24)
+def shield(player: int, turn: int, r: int = 72) -> Sprite:
+    """A shield: a hexagon of radius `r` px, turned by `turn` of 24 parts of the way to itself."""
+    return turned(painted(_shield, (player, r)), turn, 6 * 24)
 
 
-def _shield(player: int) -> pygame.Surface:
-    ink, color = master(104), mix(PLAYERS[player], WHITE, 0.25)
-    ink.fill(regular(6, 72), dim(color, 0.10)).neon(regular(6, 72), color, 4, True)
-    for x, y in regular(6, 72):
+def _shield(player: int, r: int) -> pygame.Surface:
+    ink, color = master(r + 32), mix(PLAYERS[player], WHITE, 0.25)
+    ink.fill(regular(6, r), dim(color, 0.10)).neon(regular(6, r), color, 4, True)
+    for x, y in regular(6, r):
         ink.line([(x * 0.55, y * 0.55), (x, y)], dim(color, 0.35), 2)
     return ink.lit(1.0)
 

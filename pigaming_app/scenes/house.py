@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
@@ -10,6 +11,9 @@ from pigaming_app.scenes.sounds import Sounds
 from pigaming_app.scenes.words import Words
 from pigaming_app.scores import Scores
 from pigaming_app.settings import Settings
+
+if TYPE_CHECKING:
+    from pigaming_app.scenes.mat import Mat
 
 
 @dataclass
@@ -24,7 +28,13 @@ class House:
     canvas: Canvas
     kiosk: bool = False
     idle: float = 0.0  # seconds since anyone pressed anything
+    mat: "Mat | None" = None  # where real robots drive
     stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
+
+    @property
+    def robots(self) -> bool:
+        """Whether real robots can be chosen for a match."""
+        return self.mat is not None and (self.mat.emulated or self.settings.mat)
 
     def stand_still(self) -> None:
         """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""

@@ -82,8 +82,9 @@ _SHARED = {
     pygame.KSCAN_TAB: Act.ALT,
     pygame.KSCAN_X: Act.EXTRA,
     pygame.KSCAN_F4: Act.BRAIN,
+    pygame.KSCAN_F1: Act.STOP,
 }
-_SHARED_PRINTED = {Act.START: "ENTER", Act.BACK: "ESC", Act.ALT: "TAB", Act.EXTRA: "X", Act.BRAIN: "F4"}
+_SHARED_PRINTED = {Act.START: "ENTER", Act.BACK: "ESC", Act.ALT: "TAB", Act.EXTRA: "X", Act.BRAIN: "F4", Act.STOP: "F1"}
 _SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # held with another key, these speak to the window manager
 
 

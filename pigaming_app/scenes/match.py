@@ -5,8 +5,9 @@ somebody presses FIRE for it.
 """
 
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import pygame
 
@@ -24,6 +25,7 @@ from pigaming_app.scenes.results import Results
 from pigaming_app.scenes.stack import Push, Scene, Swap, Turn
 from pigaming_app.scenes.stage import Stage
 from pigaming_app.settings import folders
+from pigaming_app.sim.plant import Plant, SimPlant
 
 LEAD = 0.8  # seconds in which one looks round before the countdown
 RESUME = 0.5  # seconds for each number after an interruption
@@ -36,11 +38,18 @@ STAND_IN = "normal"  # the brain that drives on for somebody
 class MatchScene:
     """One match, from its countdown to its results. `devices`: who drives each seat; None: an AI, or nobody yet."""
 
-    def __init__(self, house: House, setup: Setup, devices: Sequence[Device | None] = (), speed: float = 1.0) -> None:
+    def __init__(
+        self,
+        house: House,
+        setup: Setup,
+        devices: Sequence[Device | None] = (),
+        speed: float = 1.0,
+        plant: Callable[[Any], Plant] = SimPlant,
+    ) -> None:
         self.house, self.setup, self.speed = house, setup, speed
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
-        self.match = seated(setup)
+        self.match = seated(setup, plant)
         self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
@@ -81,7 +90,7 @@ class MatchScene:
         """Let the match run on."""
         self.noticed -= seconds
         if self.repeated:
-            return Swap(again(self.house, self.setup, self.devices))
+            return Swap(self.again(self.house, self.setup, self.devices))
         if self.match.over or self.stopped:
             return self._end(seconds)
         if lost := self.lost:
@@ -158,6 +167,21 @@ class MatchScene:
         """Begin anew, with another seed."""
         self.repeated = True
 
+    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+        """The same match with other luck."""
+        return MatchScene(house, replace(setup, seed=new_seed()), devices)
+
+    @property
+    def extras(self) -> Mapping[str, Callable[[], Scene]]:
+        """What else the pause offers: by its name, a page."""
+        return {}
+
+    def hold(self, seconds: float) -> None:
+        """Let time pass under a page."""
+
+    def shine(self, screen: pygame.Surface) -> None:
+        """Paint what no page may hide."""
+
     # ---- inside
 
     def _sit(self, seat: int, device: Device | None) -> None:
@@ -177,7 +201,7 @@ class MatchScene:
         """The last picture stands while the results are made."""
         if self.results is None:
             finished = self.match.over and not self.stopped
-            self.results = Results(self.house, self.match.outcome(), self.setup, self.devices, again, finished)
+            self.results = Results(self.house, self.match.outcome(), self.setup, self.devices, self.again, finished)
             if finished:
                 self.house.sounds.play("go")
         ready = self.results.warm(12.0)
@@ -186,11 +210,6 @@ class MatchScene:
         if ready and (self.stopped or self.frozen >= FREEZE):
             return Swap(self.results)
         return None
-
-
-def again(house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
-    """The same match with other luck."""
-    return MatchScene(house, replace(setup, seed=new_seed()), devices)
 
 
 def new_seed() -> int:

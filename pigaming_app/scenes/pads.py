@@ -25,6 +25,8 @@ _BUTTONS = {
     pygame.CONTROLLER_BUTTON_DPAD_LEFT: Act.LEFT,
     pygame.CONTROLLER_BUTTON_DPAD_RIGHT: Act.RIGHT,
 }
+_SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
+_PLAIN_SHOULDERS = (4, 5)
 _PLAIN = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT)  # the first four buttons of a plain joystick
 _DIRECTIONS = {Act.UP: "↑", Act.DOWN: "↓", Act.LEFT: "←", Act.RIGHT: "→"}
 _PRINTED = {
@@ -70,6 +72,8 @@ class MappedPad:
         if event.type in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):
             if event.button in _BUTTONS:
                 yield Change(_BUTTONS[event.button], event.type == pygame.CONTROLLERBUTTONDOWN)
+            elif event.button in _SHOULDERS and all(map(self._pad.get_button, _SHOULDERS)):
+                yield Change(Act.STOP, event.type == pygame.CONTROLLERBUTTONDOWN)
         elif event.type == pygame.CONTROLLERAXISMOTION:
             if event.axis in (pygame.CONTROLLER_AXIS_LEFTX, pygame.CONTROLLER_AXIS_LEFTY):
                 yield from self._stick.moved(
@@ -115,6 +119,8 @@ class PlainPad:
         if event.type in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP):
             if event.button in self._acts:
                 yield Change(self._acts[event.button], event.type == pygame.JOYBUTTONDOWN)
+            elif event.button in _PLAIN_SHOULDERS and all(map(self._held, _PLAIN_SHOULDERS)):
+                yield Change(Act.STOP, event.type == pygame.JOYBUTTONDOWN)
         elif event.type == pygame.JOYAXISMOTION:
             if event.axis < 2 and self._axes:
                 yield from self._stick.moved(self._pad.get_axis(0), self._pad.get_axis(1))

@@ -1,6 +1,6 @@
 """The page over a match that stands still: who paused, and what now. The match is one dark picture behind it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 import pygame
@@ -13,11 +13,11 @@ from pigaming_app.scenes.overlay import FOOT, HEAD, PROMPTS, W, X, Y, overlay
 from pigaming_app.scenes.pane import Pane, fitted, word
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.stack import Pop, Push, Turn
+from pigaming_app.scenes.stack import Pop, Push, Scene, Turn
 
 ITEMS = ("continue", "restart", "controls", "end")
-PITCH = 74
-ITEM_W, ITEM_H = 620, 66
+PITCH, ITEM_H = 74, 66
+ITEM_W = 620
 
 
 class Held(Protocol):
@@ -38,6 +38,16 @@ class Held(Protocol):
     def stop(self) -> None:
         """End the match now."""
 
+    @property
+    def extras(self) -> Mapping[str, Callable[[], Scene]]:
+        """What else the pause offers: by its name, a page."""
+
+    def hold(self, seconds: float) -> None:
+        """Let time pass under a page."""
+
+    def shine(self, screen: pygame.Surface) -> None:
+        """Paint what no page may hide."""
+
 
 class Pause:
     """A pause that `device` has asked for."""
@@ -46,7 +56,7 @@ class Pause:
         self.match, self.house = match, match.house
         self.player = match.devices.index(device) if device in match.devices else None
         self.picture: pygame.Surface | None = None
-        self.focus = Focus(items())
+        self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
         self.prompts = Prompts(self.house, hints, PROMPTS, W - 80)
 
@@ -68,6 +78,7 @@ class Pause:
 
     def update(self, seconds: float) -> Turn:
         """Only the focus moves."""
+        self.match.hold(seconds)
         self.focus.update(seconds)
         return None
 
@@ -81,6 +92,7 @@ class Pause:
         text = self.house.words(f"pause.{self.focus.name}")
         word(text, LABEL, FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
         self.prompts.draw(screen)
+        self.match.shine(screen)
 
     def _do(self, name: str) -> Turn:
         self.house.sounds.play("back" if name == "continue" else "accept")
@@ -91,8 +103,8 @@ class Pause:
                 self.match.stop()
             case "controls":
                 return Push(DeviceTable(self.house, self.match.devices))
-            case _:
-                pass
+            case extra if extra in self.match.extras:
+                return Push(self.match.extras[extra]())
         return Pop()
 
     def _paint(self, pane: Pane) -> None:
@@ -105,8 +117,10 @@ class Pause:
 
 def items(names: Sequence[str] = ITEMS) -> list[Spot]:
     """Where the items of a menu are."""
-    top = HEAD + (FOOT - HEAD - PITCH * len(names)) // 2 + (PITCH - ITEM_H) // 2
-    return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + PITCH * i, ITEM_W, ITEM_H)) for i, name in enumerate(names)]
+    pitch = min(PITCH, (FOOT - HEAD - 8) // len(names))
+    high = pitch - PITCH + ITEM_H
+    top = HEAD + (FOOT - HEAD - pitch * len(names)) // 2 + (pitch - high) // 2
+    return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + pitch * i, ITEM_W, high)) for i, name in enumerate(names)]
 
 
 def title(pane: Pane, player: int | None, text: str, color: Color) -> None:

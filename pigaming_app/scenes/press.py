@@ -18,6 +18,7 @@ class Act(Enum):
     ALT = auto()  # pad Y; Tab
     START = auto()  # pad Start; Enter; P pauses a match as Start does
     BRAIN = auto()  # F4: show what the AIs of a match think, one after the other
+    STOP = auto()  # F1; both upper shoulder buttons of a pad: all real robots stand at once
     POINT = auto()  # the mouse moved; `at` says where
     CLICK = auto()  # the left button went down; `at` says where
     FOUND = auto()  # a device was plugged in

@@ -72,6 +72,7 @@ class Reconnect:
 
     def update(self, seconds: float) -> Turn:
         """The ring runs out."""
+        self.match.hold(seconds)
         self.age += seconds
         return self._hand(None) if self.age >= WAIT else None
 
@@ -86,6 +87,7 @@ class Reconnect:
             bolt().draw(screen, *PAD)
         ring(screen, WAIT - self.age, WAIT)
         self.prompts.draw(screen)
+        self.match.shine(screen)
 
     def _hand(self, device: Device | None) -> Turn:
         self.match.hand(self.seat, device)
@@ -122,6 +124,7 @@ class StillThere:
 
     def update(self, seconds: float) -> Turn:
         """The ring runs out."""
+        self.match.hold(seconds)
         self.age += seconds
         return Home() if self.age >= WAIT else None
 
@@ -132,6 +135,7 @@ class StillThere:
         screen.blit(self.picture, (0, 0))
         ring(screen, WAIT - self.age, WAIT)
         self.prompts.draw(screen)
+        self.match.shine(screen)
 
     def _paint(self, pane: Pane) -> None:
         words = self.house.words

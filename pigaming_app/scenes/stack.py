@@ -1,7 +1,7 @@
 """Scenes lie on a stack; a scene answers a press with what shall become of the stack, and reaches for nothing."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import pygame
 
@@ -22,6 +22,14 @@ class Scene(Protocol):
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the whole canvas, 1920 x 1080."""
+
+
+@runtime_checkable
+class Holding(Protocol):
+    """A scene that holds something, such as a camera, for as long as it lies on the stack."""
+
+    def left(self) -> None:
+        """Let go of it: the scene has been taken off the stack."""
 
 
 @dataclass(frozen=True)
@@ -71,9 +79,10 @@ class Stack:
 
     def turn(self, turn: Turn) -> None:
         """Carry out what the top scene answered. An empty stack means: close."""
+        if turn is None:
+            return
+        before = self.scenes[:]
         match turn:
-            case None:
-                return
             case Push(scene):
                 self.scenes.append(scene)
             case Pop():
@@ -84,5 +93,18 @@ class Stack:
                 self.scenes[1:] = [scene] if scene else []
             case Quit():
                 self.scenes.clear()
+        self._leave(before)
         if self.scenes:
             self.top.entered()
+
+    def clear(self) -> None:
+        """Take every scene off."""
+        before = self.scenes[:]
+        self.scenes.clear()
+        self._leave(before)
+
+    def _leave(self, before: list[Scene]) -> None:
+        """Tell the scenes that are gone, the topmost first."""
+        for scene in reversed(before):
+            if scene not in self.scenes and isinstance(scene, Holding):
+                scene.left()

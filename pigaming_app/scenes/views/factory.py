@@ -37,6 +37,7 @@ from pigaming_app.sim.world import HZ
 
 SHOWN_REFUSED = 14  # ticks for which a cross says that there is nothing to do
 HANDS = 40.0  # px from a worker to what it carries
+BEFORE = 124.0  # px from a real robot, in its wide disc, to what it carries
 BESIDE = 102.0  # px from a robot to the number that counts down
 
 
@@ -129,13 +130,15 @@ class FactoryView(Picture):
         self.light_up(under, seat, (x, y, heading), bool(robot.boosting))
         put(over, crates.forks(robot.team, fine), x, y)
         put(over, tank.tank(seat, fine), x, y)
-        fork_x, fork_y = x + FORK * math.cos(heading), y + FORK * math.sin(heading)
+        ahead = FORK if seat not in self.real else BEFORE
+        fork_x, fork_y = x + ahead * math.cos(heading), y + ahead * math.sin(heading)
         if load.pallet:
             put(over, self._crate(load.pallet - 1, state.pallets[load.pallet - 1]), fork_x, fork_y)
         if refused:
             put(top, crates.cross(), fork_x, fork_y)
         if load.frozen:
-            put(light, crates.frozen(-(-crates.COUNTS * load.frozen // state.rules.freeze)), x, y)
+            part = -(-crates.COUNTS * load.frozen // state.rules.freeze)
+            put(light, crates.frozen(part, self.reach(seat, 54)), x, y)
             put(top, crates.digit(-(-load.frozen // HZ)), x, y + (BESIDE if y < TOP + BESIDE else -BESIDE))
 
     def _counts(self, light: Batch, state: Factory) -> None:

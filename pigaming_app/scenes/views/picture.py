@@ -21,6 +21,7 @@ from pigaming_app.scenes.views.treads import Treads
 from pigaming_app.scenes.views.warming import Job, driving
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
+REAL_WIDER = 42  # px
 JUMP = 100.0  # px in a tick: a robot that was placed, not driven
 Pose = tuple[float, float, float]  # px and px on the canvas, rad
 Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
@@ -45,6 +46,7 @@ class Picture:
 
     def __init__(self, state: Any, players: list[str], taste: Taste, words: Words | None, ground: Ground) -> None:
         self.players, self.taste, self.words, self.ground = players, taste, words, ground
+        self.real: frozenset[int] = frozenset()  # seats whose robots are real: they are lit, not drawn
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.moments = Moments()
         self.treads = [Treads(i) for i in range(len(state.robots))]
@@ -89,6 +91,10 @@ class Picture:
         for i, (new, old) in enumerate(zip(self.now, self.before, strict=True)):
             if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
                 self.before = [*self.before[:i], new, *self.before[i + 1 :]]
+
+    def reach(self, seat: int, usual: int) -> int:
+        """Radius in px of a ring round a robot; a real one stands in a wide disc of its own."""
+        return usual + REAL_WIDER if seat in self.real else usual
 
     def light_up(self, under: Batch, seat: int, pose: Pose, fast: bool) -> None:
         """Treads, headlights and, if it is `fast`, the flame of a robot."""

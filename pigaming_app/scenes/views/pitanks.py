@@ -107,10 +107,15 @@ class PiTanksView(Picture):
         powers = state.tanks[seat].powers
         ends = min((left for left in powers if left), default=0)
         if ends:
-            put(light, effects.timer_ring(FOCUS, -(-48 * ends // max(1, state.rules.power_life)), 52, THIN), x, y)
+            put(
+                light,
+                effects.timer_ring(FOCUS, -(-48 * ends // max(1, state.rules.power_life)), self.reach(seat, 52), THIN),
+                x,
+                y,
+            )
         left = powers[SHIELD]
         if left > ENDING or left // 6 % 2:
-            put(light, effects.shield(seat, int(self.moments.clock * 24) % 24), x, y)
+            put(light, effects.shield(seat, int(self.moments.clock * 24) % 24, self.reach(seat, 72)), x, y)
 
     def _bullets(self, light: Batch, state: PiTanks, blend: float) -> None:
         for i, flying in enumerate(self.flying):

@@ -116,7 +116,7 @@ class RaceView(Picture):
             put(under, race_signs.splash(state.tick // 6 % 3 if abs(robot.linear) > SPRAYED else seat % 3), x, y)
         put(over, tank(seat, step(heading, HEADINGS)), x, y)
         if robot.turbo < 1.0 and not racer.finished:
-            put(light, effects.timer_ring(FOCUS, math.ceil(48 * robot.turbo), 52, THIN), x, y)
+            put(light, effects.timer_ring(FOCUS, math.ceil(48 * robot.turbo), self.reach(seat, 52), THIN), x, y)
 
     def _ghost(self, light: Batch, state: Race, blend: float) -> None:
         pose = self.haunt.pose(state, blend) if self.haunt else None

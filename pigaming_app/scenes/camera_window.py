@@ -1,0 +1,57 @@
+"""A second window beside the arcade: what the camera over the emulated mat sees."""
+
+import logging
+
+import pygame
+
+from pigaming_app.scenes.mat import EmulatedMat
+
+SIZE = (960, 540)
+EVERY = 1.0 / 15.0  # s between two pictures
+
+log = logging.getLogger("pigaming")
+
+
+class CameraWindow:
+    """The window; where the system gives no second one, the log says so and the arcade goes on."""
+
+    def __init__(self, mat: EmulatedMat) -> None:
+        self.mat = mat
+        self.window: pygame.Window | None = None
+        self._shown, self._age = -1, 0.0
+        try:
+            self.window = pygame.Window("PiGaming: what the camera sees", SIZE, position=(24, 24), resizable=True)
+            self.window.get_surface()
+        except pygame.error as reason:
+            log.warning("There is no second window for the camera's view: %s.", reason)
+            self.close()
+
+    def update(self, seconds: float) -> None:
+        """Show the newest picture, if there is a new one and it is time to."""
+        self._age += seconds
+        frame = self.mat.newest
+        if self.window is None or self._age < EVERY or frame is None or frame.number == self._shown:
+            return
+        from pigaming_app.scenes.pixels import grey_surface
+
+        self._shown, self._age = frame.number, 0.0
+        try:
+            surface = self.window.get_surface()
+            pygame.transform.scale(grey_surface(frame.image[::2, ::2]), surface.get_size(), surface)
+            self.window.flip()
+        except pygame.error as reason:
+            log.warning("The window with the camera's view was lost: %s.", reason)
+            self.close()
+
+    def asked(self, event: pygame.Event) -> bool:
+        """Whether an event asks for this window to be closed; then it is."""
+        mine = event.type == pygame.WINDOWCLOSE and self.window is not None and event.window == self.window
+        if mine:
+            self.close()
+        return mine
+
+    def close(self) -> None:
+        """Take the window away."""
+        window, self.window = self.window, None
+        if window is not None:
+            window.destroy()

@@ -1,0 +1,259 @@
+"""The mat: everything outside the computer that real robots need, real or emulated, and its parts while they are used.
+
+`open` starts camera, tracker and radio for a match or a page, `close` stops the robots and ends every thread. What is
+wrong is one sentence, `trouble`; the arcade plays on with simulated robots.
+"""
+
+import logging
+import time
+from typing import TYPE_CHECKING, Any, Protocol
+
+import pygame
+
+from pigaming_app.scenes.canvas import Canvas
+from pigaming_app.settings import Settings, folders
+from pigaming_app.sim.world import DT
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.emulator.arena import EmulatedArena
+    from pigaming_app.hardware.emulator.live import Live
+    from pigaming_app.hardware.emulator.site import EmulatedSite
+    from pigaming_app.hardware.ground import Ground
+    from pigaming_app.hardware.line import OpenPort
+    from pigaming_app.hardware.rig import Rig
+    from pigaming_app.hardware.signals import Frame
+
+LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
+SLICE = 0.5 * DT  # s of made-up time in which the parts of an emulated mat take turns
+FPS = 30.0  # of the emulated camera
+WHOLE, QUICK = 3, 30  # every which picture of it is painted whole, in real and in made-up time
+
+log = logging.getLogger("pigaming")
+
+
+class NoMat(Exception):
+    """The robots cannot be used; its argument is one sentence, mostly a `said.Said`."""
+
+
+class Mat(Protocol):
+    """A mat with robots, or what stands in for it."""
+
+    emulated: bool
+
+    @property
+    def trouble(self) -> str | None:
+        """What is wrong with camera or radio, in one sentence; None: nothing, or they are not in use."""
+
+    def open(self) -> "Rig":
+        """Start, or go on with, what real robots need. Raises NoMat."""
+
+    def close(self) -> None:
+        """Stop the robots and end all threads. May be called again."""
+
+    def end(self) -> None:
+        """Close for good."""
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass, where it is made up."""
+
+
+class RealMat:
+    """The camera and the radio of the settings."""
+
+    emulated = False
+
+    def __init__(self, settings: Settings, canvas: Canvas) -> None:
+        self.settings, self.canvas = settings, canvas
+        self._rig: Rig | None = None
+
+    @property
+    def trouble(self) -> str | None:
+        """What is wrong with camera or radio."""
+        return trouble_of(self._rig) if self._rig else None
+
+    def open(self) -> "Rig":
+        """Start camera, tracker and radio in their threads. Raises NoMat."""
+        if self._rig is None:
+            from pigaming_app.hardware.assembly import Wiring, connect, measured
+            from pigaming_app.hardware.ground import NoGround
+            from pigaming_app.hardware.markers import NoVision
+            from pigaming_app.sim.drivetrain import DrivetrainError
+
+            chosen = self.settings
+            wiring = Wiring(chosen.camera, chosen.port, chosen.baud, chosen.radio)
+            try:
+                ground = kept_ground("calibration.toml", self.canvas.projection)
+                self._rig = connect(wiring, ground, measured(folders().config / "robots.toml"))
+            except (NoGround, NoVision, DrivetrainError, ImportError) as trouble:
+                raise refused(trouble) from trouble
+            self._rig.channels = tuple(one - 1 for one in chosen.radios)
+        return self._rig
+
+    def close(self) -> None:
+        """Stop the robots and end all threads."""
+        rig, self._rig = self._rig, None
+        if rig is not None:
+            rig.close()
+
+    def end(self) -> None:
+        """Close for good."""
+        self.close()
+
+    def advance(self, seconds: float) -> None:
+        """Real time passes by itself."""
+
+
+class EmulatedMat:
+    """The emulated arena. `live`: its time is the real one; else it passes in `advance` alone."""
+
+    emulated = True
+
+    def __init__(self, canvas: Canvas | None = None, seed: int = 1, live: bool = True) -> None:
+        self.canvas, self.seed, self.live = canvas, seed, live
+        self._arena: EmulatedArena | None = None
+        self._made: Ground | None = None  # found without showing it
+        self._rig: Rig | None = None
+        self._live: Live | None = None
+        if canvas is not None:
+            canvas.watchers.append(self.see)
+
+    @property
+    def trouble(self) -> str | None:
+        """What is wrong with the radio; the emulated camera never tells."""
+        return trouble_of(self._rig) if self._rig else None
+
+    @property
+    def arena(self) -> "EmulatedArena":
+        """The arena, made and calibrated when it is first needed; then its time passes. Raises NoMat without OpenCV."""
+        if self._arena is None:
+            from pigaming_app.hardware.markers import NoVision, opencv
+
+            try:
+                opencv()
+            except NoVision as trouble:
+                raise refused(trouble) from trouble
+            from pigaming_app.hardware.emulator.arena import EmulatedArena
+            from pigaming_app.hardware.emulator.camera import Pace
+            from pigaming_app.hardware.testbed import MODERATE, calibrated
+
+            arena = EmulatedArena(self.seed, Pace(FPS), MODERATE, refresh=WHOLE if self.live else QUICK)
+            self._made, _ = calibrated(arena)
+            self._arena = arena
+        if self.live and self._live is None:
+            self._live = self._begin(self._arena)
+        return self._arena
+
+    @property
+    def newest(self) -> "Frame | None":
+        """The newest picture that the camera gave out."""
+        return self._arena.camera.last if self._arena else None
+
+    @property
+    def site(self) -> "EmulatedSite":
+        """The arena for the calibration: its robots are off the mat until they are asked for."""
+        from pigaming_app.hardware.emulator.site import EmulatedSite
+
+        return EmulatedSite(self.seed, self.live, self.arena)
+
+    def open(self) -> "Rig":
+        """Start the arena, its camera, a tracker and a link. Raises NoMat."""
+        if self._rig is None:
+            from pigaming_app.hardware.emulator.site import EmulatedEye
+            from pigaming_app.hardware.link import Link
+            from pigaming_app.hardware.rig import UNMEASURED, Rig
+            from pigaming_app.hardware.tracker import Tracker
+            from pigaming_app.sim.world import ROBOTS
+
+            arena, trains = self.arena, [UNMEASURED] * ROBOTS
+            arena.cleared = False
+            clock = time.monotonic if self.live else arena.clock
+            open_port, name = self._port(arena)
+            tracker = Tracker(self._ground(), clock, trains)
+            self._rig = Rig(EmulatedEye(arena), tracker, Link(open_port, clock, name=name), clock, trains)
+            if self.live:
+                self._rig.start()
+        return self._rig
+
+    def close(self) -> None:
+        """Stop the robots and let go of camera and radio; the arena's time goes on."""
+        rig, self._rig = self._rig, None
+        if rig is not None:
+            rig.close()
+
+    def end(self) -> None:
+        """Close, and stop the arena's time too."""
+        self.close()
+        live, self._live = self._live, None
+        if live is not None:
+            live.close()
+
+    def advance(self, seconds: float) -> None:
+        """Let made-up time pass."""
+        if self.live or self._rig is None:
+            return
+        for _ in range(max(1, round(seconds / SLICE))):
+            self._rig.pump()
+            self.arena.advance(SLICE)
+
+    def see(self, window: pygame.Surface) -> None:
+        """What the window shows falls on the mat, once there is one."""
+        if self._arena is not None:
+            from pigaming_app.hardware.emulator.projector import Projector
+            from pigaming_app.scenes.pixels import pixels_of
+
+            Projector(self._arena).see(pixels_of(window))
+
+    def _ground(self) -> "Ground":
+        """The calibration of the wizard, or else the one that was made when the arena was."""
+        from pigaming_app.hardware.ground import NoGround
+
+        try:
+            return kept_ground("calibration-emulated.toml", self.canvas.projection if self.canvas else "")
+        except NoGround:
+            assert self._made is not None
+            return self._made
+
+    def _begin(self, arena: "EmulatedArena") -> "Live":
+        """Let the arena's time pass, with a serial port of its own where there can be one."""
+        from pigaming_app.hardware.emulator.live import Live, Terminal
+
+        arena.skip(time.monotonic() - arena.clock())
+        terminal: Terminal | None = None
+        try:
+            import serial  # noqa: F401
+
+            terminal = Terminal()
+        except (ImportError, OSError):
+            pass
+        return Live(arena, terminal).start()
+
+    def _port(self, arena: "EmulatedArena") -> "tuple[OpenPort, str]":
+        """What opens the radio, and its name."""
+        from pigaming_app.hardware.line import serial_port
+
+        terminal = self._live and self._live.terminal
+        return (serial_port(terminal.name), terminal.name) if terminal else (arena.radio.open, "the emulated radio")
+
+
+def kept_ground(file: str, projection: str) -> "Ground":
+    """The calibration kept for this projection. Raises NoGround."""
+    from pigaming_app.hardware.assembly import ground_of
+    from pigaming_app.hardware.ground import read, written
+
+    ground = ground_of(folders().config / file)
+    return read(written(ground), projection, ground.lens.size)
+
+
+def trouble_of(rig: Any) -> str | None:
+    """What a camera or a link says is wrong with it."""
+    told = getattr(rig.eye, "trouble", None) or rig.link.trouble
+    return told if isinstance(told, str) else str(told) if told else None
+
+
+def refused(trouble: BaseException) -> NoMat:
+    """The same trouble as NoMat; the log has it too."""
+    from pigaming_app.hardware.said import said
+
+    sentence = said(trouble)
+    log.warning("%s", sentence)
+    return NoMat(sentence)

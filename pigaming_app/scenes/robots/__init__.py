@@ -1,0 +1,1 @@
+"""Real robots on the screen: their matches, their places, what lights their markers, and what is wrong with them."""

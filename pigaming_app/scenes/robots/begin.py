@@ -1,0 +1,24 @@
+"""How a match begins: with simulated robots, with real ones, or with one sentence about why not with real ones."""
+
+from collections.abc import Collection, Sequence
+
+from pigaming_app.games.game import Setup
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.mat import NoMat
+from pigaming_app.scenes.match import MatchScene
+from pigaming_app.scenes.press import Device
+from pigaming_app.scenes.stack import Scene
+
+
+def match_of(house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int]) -> Scene:
+    """The match, or the page that says why the robots of the seats `real` cannot be real."""
+    real = [seat for seat in real if setup.seats[seat].brain != "off"]
+    if not real or house.mat is None:
+        return MatchScene(house, setup, devices)
+    from pigaming_app.scenes.robots.match import RealMatch
+    from pigaming_app.scenes.robots.refused import Refused
+
+    try:
+        return RealMatch(house, setup, devices, real, house.mat)
+    except NoMat as trouble:
+        return Refused(house, setup, devices, real, trouble.args[0])

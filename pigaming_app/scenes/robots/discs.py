@@ -1,0 +1,100 @@
+"""What is projected under and round real robots: an even grey disc for the marker, round it what shows whose it is.
+
+Discs are drawn last, at the pose predicted for the moment at which the light lands, and hide all that a game has drawn
+there: hard edges of light across a marker make it unreadable (HARDWARE.md). The lid is 70 mm up and the light comes
+aslant, hence discs twice as wide as the robot.
+"""
+
+import math
+from functools import cache
+
+import pygame
+
+from pigaming_app.hardware.rig import Rig
+from pigaming_app.scenes.ink import GREY, LINE, PLAYERS, THIN, Ink, badge, regular
+from pigaming_app.scenes.mat import LIGHT_AFTER
+from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
+from pigaming_app.scenes.views.ground import LEFT, TOP
+from pigaming_app.sim.plant import Sighting
+
+DISC = 72  # px: 95 mm
+MOAT = 77  # px of black round it
+RING = 83  # px
+BARREL, TIP = (92, 112), 132  # px: from where to where, and the end of the arrow
+ARM = 110  # px to the middle of both
+TAG = 122  # px from a robot to the badge that trails it
+KNOWN = 1.0  # s after which nobody knows where an unseen robot is
+
+
+class Discs:
+    """The discs of a rig's robots."""
+
+    def __init__(self, rig: Rig) -> None:
+        self.rig = rig
+
+    def draw(self, screen: pygame.Surface, robots: set[int]) -> None:
+        """Paint the discs of these robots, as far as they are seen; all light round them first, then the discs."""
+        seen = self.rig.sense(LIGHT_AFTER)
+        there = [(robot, seen[robot]) for robot in sorted(robots) if seen[robot].age < KNOWN + LIGHT_AFTER]
+        for robot, at in there:
+            x, y = LEFT + at.x, TOP + at.y
+            for sprite, dx, dy in (
+                (pointer(robot, step(at.heading, HEADINGS)), 0.0, 0.0),
+                (tag(robot), *_behind(at)),
+                (ring(robot), 0.0, 0.0),
+            ):
+                place = round(x + dx + sprite.dx), round(y + dy + sprite.dy)
+                screen.blit(sprite.image, place, special_flags=pygame.BLEND_PREMULTIPLIED)
+        for _, at in there:
+            image = disc()
+            screen.blit(image, (round(LEFT + at.x) - MOAT, round(TOP + at.y) - MOAT))
+
+
+def _behind(at: Sighting) -> tuple[float, float]:
+    """Where the tag is, from the robot: behind it, or beside it where that would be off the canvas."""
+    for turn in (math.pi, 0.75 * math.pi, 1.25 * math.pi, 0.5 * math.pi, 1.5 * math.pi):
+        dx, dy = TAG * math.cos(at.heading + turn), TAG * math.sin(at.heading + turn)
+        if 40 < LEFT + at.x + dx < 1880 and 40 < TOP + at.y + dy < 1040:
+            break
+    return dx, dy
+
+
+@cache
+def disc() -> pygame.Surface:
+    """The grey disc in its black moat; nothing shines through."""
+    out = pygame.Surface((2 * MOAT, 2 * MOAT), pygame.SRCALPHA)
+    pygame.draw.circle(out, (0, 0, 0, 255), (MOAT, MOAT), MOAT)
+    pygame.draw.circle(out, (*GREY, 255), (MOAT, MOAT), DISC)
+    return out
+
+
+@cache
+def ring(player: int) -> Sprite:
+    """The ring in the player's colour, which hides the ground."""
+    half = RING + 24
+    ink = Ink(2 * half, 2 * half).to(half, half)
+    ink.solid(regular(64, RING + 3)).ring(0, 0, RING, PLAYERS[player], LINE)
+    return trim(ink.sprite(0.9), half, half)
+
+
+@cache
+def pointer(player: int, turn: int) -> Sprite:
+    """Barrel and arrow ahead of a robot at heading `turn` of HEADINGS."""
+    return turned(painted(_pointer, (player,)), turn, HEADINGS, ARM)
+
+
+def _pointer(player: int) -> pygame.Surface:
+    ink, color = master(48, ARM), PLAYERS[player]
+    near, far = BARREL
+    ink.solid([(near - 6, -18), (far, -18), (TIP + 8, 0), (far, 18), (near - 6, 18)])
+    ink.line([(near - 6, -9), (far, -7)], color, THIN).line([(near - 6, 9), (far, 7)], color, THIN)
+    return ink.neon([(far - 6, -15), (TIP, 0), (far - 6, 15)], color, LINE).sprite(0.8)
+
+
+@cache
+def tag(player: int) -> Sprite:
+    """The badge of a player on black."""
+    ink = Ink(96, 96).to(48, 48)
+    ink.solid(regular(40, 32))
+    badge(ink, player, 0, -4 if player == 1 else 0, 24)
+    return trim(ink.sprite(0.5), 48, 48)

@@ -1,0 +1,139 @@
+"""Take your places: where real robots shall stand, how they get there, and what has to be done by hand.
+
+The mat stays dark but for outlines, arrows and discs, so that markers are found that nobody has seen yet.
+"""
+
+import math
+from functools import cache, lru_cache
+from typing import Any
+
+import pygame
+
+from pigaming_app.hardware.homing import Place
+from pigaming_app.hardware.mixed import MixedPlant
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
+from pigaming_app.scenes.page import stamp, text
+from pigaming_app.scenes.pane import Lit, Pane
+from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.robots.discs import MOAT, RING, pointer, tag
+from pigaming_app.scenes.robots.trouble import named, shown
+from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, turned
+from pigaming_app.scenes.views.ground import LEFT, TOP
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+UNSEEN = 1e6  # px: so far away is a robot that nobody sees
+DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
+TITLE_Y, HINTS_Y = 48, 108  # px
+BESIDE = 150  # px from an outline to what is said about it
+MISSING = 1.5  # s until it is said that a robot is not seen
+
+
+class Gathering:
+    """What is shown while the robots of a plant take their places in a match's state."""
+
+    DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
+
+    def __init__(self, house: House, state: Any, plant: MixedPlant) -> None:
+        self.house, self.state, self.plant = house, state, plant
+        self.clock = 0.0
+        self.prompts = Prompts(
+            house, [(Act.FIRE, "mat.hint_begin"), (Act.START, "pause.hint_menu"), (Act.BACK, "mat.hint_leave")],
+            HINTS_Y, 1500,
+        )  # fmt: skip
+
+    def update(self, seconds: float) -> None:
+        """Let the arrows march."""
+        self.clock += seconds
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint outlines, ways and what has to be done; the discs come on top of it."""
+        words, places = self.house.words, self.plant.places
+        screen.fill((0, 0, 0))
+        frame().draw(screen)
+        seen = self.plant.rig.sense()
+        for place in places:
+            self._outline(screen, place)
+            if not place.there and place.distance < UNSEEN:
+                self._way(screen, place, (LEFT + seen[place.robot].x, TOP + seen[place.robot].y))
+        for place in places:
+            self._said(screen, place)
+        there = sum(place.there for place in places)
+        text(words("mat.places"), LABEL, ICE, "head", "l", 900).draw(screen, 176, TITLE_Y)
+        if places:
+            told = words("mat.there", there=there, all=len(places))
+            text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
+        self.prompts.draw(screen)
+        faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in ("lost", "outside")]
+        if faults:
+            sentence = named(faults[0], words, "")
+            shown(sentence, ALARM).draw(screen, 960, 206)
+
+    def _outline(self, screen: pygame.Surface, place: Place) -> None:
+        x, y, heading = place.pose
+        color = place.robot
+        level = 8 if place.there else round(6 + 2 * math.cos(math.tau * self.clock))
+        outline(color, place.there).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
+        stamp(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
+        if place.distance > 2 * MOAT:
+            stamp(screen, tag(color), LEFT + x, TOP + y)
+
+    def _way(self, screen: pygame.Surface, place: Place, at: tuple[float, float]) -> None:
+        """Dashes that march from a robot to its place."""
+        goal = LEFT + place.pose[0], TOP + place.pose[1]
+        turn = math.atan2(goal[1] - at[1], goal[0] - at[0])
+        along, end = RING + 20.0 + self.clock * MARCH % DASH, math.dist(at, goal) - RING - 16.0
+        while along < end:
+            stamp(
+                screen,
+                dash(place.robot, step(turn, HEADINGS), place.moving),
+                at[0] + along * math.cos(turn),
+                at[1] + along * math.sin(turn),
+            )
+            along += DASH
+
+    def _said(self, screen: pygame.Surface, place: Place) -> None:
+        """What has to be done with a robot that does not get there by itself."""
+        words, robot = self.house.words, place.robot
+        if place.there or place.moving or self.clock < MISSING:
+            return
+        key = "mat.carry" if place.distance > UNSEEN else "mat.waits"
+        sheet = plate(words(key, robot=robot + 1), PLAYERS[robot], size=BODY, player=robot)
+        margin = LEFT + 12 + sheet.width / 2
+        x = min(max(LEFT + place.pose[0], margin), 1920 - margin)
+        y = TOP + place.pose[1]
+        sheet.draw(screen, x, y + (BESIDE if y < TOP + HEIGHT / 2 else -BESIDE))
+
+
+@cache
+def frame() -> Lit:
+    """The rim of the arena, dim."""
+    pane = Pane(LEFT, TOP, WIDTH, HEIGHT)
+    pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
+    return pane.done()
+
+
+@lru_cache(maxsize=8)
+def outline(player: int, there: bool) -> Lit:
+    """Where a robot shall stand, round (0, 0): dashed, and whole once it is there."""
+    half = RING + 24
+    ink = Ink(2 * half, 2 * half).to(half, half)
+    if there:
+        ink.ring(0, 0, RING, PLAYERS[player], LINE)
+    else:
+        points = [(RING * math.cos(i * math.tau / 64), RING * math.sin(i * math.tau / 64)) for i in range(64)]
+        ink.dashes(points, PLAYERS[player], LINE, 24, 16)
+    return Lit(ink.lit(0.8), (-half, -half))
+
+
+@cache
+def dash(player: int, turn: int, moving: bool) -> Sprite:
+    """A tip of an arrow at heading `turn` of HEADINGS."""
+    return turned(painted(_dash, (player, moving)), turn, HEADINGS)
+
+
+def _dash(player: int, moving: bool) -> pygame.Surface:
+    color = PLAYERS[player] if moving else dim(MIST, 0.7)
+    return master(24).line([(-8, -12), (6, 0), (-8, 12)], color, LINE).sprite(0.5)

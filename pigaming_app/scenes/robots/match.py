@@ -1,0 +1,199 @@
+"""A match with real robots: they take their places, the match waits for whatever goes wrong with them, and any of them
+can be handed to a simulated one and back.
+"""
+
+import logging
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
+
+import pygame
+
+from pigaming_app.games.game import Setup
+from pigaming_app.hardware.mixed import MixedPlant
+from pigaming_app.hardware.safety import Does, Fault
+from pigaming_app.scenes.countdown import Countdown
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import ALARM
+from pigaming_app.scenes.mat import Mat
+from pigaming_app.scenes.match import LEAD, NOTICE, MatchScene, new_seed
+from pigaming_app.scenes.pace import Pace
+from pigaming_app.scenes.pause import Pause
+from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.reconnect import Reconnect
+from pigaming_app.scenes.robots.discs import Discs
+from pigaming_app.scenes.robots.gathering import Gathering
+from pigaming_app.scenes.robots.swap import SwapPage
+from pigaming_app.scenes.robots.trouble import Trouble, named
+from pigaming_app.scenes.stack import Home, Pop, Push, Scene, Turn
+from pigaming_app.scenes.words import Words
+
+IDLE = 180.0  # seconds without a press while robots take their places, until the title
+TOLD = ("low", "drifts")  # what is only said
+
+log = logging.getLogger("pigaming")
+
+
+class RealMatch(MatchScene):
+    """A match in which the robots of the seats `real` are real ones. Raises NoMat where they cannot be used."""
+
+    def __init__(
+        self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: Mat
+    ) -> None:
+        rig = mat.open()
+        chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
+        self.mat = mat
+        super().__init__(house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen))
+        plant = self.match.plant
+        assert isinstance(plant, MixedPlant)
+        self.plant = plant
+        self.discs = Discs(rig)
+        self.gathering: Gathering | None = Gathering(house, self.match.state, plant)
+        self.waiting = Pace()  # ticks in which all wait
+        self.logged: set[tuple[str, int | None]] = set()
+        self._dressed()
+
+    @property
+    def real(self) -> set[int]:
+        """The seats whose robots are real, or will be once they have taken their places."""
+        return self.plant.real | self.plant.arriving
+
+    def entered(self) -> None:
+        """Begin, or go on after an interruption."""
+        if self.gathering is None:
+            super().entered()
+        else:
+            self.house.sounds.music(True)
+            self.begun = True
+
+    def left(self) -> None:
+        """Stop the robots; let go of camera and radio."""
+        self.mat.close()
+
+    def on(self, press: Press) -> Turn:
+        """As in every match; STOP stops all robots. While places are taken, FIRE begins as they stand, BACK leaves."""
+        if press.act is Act.STOP and not self.match.over:
+            self.plant.safety.all_stop()
+            self.plant.watch()
+            return Push(Trouble(self))
+        if self.gathering is None:
+            return super().on(press)
+        press = self.gathering.prompts.meant(press)
+        if press.act is Act.FIRE and self.gathering.clock > self.gathering.DEAF:
+            self.plant.accept_places()
+            self._begin()
+        elif press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        elif press.act is Act.START:
+            return Push(Pause(self, press.device))
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the match run on, unless something is wrong with a robot in it."""
+        if self.repeated or self.stopped:
+            return super().update(seconds)
+        self.mat.advance(seconds)
+        if self.gathering is not None:
+            return self._gather(self.gathering, seconds)
+        if self.plant.safety.pauses and not self.match.over:
+            return Push(Trouble(self))
+        if self.count.locked or self.match.over:
+            self._rest(seconds)
+        turn = super().update(seconds)
+        self._tell()
+        return turn
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The match or the places; the discs last of all."""
+        if self.gathering is None:
+            super().draw(screen)
+        else:
+            self.gathering.draw(screen)
+        self.shine(screen)
+
+    # ---- what the pages above it may do
+
+    @property
+    def extras(self) -> Mapping[str, Callable[[], Scene]]:
+        """Which robots are real can be changed in a pause."""
+        return {"robots": lambda: SwapPage(self)}
+
+    def hold(self, seconds: float) -> None:
+        """Let time pass under a page: all robots stand, and faults come and go."""
+        self.mat.advance(seconds)
+        self._rest(seconds)
+
+    def shine(self, screen: pygame.Surface) -> None:
+        """The discs, over everything."""
+        self.discs.draw(screen, self.real)
+
+    def swap(self, seat: int, real: bool) -> None:
+        """Hand a seat to its simulated or its real robot; that one takes its place first."""
+        if real == (seat in self.real):
+            return
+        self.plant.swap(seat, real)
+        if self.plant.arriving:
+            self.gathering = Gathering(self.house, self.match.state, self.plant)
+        self._dressed()
+
+    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+        """The same match with other luck and the same robots."""
+        from pigaming_app.scenes.robots.begin import match_of
+
+        self.mat.close()
+        return match_of(house, replace(setup, seed=new_seed()), devices, self.real)
+
+    # ---- inside
+
+    def _gather(self, gathering: Gathering, seconds: float) -> Turn:
+        """Drive the robots to their places."""
+        if lost := self.lost:
+            return Push(Reconnect(self, lost[0]))
+        gathering.update(seconds)
+        next(self.signs, None)
+        self.stage.warm(4.0)
+        for _ in range(self.waiting.due(seconds)):
+            if self.plant.take_places():
+                self._begin()
+                break
+        self._tell()
+        if self.plant.safety.stopped:
+            return Push(Trouble(self))
+        return Home() if self.house.idle > IDLE else None
+
+    def _begin(self) -> None:
+        """All are where they begin, or may begin where they are."""
+        self.gathering = None
+        self.count = Countdown(lead=LEAD)
+        self.idle = 0.0
+        self.house.sounds.play("ready", 0)
+        self._dressed()
+
+    def _rest(self, seconds: float) -> None:
+        """All robots stand."""
+        for _ in range(self.waiting.due(seconds)):
+            self.plant.watch()
+        self._tell()
+
+    def _dressed(self) -> None:
+        """The view and the tracker know which robots are real."""
+        self.stage.view.real = frozenset(self.real)
+        self.plant.rig.tracker.expected = self.real
+
+    def _tell(self) -> None:
+        """Write what is newly wrong into the log; what is only said, over the match."""
+        now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
+        for key in now.keys() - self.logged:
+            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, ""), self.mat.trouble))))
+            if now[key].name in TOLD:
+                said = named(now[key], self.house.words, "")
+                self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE
+        self.logged = set(now)
+
+    def _worth(self, fault: Fault) -> bool:
+        """A robot that is hard to see for a moment is not worth a line."""
+        return fault.does is not Does.HALF and (fault.pauses or fault.name in TOLD)
+
+
+ENGLISH = Words("en")

@@ -1,0 +1,79 @@
+"""Why a match cannot have real robots, in one sentence; try again, or play with simulated ones."""
+
+from collections.abc import Collection, Sequence
+
+import pygame
+
+from pigaming_app.games.game import Setup
+from pigaming_app.scenes.calibration.telling import tell
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import ALARM, ICE
+from pigaming_app.scenes.match import MatchScene
+from pigaming_app.scenes.overlay import HEAD, PROMPTS, W, overlay
+from pigaming_app.scenes.pane import Pane, backdrop
+from pigaming_app.scenes.pause import title
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.robots.signs import sign
+from pigaming_app.scenes.robots.trouble import ICON, write
+from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
+
+IDLE = 90.0  # seconds without a press until the title
+
+
+class Refused:
+    """The page. `sentence`: why."""
+
+    def __init__(
+        self,
+        house: House,
+        setup: Setup,
+        devices: Sequence[Device | None],
+        real: Collection[int],
+        sentence: str,
+    ) -> None:
+        self.house, self.setup, self.devices, self.real, self.sentence = house, setup, devices, real, sentence
+        self.picture: pygame.Surface | None = None
+        self.prompts = Prompts(
+            house,
+            [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")],
+            PROMPTS,
+            W - 80,
+        )
+
+    def entered(self) -> None:
+        """Let it be heard."""
+        self.house.sounds.play("error")
+
+    def on(self, press: Press) -> Turn:
+        """FIRE plays with simulated robots, EXTRA tries again, BACK leaves."""
+        press = self.prompts.meant(press)
+        if press.act in (Act.FIRE, Act.START):
+            self.house.sounds.play("accept")
+            return Swap(MatchScene(self.house, self.setup, self.devices))
+        if press.act is Act.EXTRA:
+            from pigaming_app.scenes.robots.begin import match_of
+
+            return Swap(match_of(self.house, self.setup, self.devices, self.real))
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Leave when nobody is there."""
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page."""
+        if self.picture is None:
+            self.picture = overlay(backdrop(), ALARM, self._paint)
+        screen.blit(self.picture, (0, 0))
+        self.prompts.draw(screen)
+
+    def _paint(self, pane: Pane) -> None:
+        words = self.house.words
+        title(pane, None, words("mat.refused"), ICE)
+        sign(pane.hot, "robot", *ICON, 76, ALARM)
+        y = write(pane, tell(words, self.sentence), HEAD + 56, ICE)
+        write(pane, words("mat.anyway"), y + 16, ICE)
