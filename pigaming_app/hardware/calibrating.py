@@ -4,6 +4,7 @@ Each is a Worker: it opens the camera, works bit by bit, and lets go of it. What
 `board` or `place`; whoever projects it says so (`shown`), and only pictures taken well after that count.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from enum import Enum, auto
 from math import inf
@@ -11,6 +12,7 @@ from math import inf
 import numpy as np
 
 from pigaming_app.hardware.boards import BOARD, FRAMES, HELD_OUT, Board, Look
+from pigaming_app.hardware.drift import Drift
 from pigaming_app.hardware.ground import Ground, NoGround
 from pigaming_app.hardware.markers import ROBOT_IDS, Markers, NoVision
 from pigaming_app.hardware.place import hung, stood
@@ -103,6 +105,35 @@ class Preview(_Looking):
     def idle(self, seconds: float, trouble: str | None) -> None:
         if seconds > 1.0:
             self.trouble = trouble or NO_PICTURE
+
+
+class Checking(_Looking):
+    """Whether a calibration still holds: how far the four corner markers are from where it says that they are seen.
+
+    `load` makes the ground for a camera with pictures of so many px, or raises NoGround.
+    """
+
+    def __init__(self, site: Site, number: int, load: Callable[[tuple[int, int]], Ground]) -> None:
+        super().__init__(site, number)
+        self.drift: Drift | None = None
+        self.mm: float | None = None  # None: not yet known
+        self._load = load
+
+    def look(self, frame: Frame) -> None:
+        if self.trouble is not None:
+            return
+        try:
+            if self.drift is None:
+                self.drift = Drift(self._load((frame.image.shape[1], frame.image.shape[0])))
+        except NoGround as trouble:
+            self.give_up(said(trouble))
+            return
+        self.drift.see(frame)
+        self.mm = self.drift.mm or None  # exactly 0: none has been seen often enough
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        if seconds > BLIND:
+            self.give_up(trouble or NO_PICTURE)
 
 
 class Stage(Enum):

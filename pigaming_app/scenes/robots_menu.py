@@ -19,7 +19,7 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 from pigaming_app.settings import folders
 
-ROWS = ("calibrate", "pin", "sheet")
+ROWS = ("calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
 SAID = 8.0  # seconds for which a sentence stays
 IDLE = 300.0  # seconds without a press until the title
@@ -78,6 +78,7 @@ class RobotsMenu:
         self.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:
+        from pigaming_app.scenes.calibration.check import CheckPage
         from pigaming_app.scenes.calibration.page import CalibrationPage
         from pigaming_app.scenes.calibration.pin import PinPage
 
@@ -85,6 +86,8 @@ class RobotsMenu:
         match name:
             case "calibrate":
                 return Push(CalibrationPage(self.house))
+            case "check":
+                return Push(CheckPage(self.house))
             case "pin":
                 return Push(PinPage(self.house))
         self._write()
@@ -122,6 +125,11 @@ def sketch(name: str) -> Lit:
         ink.line([(-150, 60), (150, 60), (196, 146), (-196, 146)], ICE, LINE, True)
         for x, y in ((-90, 102), (0, 102), (90, 102)):
             ink.line(cut(x - 16, y - 14, 32, 28, 4), FOCUS, THIN, True)
+    elif name == "check":
+        ink.line(cut(-176, -110, 352, 220, 12), STEEL, THIN, True)
+        for x, y in ((-140, -76), (140, -76), (140, 76), (-140, 76)):
+            ink.line(cut(x - 22, y - 22, 44, 44, 4), FOCUS, LINE, True)
+        ink.line([(-50, 4), (-14, 38), (56, -36)], ICE, 12)
     elif name == "pin":
         ink.line(cut(-170, -110, 340, 220, 12), STEEL, THIN, True)
         points = [(-150, -120), (176, -92), (150, 118), (-182, 96)]

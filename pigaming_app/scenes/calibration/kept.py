@@ -6,7 +6,6 @@ from pigaming_app.hardware.ground import Ground, NoGround, read, written
 from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.site import Site
 from pigaming_app.keeping import keep
-from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.settings import folders
 
 NONE = Said("There is no calibration yet: calibrate the camera.", "none")
@@ -17,15 +16,15 @@ def path(site: Site) -> Path:
     return folders().config / ("calibration.toml" if site.name == "real" else f"calibration-{site.name}.toml")
 
 
-def load(canvas: Canvas, site: Site, camera: tuple[int, int]) -> Ground:
-    """The calibration for this display and a camera with pictures of so many px. Raises NoGround."""
+def load(projection: str, site: Site, camera: tuple[int, int]) -> Ground:
+    """The calibration for this `Canvas.projection` and a camera with pictures of so many px. Raises NoGround."""
     try:
         text = path(site).read_text(encoding="utf-8")
     except FileNotFoundError:
         raise NoGround(NONE) from None
     except (OSError, ValueError) as error:
         raise NoGround(Said(f"{path(site)} cannot be read ({error}): calibrate again.", "damaged")) from error
-    return read(text, canvas.projection, camera)
+    return read(text, projection, camera)
 
 
 def save(ground: Ground, site: Site) -> None:

@@ -15,6 +15,7 @@ from pigaming_app.scenes.calibration.telling import paragraph, tell
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, FOCUS, LABEL, MIST
+from pigaming_app.scenes.mat import NoMat
 from pigaming_app.scenes.options import Value
 from pigaming_app.scenes.page import blacked, calling, heading, text
 from pigaming_app.scenes.pane import backdrop
@@ -37,7 +38,10 @@ log = logging.getLogger("pigaming")
 
 def site_of(house: House) -> Site:
     """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
-    site: Site | None = getattr(getattr(house, "mat", None), "site", None)
+    try:
+        site: Site | None = getattr(house.mat, "site", None)
+    except NoMat:
+        site = None  # without OpenCV there is nothing; the page says so
     return site or RealSite()
 
 
@@ -152,7 +156,7 @@ class CalibrationPage:
         """Whether there is a calibration for this camera and display."""
         self._state_of, words = size, self.house.words
         try:
-            ground = kept.load(self.house.canvas, self.site, size)
+            ground = kept.load(self.house.canvas.projection, self.site, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
         except NoGround as trouble:
             self.state = tell(words, said(trouble))
@@ -232,9 +236,8 @@ class CalibrationPage:
     def _look(self) -> None:
         """Look through the camera that is chosen, once the one before is free."""
         before, self._state_of = self.preview, (0, 0)
-        mat = getattr(self.house, "mat", None)
-        if mat is not None:
-            mat.close()
+        if self.house.mat is not None:
+            self.house.mat.close()
         if before is not None:
             before.close()
         self.preview = Preview(self.site, self.number)
