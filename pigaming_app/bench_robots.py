@@ -9,21 +9,24 @@ counts.
 from collections.abc import Callable
 from concurrent.futures import Future, ProcessPoolExecutor
 from multiprocessing import get_context
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from pigaming_app.ai import make
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.hardware import proving
+from pigaming_app.hardware import emergencies, proving
+from pigaming_app.hardware.emergencies import EMERGENCIES, Stopped
 from pigaming_app.hardware.emulator.radio import Air
+from pigaming_app.hardware.ground import NoGround
 from pigaming_app.hardware.plant import RealPlant
-from pigaming_app.hardware.proving import EMERGENCIES, Followed, Masher, Played, Stopped, Trail
+from pigaming_app.hardware.proving import Followed, Masher, Played, Trail
 from pigaming_app.hardware.solver import Residuals
 from pigaming_app.hardware.testbed import Bed
 from pigaming_app.sim.world import ROBOTS
 
+Found = TypeVar("Found")
 RATES = (30.0, 60.0)  # pictures a second
 SECONDS = 20.0  # for which robots are followed
 MATCHES, MINUTES = 10, 2.0
@@ -59,13 +62,13 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
     """All figures by name; `note` is told what was found on the way. Raises Unproven."""
     with ProcessPoolExecutor(2, get_context("spawn")) as pool:
         followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
-        stopped = {fps: pool.submit(emergencies, int(fps), fps) for fps in RATES}
+        stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
         played = [(job, pool.submit(on_mat, job)) for job in jobs()]
         tracks = _noted(followed, note)
         stops = _stops(stopped, note)
         entries = [_entry(job, future, note) for job, future in played]
-        boards = [future.result() for future in calibrated]
+        boards = [_of(future, "calibrating") for future in calibrated]
     stops["kill -9"] = _killed(note)
     return {
         "pose_rmse_mm": max(run.rmse_mm for run in tracks),
@@ -124,17 +127,17 @@ def calibration(seed: int) -> Residuals:
     return Bed(seed, RATES[0]).residuals
 
 
-def emergencies(seed: int, fps: float) -> dict[str, Stopped]:
+def all_emergencies(seed: int, fps: float) -> dict[str, Stopped]:
     """Everything that can go wrong, one after the other, to different robots."""
     _alone()
     bed = Bed(seed, fps)
     bed.find()
     trail = Trail(bed)
-    stops = {name: proving.stop(trail, name, i % ROBOTS) for i, name in enumerate(EMERGENCIES)}
+    stops = {name: emergencies.stop(trail, name, i % ROBOTS) for i, name in enumerate(EMERGENCIES)}
     return {
         **stops,
-        "program hangs": Stopped(proving.hang(trail), True),
-        "program ends": Stopped(proving.leave(trail), True),
+        "program hangs": Stopped(emergencies.hang(trail), True),
+        "program ends": Stopped(emergencies.leave(trail), True),
     }
 
 
@@ -148,7 +151,7 @@ def _alone() -> None:
 def _noted(followed: dict[tuple[float, int], Future[Followed]], note: Callable[[str], None]) -> list[Followed]:
     tracks = []
     for (fps, seed), future in followed.items():
-        run = future.result()
+        run = _of(future, f"tracking at {fps:.0f} fps, seed {seed}")
         tracks.append(run)
         note(
             f"tracked at {fps:.0f} fps, seed {seed}: {run.rmse_mm:.2f} mm, {run.rmse_deg:.2f} deg, "
@@ -161,7 +164,7 @@ def _stops(stopped: dict[float, Future[dict[str, Stopped]]], note: Callable[[str
     """Seconds by what went wrong. Raises Unproven when the game did not say what happened."""
     stops = {}
     for fps, future in stopped.items():
-        for name, run in future.result().items():
+        for name, run in _of(future, f"emergencies at {fps:.0f} fps").items():
             note(f"{name} at {fps:.0f} fps: motors stood after {1e3 * run.seconds:.0f} ms")
             if not run.said:
                 raise Unproven(f"{name}: the game did not say what had happened")
@@ -170,11 +173,8 @@ def _stops(stopped: dict[float, Future[dict[str, Stopped]]], note: Callable[[str
 
 
 def _entry(job: Job, future: Future[Played], note: Callable[[str], None]) -> float:
-    """How deep a robot got into a wall, mm. Raises Unproven when the match did not end."""
-    try:
-        run = future.result()
-    except RuntimeError as reason:
-        raise Unproven(f"{job.game} in {job.arena}, seed {job.seed}: {reason}") from reason
+    """How deep a robot got into a wall, mm."""
+    run = _of(future, f"{job.game} in {job.arena}, seed {job.seed}")
     note(
         f"{job.game} in {job.arena} at {job.fps:.0f} fps: played to its end in {run.seconds:.0f} s, "
         f"{run.paused:.1f} s of them paused, places taken in {run.places:.0f} s, {run.deepest_mm:.1f} mm into a wall"
@@ -183,10 +183,21 @@ def _entry(job: Job, future: Future[Played], note: Callable[[str], None]) -> flo
 
 
 def _killed(note: Callable[[str], None]) -> float:
+    """Seconds; 0 where it cannot be tried. Raises Unproven."""
     try:
-        seconds = proving.kill(1)
-    except OSError as reason:
+        seconds = emergencies.kill(1)
+    except (OSError, ImportError) as reason:
         note(f"kill -9 was not tried: {reason}")
         return 0.0
+    except RuntimeError as reason:
+        raise Unproven(f"kill -9: {reason}") from reason
     note(f"kill -9: motors stood after {1e3 * seconds:.0f} ms")
     return seconds
+
+
+def _of(future: Future[Found], what: str) -> Found:
+    """What a process found. Raises Unproven where something that must happen did not."""
+    try:
+        return future.result()
+    except (RuntimeError, NoGround) as reason:
+        raise Unproven(f"{what}: {reason}") from reason

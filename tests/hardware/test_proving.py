@@ -6,7 +6,8 @@ pytest.importorskip("cv2")
 
 from pigaming_app.bench_robots import TARGETS, Job, jobs, on_mat, reached
 from pigaming_app.games import GAMES
-from pigaming_app.hardware.proving import EMERGENCIES, Trail, entered, follow, hang, leave, stop
+from pigaming_app.hardware.emergencies import EMERGENCIES, hang, leave, stop
+from pigaming_app.hardware.proving import Trail, entered, follow
 from pigaming_app.hardware.testbed import Bed
 from pigaming_app.sim.world import World
 
