@@ -1,7 +1,8 @@
 """A reflex for brains that learned nothing about being stuck: whoever pushes and gets nowhere lets go for a second.
 
 It stands outside what was learned, and is off in training and in measuring. It drives towards the opponent, round the
-walls; if that was no help the last time, it backs out with some turn.
+walls; if that was no help the last time, it backs out with some turn. Who only stands there and sees nobody for long is
+sent off too, but not by the `classic` rules (no turbo): waiting is part of what was published and measured there.
 """
 
 from typing import Any
@@ -13,12 +14,14 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.navigate import Errand
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.sweep import clear
 from pigaming_app.sim.world import HZ
 
 SOMEWHERE = 20.0  # px that count as having got somewhere
 PATIENCE = round(1.5 * HZ)  # ticks of pushing without getting there
+WAITING = 5 * HZ  # ticks of standing there and seeing nobody
 LETTING_GO = HZ  # ticks
-TOUCH = 2.0 * RADIUS + 12.0  # px between the middles of robots that push each other
+TOUCH = 2.0 * RADIUS + 6.0  # px between the middles of robots that push each other
 
 
 @record
@@ -30,6 +33,7 @@ class Reflex:
     x: float  # where the robot was when it last got somewhere
     y: float
     held_up: int  # ticks since, of pushing
+    waited: int  # ticks since, of standing and seeing nobody
     left: int  # ticks for which it still lets go
     tries: int  # without getting anywhere
     stick: float  # while it backs out
@@ -44,8 +48,8 @@ def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
         return 0
     robot, action = match.robots[seat], match.actions[seat]
     feel(match, robot, opponent, reflex, action, period)
-    if reflex.held_up >= PATIENCE:
-        reflex.left, reflex.held_up = LETTING_GO, 0
+    if reflex.held_up >= PATIENCE or reflex.waited >= WAITING:
+        reflex.left, reflex.held_up, reflex.waited = LETTING_GO, 0, 0
         reflex.tries += 1
         reflex.stick = -1.0 if action.linear > 0.0 else 1.0
         reflex.turn = 2.0 * chance(mind) - 1.0
@@ -63,11 +67,16 @@ def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
 
 @kernel
 def feel(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
-    """Count for how long it has pushed against something that is not its opponent."""
+    """Count for how long it has pushed against something that is not its opponent, or has waited for nobody."""
     dx, dy = robot.x - reflex.x, robot.y - reflex.y
     if dx * dx + dy * dy > SOMEWHERE * SOMEWHERE:
-        reflex.x, reflex.y, reflex.held_up, reflex.tries = robot.x, robot.y, 0, 0
+        reflex.x, reflex.y, reflex.held_up, reflex.waited, reflex.tries = robot.x, robot.y, 0, 0, 0
         return
-    ox, oy = match.robots[opponent].x - robot.x, match.robots[opponent].y - robot.y
-    if reflex.left <= 0 and action.linear != 0.0 and ox * ox + oy * oy > TOUCH * TOUCH:
+    other = match.robots[opponent]
+    dx, dy = other.x - robot.x, other.y - robot.y
+    if reflex.left > 0 or dx * dx + dy * dy < TOUCH * TOUCH:
+        return
+    if action.linear != 0.0:
         reflex.held_up += period
+    elif match.rules.turbo and not clear(match, robot.x, robot.y, other.x, other.y, 0.0):
+        reflex.waited += period
