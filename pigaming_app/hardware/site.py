@@ -42,7 +42,10 @@ class Site(Protocol):
     stepped: bool
     clock: Clock
     settle: float  # s until an opened camera's pictures can be used
-    measures: Measures  # to begin with
+
+    @property
+    def measures(self) -> Measures:
+        """Something to begin with."""
 
     def cameras(self) -> list[Known]: ...
 
