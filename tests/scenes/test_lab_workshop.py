@@ -1,6 +1,5 @@
 """The training beside the frames: it never waits for compiling, goes over to compiled play, and its thread ends."""
 
-import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -99,7 +98,7 @@ class Endless:
 def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(
     shop: Workshop, monkeypatch: pytest.MonkeyPatch, closed: bool
 ) -> None:
-    monkeypatch.setattr(subprocess, "Popen", Endless)
+    monkeypatch.setattr(workshop, "compiler", Endless)
     shop.may_compile = True
     feed(shop, lambda: bool(threads()))
     feed(shop, lambda: shop.compiling)
@@ -123,7 +122,7 @@ def test_where_compiling_fails_plain_training_goes_on(
         def __exit__(self, *_: Any) -> None:
             pass
 
-    monkeypatch.setattr(subprocess, "Popen", Done)
+    monkeypatch.setattr(workshop, "compiler", Done)
     monkeypatch.setattr(workshop, "compile_all", broken)
     shop.may_compile = True
     feed(shop, lambda: not shop.may_compile)

@@ -5,7 +5,9 @@ compiles (in another process), the page gives it some milliseconds of every fram
 nobody feeds it any more, whatever became of the page.
 """
 
+import contextlib
 import logging
+import os
 import subprocess
 import sys
 import threading
@@ -25,6 +27,7 @@ CHUNK = 1500  # ticks in one go when it is as fast as it can; compiled, less tha
 MOST = 4  # frames' worth of ticks that are made up for; what is more is dropped
 HUNGRY = 0.7  # seconds after which a thread that nobody feeds ends
 SLICE = 0.004  # seconds of a frame for plain training
+PATIENCE = 10  # how nice the compiling process is to others
 SWITCH = 0.001  # seconds for which a thread may keep the interpreter from the others
 
 log = logging.getLogger("pigaming")
@@ -158,9 +161,7 @@ class Workshop:
         """Compile in another process, then load what it made and take the training over; false: nobody waits."""
         self.compiling = True
         try:
-            command = [sys.executable, "-m", "pigaming_app.ai.exam"]
-            quiet = subprocess.DEVNULL
-            with subprocess.Popen(command, cwd=PACKAGE.parent, stdin=quiet, stdout=quiet, stderr=quiet) as process:
+            with compiler() as process:
                 while (code := process.poll()) is None:
                     if not self._wanted:
                         process.kill()
@@ -196,3 +197,16 @@ class Workshop:
                 progress.note()
             if self.speed < FASTEST:
                 sleep(max(0.0, 1 / HZ - (perf_counter() - now)))
+
+
+def compiler() -> subprocess.Popen[bytes]:
+    """A process that compiles into numba's folder, out of the way of everything else."""
+    command = [sys.executable, "-m", "pigaming_app.ai.exam"]
+    quiet, hidden = subprocess.DEVNULL, getattr(subprocess, "CREATE_NO_WINDOW", 0)  # a flag that only Windows has
+    process = subprocess.Popen(
+        command, cwd=PACKAGE.parent, stdin=quiet, stdout=quiet, stderr=quiet, creationflags=hidden
+    )
+    if hasattr(os, "setpriority"):  # not on Windows
+        with contextlib.suppress(OSError):
+            os.setpriority(os.PRIO_PROCESS, process.pid, PATIENCE)
+    return process
