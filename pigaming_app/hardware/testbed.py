@@ -8,18 +8,19 @@ from time import thread_time
 
 import numpy as np
 
-from pigaming_app.hardware.boards import BOARD, HELD_OUT, Board, Look
+from pigaming_app.hardware.boards import BOARD, HELD_OUT
+from pigaming_app.hardware.calibrating import Calibration
 from pigaming_app.hardware.drift import Drift, corner_markers
 from pigaming_app.hardware.emulator.arena import ARENA_AT, SHOWS_AFTER, EmulatedArena
 from pigaming_app.hardware.emulator.camera import Pace
 from pigaming_app.hardware.emulator.optics import CANVAS
 from pigaming_app.hardware.emulator.radio import Air
-from pigaming_app.hardware.ground import Ground
+from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.ground import Ground, NoGround
 from pigaming_app.hardware.link import Link
-from pigaming_app.hardware.place import hung
 from pigaming_app.hardware.rig import UNMEASURED, Rig
 from pigaming_app.hardware.signals import Fix, Frame, Image
-from pigaming_app.hardware.solver import Residuals, solve, verified, verify
+from pigaming_app.hardware.solver import Residuals, verified
 from pigaming_app.hardware.tracker import Tracker
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, ROBOTS
@@ -29,7 +30,6 @@ UNREST = 0.15  # size of the exposure steps
 DELAY = 0.060  # s that pictures are late; with tick, line and air that is 80 ms of dead time
 DISC = 72.0  # px: 95 mm; light from the side falls on a lid 70 mm up as much as 40 mm beside where it would on the mat
 GREY = 128
-RULER = (1.5, 8.0)  # mm by which the operator measures the mat's width and the camera's height wrongly
 QUICK = 30  # pictures between two that are painted whole
 
 
@@ -96,31 +96,20 @@ class Bed:
 
 
 def calibrated(arena: EmulatedArena) -> tuple[Ground, Residuals]:
-    """The ground of an arena, found and verified as the wizard does it; raises NoGround."""
-    rim = arena.optics.mat(np.array([[0.0, 450.0], [1600.0, 450.0]]) + ARENA_AT)
-    width = float(np.hypot(*(rim[1] - rim[0]))) + RULER[0]
-    whole, arena.camera.painter.refresh = arena.camera.painter.refresh, 1
-    seen = _look(arena, BOARD)
-    ground = solve(seen.corners(), BOARD, seen.size, width, "emulated")
-    ground = hung(ground, arena.optics.lens.eye[2] + RULER[1])
-    residuals = verify(ground, _look(arena, HELD_OUT).corners(), HELD_OUT)
-    arena.camera.painter.refresh = whole
-    return verified(ground, residuals), residuals
-
-
-def _look(arena: EmulatedArena, board: Board) -> Look:
-    """Show a board and look at it; the robots are not on the mat yet."""
-    look = Look()
-    arena.project(board.picture())
-    arena.cleared = True
-    arena.advance(0.2)
-    arena.camera.newest()
-    while not look.ready:
-        arena.advance(DT)
-        if frame := arena.camera.newest():
-            look.add(frame)
-    arena.cleared = False
-    return look
+    """The ground of an arena, found and verified as the wizard does it, with its errors. Raises NoGround."""
+    site = EmulatedSite(arena=arena)
+    work = Calibration(site, 0, site.measures, "emulated")
+    pictures = {board: board.picture() for board in (BOARD, HELD_OUT)}
+    while not work.over:
+        if work.board is not None:
+            arena.project(pictures[work.board])
+            work.shown(work.board)
+        site.advance(DT)
+        work.pump()
+    work.close()
+    if work.ground is None or work.residuals is None:
+        raise NoGround(work.trouble)
+    return verified(work.ground, work.residuals), work.residuals
 
 
 def busy_floor(seed: int) -> Image:

@@ -51,13 +51,7 @@ class EmulatedSite:
         self.projector = Projector(self.arena)
         self._live = Live(self.arena).start() if live and arena is None else None
         self._refresh = self.arena.camera.painter.refresh
-
-    @property
-    def measures(self) -> Measures:
-        """What somebody with a ruler finds."""
-        rim = self.arena.optics.mat(np.array([[0.0, 450.0], [1600.0, 450.0]]) + ARENA_AT)
-        width, height = float(np.hypot(*(rim[1] - rim[0]))), float(self.arena.optics.lens.eye[2])
-        return Measures(round(width + RULER[0]), round(height + RULER[1]))
+        self.measures = _by_ruler(self.arena)
 
     def cameras(self) -> list[Known]:
         """The one that there is."""
@@ -90,3 +84,10 @@ class EmulatedSite:
         """Stop its time."""
         if self._live is not None:
             self._live.close()
+
+
+def _by_ruler(arena: EmulatedArena) -> Measures:
+    """What somebody with a ruler finds."""
+    rim = arena.optics.mat(np.array([[0.0, 450.0], [1600.0, 450.0]]) + ARENA_AT)
+    width, height = float(np.hypot(*(rim[1] - rim[0]))), arena.optics.lens.eye[2]
+    return Measures(round(width + RULER[0]), round(height + RULER[1]))
