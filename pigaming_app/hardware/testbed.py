@@ -23,7 +23,7 @@ from pigaming_app.hardware.signals import Fix, Frame, Image
 from pigaming_app.hardware.solver import Residuals, verified
 from pigaming_app.hardware.tracker import Tracker
 from pigaming_app.sim.plant import Sighting
-from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 MODERATE = Air(loss=0.005, doubled=0.005, broken=0.002)
 UNREST = 0.15  # size of the exposure steps
@@ -65,10 +65,16 @@ class Bed:
         self.show(busy=False)
 
     def find(self) -> None:
-        """Let the tracker find the robots on a dark mat, as while places are taken; then begin."""
-        for _ in range(50):
+        """Let the tracker find the robots on a dark mat, as while places are taken; then show a busy one.
+
+        Raises RuntimeError if that takes more than 10 s.
+        """
+        for _ in range(10 * HZ):
             self.tick()
-        self.show(busy=True)
+            if all(seen.age < 0.2 for seen in self.rig.sense()):
+                self.show(busy=True)
+                return
+        raise RuntimeError("the tracker does not find all robots")
 
     def show(self, busy: bool) -> None:
         """Show a floor as games have them, or a dark one."""
