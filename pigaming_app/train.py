@@ -49,6 +49,9 @@ def train(arguments: argparse.Namespace) -> int:
     _check(arguments)
     course = _begin(arguments)
     points: list[Point] = []
+    if course.fast and not training.cached():
+        print("compiling the training, once", file=sys.stderr)
+    course.warm()
     with _interrupts() as stopped:
         seconds = _train(course, arguments, points, stopped)
         try:
@@ -184,8 +187,8 @@ def _draw_curve(points: list[Point], arguments: argparse.Namespace) -> None:
     figure, (score, seen) = pyplot.subplots(2, 1, figsize=(9, 7), sharex=True, layout="constrained")
     for word, colour in (("wins", "tab:green"), ("ties", "tab:gray"), ("losses", "tab:red")):
         shares = [getattr(point, word) / MEASURED if point.matches else float("nan") for point in points]
-        score.plot(matches, shares, color=colour, marker="o", label=word)
-    score.set(title=f"Reward {arguments.reward}, seed {arguments.seed}", ylabel="share against the FSM", ylim=(0, 1))
+        score.plot(matches, shares, color=colour, marker="o", label=f"{word} against the FSM")
+    score.set(title=f"Reward {arguments.reward}, seed {arguments.seed}", ylabel="share", ylim=(-0.03, 1.03))
     score.legend()
     seen.plot(matches, [point.states for point in points], color="tab:blue", marker="o", label="states visited")
     seen.set(xlabel="matches of self-play", ylabel="states visited")

@@ -109,6 +109,10 @@ class Training:
             ticks -= int(self.match.tick) - before
         self._seen = self._matches.copy() if self.fast else self._matches
 
+    def warm(self) -> None:
+        """Compile now, if that is still to be done, rather than with the first tick."""
+        self.loop(self._matches, self._ones, self._twos, self._tables, 0)
+
     def look(self) -> Any:
         """The match as `run` last left it, a plain record (of plain training: the match itself); only to look at."""
         return unpack(GAMES[GAME].state, self._seen[0]) if self.fast else self._seen[0]
@@ -243,4 +247,4 @@ def contest(
 
 
 if __name__ == "__main__":  # only compiles, so that a training that begins later need not wait
-    Training(Recipe(), 1, fast=True).run(1)
+    Training(Recipe(), 1, fast=True).warm()
