@@ -76,7 +76,7 @@ def _danced(shop: Any, seconds: float) -> list[int]:
         shop.tick()
         stuck = stuck + 1 if plant.safety.pauses else 0
         if stuck > LOST * HZ:
-            raise NotDone(f"The robots cannot drive: {plant.faults[0].name}.")
+            raise NotDone(f"The robots cannot drive. {plant.faults[0]}")
     return present
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from pigaming_app.hardware.homing import Homing, Place
 from pigaming_app.hardware.rig import Rig
-from pigaming_app.hardware.safety import Does, Fault, Safety, Signs
+from pigaming_app.hardware.safety import Does, Fault, Safety
 from pigaming_app.hardware.signals import Wheels
 from pigaming_app.hardware.walls import clipped, coasting, limits
 from pigaming_app.sim.plant import Pose, Sighting, Twist
@@ -106,15 +106,15 @@ class RealPlant:
 
     def _judge(self, seen: Sequence[Sighting]) -> list[Does]:
         """What safety says of every robot."""
-        now, signs = self.rig.clock(), list[Signs | None]()
+        now, outside = self.rig.clock(), dict[int, float]()
         for i, sighting in enumerate(seen):
             inside = 0.0 <= sighting.x <= WIDTH and 0.0 <= sighting.y <= HEIGHT
             left_at = self._left_at[i]
             self._left_at[i] = None if inside or sighting.age > FORGOTTEN else now if left_at is None else left_at
-            outside = max(now - left_at, 1e-3) if (left_at := self._left_at[i]) is not None else 0.0
-            mine = i in self.real and self.world.robots[i].present
-            signs.append(self.rig.signs(i, outside) if mine else None)
-        return self.safety.judge(signs, now)
+            if i in self.real and self.world.robots[i].present:
+                outside[i] = max(now - left_at, 1e-3) if (left_at := self._left_at[i]) is not None else 0.0
+        signs = self.rig.signs(outside)
+        return self.safety.judge([signs.get(i) for i in range(ROBOTS)], now)
 
     def _ahead(self) -> list[Pose]:
         """Where every robot, real or not, comes to rest if it is told to stop now."""
@@ -152,7 +152,7 @@ class RealPlant:
     def _roll(self, robot: int, wheels: Wheels | None, dt: float) -> None:
         """Follow the motors: how fast the robot will go when the next command acts."""
         kinematics = self.rig.kinematics[robot]
-        goal = kinematics.comes_to(wheels) if wheels else REST
+        goal = kinematics.goes(wheels) if wheels else REST
         share = 1.0 - exp(-dt / kinematics.drivetrain.lag)
         linear, angular = self.motion[robot]
         self.motion[robot] = (linear + (goal[0] - linear) * share, angular + (goal[1] - angular) * share)

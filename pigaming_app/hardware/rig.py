@@ -5,6 +5,7 @@
 tracker know.
 """
 
+import logging
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -26,7 +27,10 @@ UNMEASURED = replace(
     NOMINAL, left=replace(NOMINAL.left, deadband=0.03), right=replace(NOMINAL.right, deadband=0.03), dead_time=0.03
 )
 SPARSE = 24  # px between those of a picture that are compared with the one before
+AGAIN = 0.5  # s until the next try after something broke
 PERIOD = 0.005  # s between two looks for a new picture
+
+log = logging.getLogger("pigaming")
 
 
 class Follows(Protocol):
@@ -136,24 +140,29 @@ class Rig:
         """What a robot said last."""
         return self.link.telemetry.get(self.channels[robot])
 
-    def signs(self, robot: int, outside: float) -> Signs:
-        """How things stand with a robot that has been outside the arena for so many seconds.
+    def signs(self, outside: Mapping[int, float]) -> dict[int, Signs]:
+        """How things stand with these robots, which have been outside the arena for so many seconds.
 
         What is said now holds for a tick, so what was seen counts as old as it will be then.
         """
-        now, report, begun = self.clock(), self.telemetry(robot), self._begun
+        now, gone, drift = self.clock(), self.link.trouble is not None, self.drift()
         with self._lock:
-            lost, looked, doubled = self.tracker.lost(robot), self.tracker.looked, robot in self.tracker.doubled()
-        return Signs(
-            picture=now - max(looked, begun) + DT,
-            unseen=lost + DT if looked > now - lost + 1e-6 else 0.0,
-            doubled=doubled,
-            outside=outside,
-            silence=now - (report.heard if report else begun),
-            battery=report.battery if report else Signs().battery,
-            unlinked=self.link.trouble is not None,
-            drift=self.drift(),
-        )
+            looked, doubled = self.tracker.looked, self.tracker.doubled()
+            lost = {robot: self.tracker.lost(robot) for robot in outside}
+        found = {}
+        for robot, seconds in outside.items():
+            report = self.telemetry(robot)
+            found[robot] = Signs(
+                picture=now - max(looked, self._begun) + DT,
+                unseen=lost[robot] + DT if looked > now - lost[robot] + 1e-6 else 0.0,
+                doubled=robot in doubled,
+                outside=seconds,
+                silence=now - (report.heard if report else self._begun),
+                battery=report.battery if report else Signs().battery,
+                unlinked=gone,
+                drift=drift,
+            )
+        return found
 
     def start(self) -> "Rig":
         """Look and talk in threads of their own until close(); the clock must be one of real time."""
@@ -171,8 +180,14 @@ class Rig:
         self.eye.close()
 
     def _run(self) -> None:
-        while not self._closing.wait(PERIOD):
-            self._look()
+        pause = PERIOD
+        while not self._closing.wait(pause):
+            try:
+                self._look()
+                pause = PERIOD
+            except Exception:  # the picture grows old, and robots stop; perhaps the next one can be used
+                log.exception("a picture could not be used")
+                pause = AGAIN
 
     def _look(self) -> None:
         frame = self.eye.newest()

@@ -6,12 +6,19 @@ sign has been good for CALM seconds. Two deadmen stand behind it: the link sends
 the firmware stops robots that hear nothing at all.
 """
 
+import logging
+import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import cache
 from typing import NamedTuple
 
+from pigaming_app import ASSETS
+
 CALM = 0.5  # s for which a sign must be good before its fault is gone
+
+log = logging.getLogger("pigaming")
 
 
 class Does(IntEnum):
@@ -65,6 +72,7 @@ RULES = (
     Rule("low", lambda s: s.battery < 4.4, Does.WARN),
     Rule("drifts", lambda s: s.drift > 5.0, Does.WARN, everyone=True),
 )
+WORTH = {rule.name for rule in RULES if rule.pauses or rule.does is Does.WARN}  # a line in the log
 
 
 class Fault(NamedTuple):
@@ -75,6 +83,17 @@ class Fault(NamedTuple):
     does: Does
     pauses: bool
     since: float  # s
+
+    def __str__(self) -> str:
+        """The reason in English, for the log."""
+        robot = "" if self.robot is None else self.robot + 1
+        return _texts()[self.name].format(robot=robot, button="the button")
+
+
+@cache
+def _texts() -> dict[str, str]:
+    texts = tomllib.loads((ASSETS / "text" / "en.toml").read_text(encoding="utf-8"))
+    return dict(texts["faults"])
 
 
 class Safety:
@@ -102,7 +121,7 @@ class Safety:
         """What holds for each robot, and what is wrong in `faults`. None: not a real robot, or not in the match."""
         real = {robot: sign._replace(stopped=self.stopped) for robot, sign in enumerate(signs) if sign is not None}
         held = [Does.WARN] * len(signs)
-        self.faults = []
+        before, self.faults = self.faults, []
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
                 concerned = list(real) if robot is None else [robot]
@@ -113,6 +132,7 @@ class Safety:
                     held[one] = max(held[one], rule.does)
                 if (rule.name, robot) not in [(fault.name, fault.robot) for fault in self.faults]:
                     self.faults.append(Fault(rule.name, robot, rule.does, rule.pauses, since))
+        _note(before, self.faults)
         return held
 
     def _since(self, rule: Rule, robot: int | None, bad: bool, now: float) -> float | None:
@@ -125,3 +145,14 @@ class Safety:
             return since
         self._bad.pop((rule, robot), None)
         return None
+
+
+def _note(before: Sequence[Fault], now: Sequence[Fault]) -> None:
+    """Say in the log what has come and what has gone; a marker that flickers is not worth a line."""
+    was, faults = ({(one.name, one.robot): one for one in many if one.name in WORTH} for many in (before, now))
+    for key, fault in faults.items():
+        if key not in was:
+            log.warning("%s", fault)
+    for key, fault in was.items():
+        if key not in faults:
+            log.info("No longer: %s", fault)

@@ -13,6 +13,7 @@ from pigaming_app.hardware.drift import Drift
 from pigaming_app.hardware.follower import COAST, Follower
 from pigaming_app.hardware.ground import Ground, Points
 from pigaming_app.hardware.markers import ROBOT_IDS, Markers, Spot, mean_edge, same
+from pigaming_app.hardware.rolling import Wear
 from pigaming_app.hardware.signals import Clock, Fix, Frame, Mark
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
@@ -73,6 +74,10 @@ class Tracker:
     def lost(self, robot: int) -> float:
         """Seconds since a robot was seen and believed; 1e9 if it never was."""
         return self._followers[robot].unseen(self.clock())
+
+    def wear(self, robot: int) -> Wear:
+        """What has been learnt of a robot's wheels."""
+        return self._followers[robot].wear
 
     def doubled(self) -> set[int]:
         """The robots whose marker was lately seen twice in one picture."""

@@ -8,6 +8,7 @@ from math import cos, exp, sin
 
 import numpy as np
 
+from pigaming_app.hardware.kinematics import NEW
 from pigaming_app.hardware.rig import UNMEASURED, Rig
 from pigaming_app.hardware.signals import Fix, Frame, Telemetry
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
@@ -114,6 +115,9 @@ class Mat:
 
     def doubled(self):
         return {i for i, robot in enumerate(self.robots) if robot.doubled}
+
+    def wear(self, robot):
+        return NEW
 
     # the link
     @property
