@@ -89,3 +89,26 @@ def test_figures_are_compared_with_what_they_must_reach():
         "tracker_ms",
         "frames_complete",
     ]
+
+
+@pytest.mark.parametrize("name", ["garbage", "radio_lossy", "exposure_step"])
+def test_robots_drive_on_through_what_is_no_fault(name):
+    bed = Bed(3, 30.0)
+    bed.find()
+    trail = Trail(bed)
+    bed.arena.faults.switch(name, True)
+    for _ in range(100):
+        trail.tick()
+        assert not trail.plant.faults
+    assert max(mm for mm, _ in bed.misses()) < 5.0
+
+
+def test_a_robot_that_was_carried_is_followed_where_it_was_put_down():
+    bed = Bed(3, 30.0)
+    bed.find()
+    trail = Trail(bed)
+    for fault_on in (True, False):
+        bed.arena.faults.switch("carried", fault_on, 2)
+        for _ in range(50):
+            trail.tick()
+    assert max(mm for mm, _ in bed.misses()) < 10.0
