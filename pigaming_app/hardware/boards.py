@@ -83,7 +83,7 @@ class Look:
         """Look at one more picture; how many markers of the board are in it."""
         self.frames += 1
         self.size = (frame.image.shape[1], frame.image.shape[0])
-        marks = self._markers.everywhere(frame.image)
+        marks = self._markers.exact(frame.image, self._markers.everywhere(frame.image))
         for mark in marks:
             self._seen.setdefault(mark.number, []).append(mark.corners)
         return len(marks)

@@ -45,8 +45,8 @@ class Drift:
         if len(found) < len(CORNER_IDS) and frame.captured - self._searched > SEARCH:
             self._searched = frame.captured
             edge = float(np.mean([spot.edge for spot in self._spots.values()]))
-            found += self._markers.glance(frame.image, edge, found)
-        self.note(found)
+            found += self._markers.glance(frame.image, edge, found, dim=False)
+        self.note(self._markers.exact(frame.image, found))
 
     def note(self, marks: list[Mark]) -> None:
         """Take in the corner markers of one picture."""

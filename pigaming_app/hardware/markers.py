@@ -1,4 +1,4 @@
-"""ArUco markers in a picture: whose they are and where their corners are, to a fraction of a pixel.
+"""ArUco markers in a picture: whose they are and where.
 
 Looking near where a marker must be costs a tenth of a millisecond, looking through a small copy of the whole picture
 twenty times that, and through all of it in every way two hundred times: which and when is the tracker's to say.
@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pigaming_app.hardware.edges import refined
 from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.signals import Image, Mark
 
@@ -19,6 +20,7 @@ CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `dr
 READABLE = 19.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
 SMALLEST = 0.5  # scale of a quick look's picture: below, noise is no longer averaged
 NARROW, WIDE = 0.6, 1.6  # an edge is this much of what is expected, at least and at most
+NEAR, FAR = 1.3, 1.6  # what is brighter than so many medians of a region, or of a picture, is dimmed to that
 QUIETLY = {
     "OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT": "1",  # s that a dead camera holds up its reader
     "OPENCV_VIDEOIO_MSMF_ENABLE_HW_TRANSFORMS": "0",  # which take half a minute to open a camera on Windows
@@ -42,7 +44,8 @@ class Spot(NamedTuple):
 class Markers:
     """Finds the markers with these ids. Raises NoVision where OpenCV is missing.
 
-    A number may come twice from every method but `near`: that is for the caller to judge.
+    Their corners are right to a pixel or two before `exact`. A number may come twice from every method but `near`: that
+    is for the caller to judge.
     """
 
     def __init__(self, ids: Iterable[int]) -> None:
@@ -54,15 +57,19 @@ class Markers:
         """All that can be found in the whole picture, in three ways: slow and thorough."""
         return self._look(self._detector((3, 23), 0.03, 4.0), image)
 
-    def glance(self, image: Image, edge: float, known: Sequence[Mark] = ()) -> list[Mark]:
-        """What is found in a small copy of the whole picture, if edges are about so many px, besides what is known."""
+    def glance(self, image: Image, edge: float, known: Sequence[Mark] = (), dim: bool = True) -> list[Mark]:
+        """What is found in a small copy of the whole picture, if edges are about so many px, besides what is known.
+
+        `dim`: look past what is projected across markers; without, past a mat as dark as their black.
+        """
         scale, rate = max(SMALLEST, READABLE / edge), 4.0 * edge / max(image.shape)
-        detector = self._detector((9, 9), NARROW * rate, WIDE * rate)
         if scale > 0.9:
-            return [mark for mark in self._look(detector, image) if not same(mark, known)]
-        small = self._cv.resize(image, None, fx=scale, fy=scale, interpolation=self._cv.INTER_LINEAR)
+            scale, small = 1.0, image
+        else:
+            small = self._cv.resize(image, None, fx=scale, fy=scale, interpolation=self._cv.INTER_LINEAR)
+        detector = self._detector((9, 9), NARROW * rate, WIDE * rate)
         found = []
-        for mark in self._look(detector, small):
+        for mark in self._look(detector, self._dimmed(small, FAR) if dim else small):
             rough = Mark(mark.number, (mark.corners + 0.5) / scale - 0.5)
             if not same(rough, known):
                 x, y = rough.corners.mean(axis=0).tolist()
@@ -77,11 +84,26 @@ class Markers:
             return None
         rate = 4.0 * spot.edge / max(part.shape)
         window = max(5, round(spot.edge / 3.0) | 1)
-        for windows in ((window, window), (3, 3 * window)):
-            for mark in self._look(self._detector(windows, NARROW * rate, WIDE * rate), part):
+        for picture, windows in ((self._dimmed(part, NEAR), (window, window)), (part, (3, 3 * window))):
+            for mark in self._look(self._detector(windows, NARROW * rate, WIDE * rate), picture):
                 if mark.number == number:
                     return Mark(number, mark.corners + np.array((left, top)))
         return None
+
+    def exact(self, image: Image, marks: Sequence[Mark]) -> list[Mark]:
+        """The same markers with their corners right to a few hundredths of a pixel."""
+        corners = np.array([mark.corners for mark in marks]).reshape(-1, 4, 2)
+        found = refined(self._cv, image, corners)
+        return [Mark(mark.number, corner) for mark, corner in zip(marks, found, strict=True)]
+
+    def _dimmed(self, image: Image, medians: float) -> Image:
+        """The picture with nothing in it brighter than so many of its medians.
+
+        What is projected across a marker draws edges on it, but nothing is darker than its black.
+        """
+        sample = image[::4, ::4].reshape(-1)
+        middle = float(np.partition(sample, sample.size // 2)[sample.size // 2])
+        return np.asarray(self._cv.min(image, min(255.0, medians * middle)))
 
     def _look(self, detector: Any, image: Image) -> list[Mark]:
         corners, ids = listed(*detector.detectMarkers(np.ascontiguousarray(image))[:2])
@@ -98,7 +120,6 @@ class Markers:
             wanted.adaptiveThreshWinSizeMin, wanted.adaptiveThreshWinSizeMax = windows
             wanted.adaptiveThreshWinSizeStep = max(1, (windows[1] - windows[0]) // 2)
             wanted.minMarkerPerimeterRate, wanted.maxMarkerPerimeterRate = smallest, largest
-            wanted.cornerRefinementMethod = aruco.CORNER_REFINE_SUBPIX
             self._detectors[key] = aruco.ArucoDetector(aruco.getPredefinedDictionary(aruco.DICT_4X4_50), wanted)
         return self._detectors[key]
 

@@ -21,8 +21,8 @@ from pigaming_app.sim.robots import RADIUS
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
 OUTSIDE = 3.0 * RADIUS  # px outside the arena up to which a marker can be on a robot
-GLANCE = 0.12  # s between quick looks everywhere: robots that appear, markers that come twice
-SEARCH = 0.06  # s between them while one is missing
+GLANCE = 0.1  # s between quick looks everywhere: robots that appear, markers that come twice
+SEARCH = 0.05  # s between them while one is missing
 THOROUGH = 1.0  # s between thorough looks while one is missing
 REMEMBERED = 0.5  # s for which it is known why a marker was refused
 MARGIN, ASTRAY = 8.0, 350.0  # how far from its prediction a marker is looked for: px, and px/s since it was seen
@@ -40,6 +40,7 @@ class Tracker:
         self._followers = [Follower(one, ground.mm) for one in drivetrains or [NOMINAL] * ROBOTS]
         self._refused: dict[tuple[int, str], float] = {}
         self._glanced = self._searched = -inf
+        self._dim = False  # how it looked everywhere the last time
         self._edge = self._expected_edge()
 
     def sent(self, time: float, twists: Sequence[Twist | None]) -> None:
@@ -51,7 +52,7 @@ class Tracker:
         """Correct the robots by a picture; the fixes that were believed."""
         if self.drift is not None:
             self.drift.see(frame)
-        return self.correct(self._find(frame), frame.captured)
+        return self.correct(self._markers.exact(frame.image, self._find(frame)), frame.captured)
 
     def correct(self, marks: Sequence[Mark], captured: float) -> list[Fix]:
         """Correct the robots by the markers of one picture; the fixes that were believed."""
@@ -114,7 +115,8 @@ class Tracker:
         if missing and frame.captured - self._searched > THOROUGH:
             self._searched = frame.captured
             return [mark for mark in self._markers.everywhere(frame.image) if not same(mark, known)]
-        return self._markers.glance(frame.image, self._edge, known)
+        self._dim = not self._dim
+        return self._markers.glance(frame.image, self._edge, known, self._dim)
 
     def _spots(self, time: float) -> dict[int, Spot]:
         """Where in a picture taken then the robots' markers must be, and how large."""
