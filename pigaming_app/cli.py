@@ -8,7 +8,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NoReturn
 
-JOBS = "play, replay, duel, league, train, bench, robots, fidelity, doctor, test"
+from pigaming_app.calibrate import options as calibrate_options
+
+JOBS = "play, replay, duel, league, train, bench, calibrate, robots, fidelity, doctor, test"
 
 
 class Wrong(Exception):
@@ -54,6 +56,7 @@ def parser() -> argparse.ArgumentParser:
     )
     whole.add_argument("--kiosk", action="store_true", help="nobody can leave the arcade")
     whole.add_argument("--display", type=number, help="which display, from 1 on")
+    _mat_options(whole)
     whole.add_argument("--frames", type=number, help=argparse.SUPPRESS)
     jobs = whole.add_subparsers(dest="job", metavar="JOB", parser_class=Parser)
     _play_options(jobs.add_parser("play", help="a match at once"))
@@ -73,6 +76,7 @@ def parser() -> argparse.ArgumentParser:
     bench = jobs.add_parser("bench", help="how fast it all is here")
     bench.add_argument("game", nargs="?", default="pitanks", help="a game, or `robots`: the proof of the robot loop")
     bench.add_argument("--json", action="store_true")
+    calibrate_options(jobs.add_parser("calibrate", help="bring picture, mat and camera together"))
     robots = jobs.add_parser("robots", help="which robots, radios and cameras are there, and how well")
     robots.add_argument("--pair", action="store_true", help="spin each robot in turn: who is who?")
     robots.add_argument("--latency", action="store_true", help="shake each robot: how late is it all?")
@@ -128,9 +132,34 @@ def _play_options(play: argparse.ArgumentParser) -> None:
     play.add_argument("--record", type=Path, help="write a replay")
     play.add_argument("--screenshot", type=Path, help="save a picture (PNG)")
     play.add_argument("--at", type=float, default=5.0, help="after so many seconds of the match")
+    play.add_argument("--real", help="seats with real robots, such as 1,3, or all")
+    _mat_options(play)
     play.add_argument("--kiosk", action="store_true")
     play.add_argument("--display", type=number)
     play.add_argument("--json", action="store_true", help="print the result as one JSON object")
+
+
+def _mat_options(job: argparse.ArgumentParser) -> None:
+    told = "real robots in an emulated arena; a second window shows what its camera sees"
+    job.add_argument("--emulate", type=int, nargs="?", const=1, metavar="SEED", help=told)
+    job.add_argument("--camera", type=int, metavar="NUMBER", help="over the mat; this and what follows is kept")
+    job.add_argument("--port", help="of the radio; empty: the first there is")
+    job.add_argument("--baud", type=int, help="of the radio")
+    job.add_argument("--radio", metavar="MODE", help="api2, api1, transparent, or stock: a robot on a cable")
+
+
+def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The settings of camera and radio that were given. Raises Wrong for a value that does not fit."""
+    from pigaming_app.settings import Settings
+
+    given = {name: getattr(arguments, name) for name in ("camera", "port", "baud", "radio")}
+    given = {name: value for name, value in given.items() if value is not None}
+    for name, value in given.items():
+        try:
+            Settings().choose(name, value)
+        except ValueError as wrong:
+            raise Wrong(f"--{wrong}") from None
+    return given
 
 
 def _duel_options(job: argparse.ArgumentParser) -> None:
@@ -173,14 +202,16 @@ def arcade(arguments: argparse.Namespace) -> int:
     """The arcade itself."""
     from pigaming_app.scenes.app import Options
 
-    return _open(Options(kiosk=arguments.kiosk, display=_display(arguments), frames=arguments.frames))
+    display, chosen = _display(arguments), mat_settings(arguments)
+    frames, emulate = arguments.frames, arguments.emulate
+    return _open(Options(kiosk=arguments.kiosk, display=display, frames=frames, emulate=emulate, chosen=chosen))
 
 
 def play(arguments: argparse.Namespace) -> int:
     """A match at once, on the screen or without one."""
     from pigaming_app import playing
 
-    return playing.play(arguments, goal(arguments), _open, Wrong)
+    return playing.play(arguments, goal(arguments), mat_settings(arguments), _open, Wrong)
 
 
 def replay(arguments: argparse.Namespace) -> int:
@@ -282,6 +313,16 @@ def _bench_robots(quiet: bool) -> dict[str, Any]:
     return figures
 
 
+def calibrate(arguments: argparse.Namespace) -> int:
+    """Bring picture, mat and camera together."""
+    from pigaming_app.calibrate import NotCalibrated, run
+
+    try:
+        return run(arguments, _open)
+    except NotCalibrated as trouble:
+        raise Wrong(str(trouble)) from None
+
+
 def robots(arguments: argparse.Namespace) -> int:
     """What is there of real robots."""
     from pigaming_app.robots import NotThere, run
@@ -332,6 +373,7 @@ JOB = {
     "league": league,
     "train": train,
     "bench": bench,
+    "calibrate": calibrate,
     "robots": robots,
     "fidelity": fidelity,
     "doctor": doctor,

@@ -20,8 +20,17 @@ FASTEST = 64.0  # times real time that a window shows
 WATCHED = 150  # ticks before a picture in which shots, sparks and treads of it begin
 
 
-def play(arguments: argparse.Namespace, goal: int | None, show: Callable[[Any], int], wrong: type[Exception]) -> int:
-    """Play what the command line asked for; `show` opens the arcade, `wrong` is raised for a bad value."""
+def play(
+    arguments: argparse.Namespace,
+    goal: int | None,
+    chosen: dict[str, Any],
+    show: Callable[[Any], int],
+    wrong: type[Exception],
+) -> int:
+    """Play what the command line asked for; `show` opens the arcade, `wrong` is raised for a bad value.
+
+    `chosen`: settings of camera and radio.
+    """
     teams = None
     if arguments.teams is not None:
         try:
@@ -36,9 +45,29 @@ def play(arguments: argparse.Namespace, goal: int | None, show: Callable[[Any], 
     for path in (arguments.record, arguments.screenshot):
         if path is not None and not path.absolute().parent.is_dir():
             raise wrong(f"{path}: there is no such folder")
-    if arguments.headless:
+    real = _real(arguments, setup, speed, wrong)
+    if arguments.headless and not real:
         return _headless(arguments, setup, speed, wrong)
-    return _on_screen(arguments, setup, min(speed, FASTEST), show)
+    return _on_screen(arguments, setup, min(speed, FASTEST), real, chosen, show)
+
+
+def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type[Exception]) -> list[int]:
+    """The seats with real robots, from 0 on; in an emulated arena all, if nothing else is said."""
+    text = arguments.real if arguments.real is not None else "all" if arguments.emulate is not None else ""
+    there = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
+    try:
+        seats = there if text == "all" else sorted({int(one) - 1 for one in text.split(",") if one})
+    except ValueError:
+        raise wrong(f"--real: {text!r}; numbers such as 1,3, or all, are needed") from None
+    if stray := [seat + 1 for seat in seats if seat not in there]:
+        raise wrong(f"--real: nobody sits on seat {stray[0]}")
+    if seats and arguments.record is not None:
+        raise wrong("--record: what real robots do cannot be played out again; record it with `fidelity record`")
+    if seats and speed != 1.0 and not arguments.headless:
+        raise wrong("--speed: real robots drive as fast as they drive")
+    if seats and arguments.headless and arguments.emulate is None:
+        raise wrong("--headless: real robots need the picture on their mat; add --emulate for emulated ones")
+    return seats
 
 
 def _speed(text: str, wrong: type[Exception]) -> float:
@@ -74,21 +103,36 @@ def _headless(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: 
     return 0
 
 
-def _on_screen(arguments: argparse.Namespace, setup: Setup, speed: float, show: Callable[[Any], int]) -> int:
+def _on_screen(
+    arguments: argparse.Namespace,
+    setup: Setup,
+    speed: float,
+    real: list[int],
+    chosen: dict[str, Any],
+    show: Callable[[Any], int],
+) -> int:
+    """In a window; or, with emulated robots, without one and as fast as this machine can."""
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.house import House
     from pigaming_app.scenes.match import MatchScene
     from pigaming_app.scenes.press import Device
+    from pigaming_app.scenes.robots.begin import match_of
+    from pigaming_app.scenes.stack import Scene
 
     made: list[MatchScene] = []
 
-    def scene(house: House) -> MatchScene:
+    def scene(house: House) -> Scene:
         """People take the pads that are there, then the key clusters."""
         free = [*house.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
         people = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         devices = dict(zip(people, free, strict=False))
-        made.append(MatchScene(house, setup, [devices.get(i) for i in range(ROBOTS)], speed))
-        return made[0]
+        shown = match_of(house, setup, [devices.get(i) for i in range(ROBOTS)], real, speed)
+        if isinstance(shown, MatchScene):
+            made.append(shown)
+        return shown
+
+    def over() -> bool:
+        return arguments.headless and (not made or made[0].match.over)
 
     code = show(
         Options(
@@ -97,8 +141,15 @@ def _on_screen(arguments: argparse.Namespace, setup: Setup, speed: float, show: 
             display=None if arguments.display is None else arguments.display - 1,
             shot=arguments.screenshot,
             shot_due=lambda: bool(made) and (made[0].match.over or made[0].match.seconds >= arguments.at),
+            headless=arguments.headless,
+            step=DT if arguments.headless else None,
+            over=over,
+            emulate=arguments.emulate,
+            chosen=chosen,
         )
     )
+    if made and arguments.headless and not arguments.screenshot:
+        _tell(made[0].match, arguments.json, made[0].match.seconds)
     if made and arguments.record:
         _record(made[0].match, arguments.record, OSError)
     return code

@@ -162,6 +162,12 @@ class Settings:
         """What was last chosen for a game; write to it what is chosen now."""
         return self.games.setdefault(game, Choice())
 
+    def choose(self, name: str, value: object) -> None:
+        """Set one setting. Raises ValueError with why the value does not fit."""
+        if wrong := next(one.metadata["fit"] for one in fields(self) if one.name == name).wrong(value):
+            raise ValueError(f"{name} = {value!r} is {wrong}")
+        setattr(self, name, value)
+
     def save(self, folder: Path) -> None:
         """Keep the settings in the folder. Raises NotSaved; then the settings kept before are intact."""
         import tomli_w

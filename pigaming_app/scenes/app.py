@@ -7,8 +7,8 @@ import faulthandler
 import logging
 import signal
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from time import perf_counter
@@ -51,7 +51,9 @@ class Options:
     shot: Path | None = None
     shot_due: Callable[[], bool] = lambda: True
     step: float | None = None  # s of made-up time for each frame, instead of real time
+    over: Callable[[], bool] = lambda: False  # whether to close after this picture
     emulate: int | None = None  # the seed of an emulated arena that stands in for the mat
+    chosen: Mapping[str, object] = field(default_factory=dict)  # settings, which are kept
 
 
 def run(options: Options) -> int:
@@ -59,6 +61,8 @@ def run(options: Options) -> int:
     where = folders()
     settings, said = Settings.load(where.config)
     scores, more = Scores.load(where.data)
+    for name, value in options.chosen.items():
+        settings.choose(name, value)
     canvas = Canvas.open(settings, options.display, False if options.headless else None, options.headless)
     crash_file = _keep_log(where.data)
     pygame.font.init()
@@ -87,7 +91,8 @@ class App:
     def __init__(self, options: Options, house: House, troubles: list[str]) -> None:
         self.options, self.house = options, house
         self.notices, self.gauge = Notices(), Gauge()
-        self.window = CameraWindow(house.mat) if isinstance(house.mat, EmulatedMat) else None
+        mat = house.mat
+        self.window = CameraWindow(mat) if isinstance(mat, EmulatedMat) and mat.live else None
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -162,6 +167,8 @@ class App:
         self.house.canvas.flip()
         if self.window:
             self.window.update(seconds)
+        if self.options.over():
+            self.stack.clear()
 
     def _closes(self, event: pygame.Event) -> bool:
         """Whether an event closes the arcade: with a second window, closing the first one no longer says QUIT."""
@@ -229,7 +236,7 @@ def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedMat | 
     """Where real robots drive."""
     if options.emulate is None:
         return RealMat(settings, canvas)
-    mat = EmulatedMat(canvas, options.emulate)
+    mat = EmulatedMat(canvas, options.emulate, live=options.step is None)
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     try:
         mat.open()  # now, while nobody waits for a picture; it is closed until somebody plays

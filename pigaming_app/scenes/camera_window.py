@@ -37,7 +37,7 @@ class CameraWindow:
         self._shown, self._age = frame.number, 0.0
         try:
             surface = self.window.get_surface()
-            pygame.transform.scale(grey_surface(frame.image[::2, ::2]), surface.get_size(), surface)
+            surface.blit(pygame.transform.scale(grey_surface(frame.image[::2, ::2]), surface.get_size()), (0, 0))
             self.window.flip()
         except pygame.error as reason:
             log.warning("The window with the camera's view was lost: %s.", reason)

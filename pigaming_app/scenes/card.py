@@ -12,6 +12,8 @@ from pigaming_app.scenes.ink import (
     ARROWS,
     BODY,
     FOCUS,
+    GREEN,
+    GREY,
     ICE,
     LABEL,
     LINE,
@@ -39,7 +41,9 @@ from pigaming_app.scenes.sprites import HEADINGS, Sprite
 W, H = span(0, 3)[1], 600
 MIDDLE = W / 2
 ROBOT = (268, 2.1, 130)  # middle, scale, radius of the turntable
-ROBOT_IN_TEAM = (236, 1.7, 106)
+ROBOT_IN_TEAM = (236, 1.7, 106)  # with one row below it
+ROBOT_LOW = (204, 1.25, 78)  # with two
+REAL_Y = 316
 TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
 BAR = (24, 500, W - 48, 76)
 SPOKES, TURNS = 5, 8  # arcs of a turntable, and how many positions are kept between two of them
@@ -147,6 +151,22 @@ def side(said: str, number: int) -> Lit:
     pane, x, size = _team(said)
     emblem(pane.hot, number, x + 10, TEAM_Y, 24)
     pane.page.cold.text(said, size, x + 48, TEAM_Y, TEAMS[number], "head")
+    return pane.done()
+
+
+@lru_cache(maxsize=8)
+def real(said: str, on: bool, middle: int) -> Lit:
+    """Whether a seat's robot is real, as it is lit on the mat, or a drawn one; between the arrows that change it."""
+    pane = Pane(24, middle - 30, W - 48, 60)
+    size = fitted(said, BODY, W - 230)
+    x = MIDDLE - (text_width(said, size, "body") + 54) / 2
+    color = GREEN if on else MIST
+    pane.hot.ring(x + 18, middle, 18, color, THIN)
+    if on:
+        pane.page.cold.disc(x + 18, middle, 12, GREY)
+    pane.page.body(said, x + 54, middle, ICE if on else MIST, "l", size)
+    for name, cx in (("up", 60), ("down", W - 60)):
+        icon(pane.hot, name, cx, middle, 16, MIST, LINE)
     return pane.done()
 
 

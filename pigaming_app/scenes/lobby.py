@@ -32,7 +32,9 @@ class Lobby:
 
     def __init__(self, house: House, game: str) -> None:
         self.house, self.game = house, game
-        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game])
+        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game], mat=house.robots)
+        for seat, place in enumerate(self.seats.places):
+            place.real = seat + 1 in house.settings.real
         self.now = Moment()
         self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
         self.focus = Focus(spots(self.seats))
@@ -172,8 +174,12 @@ class Lobby:
             self.house.sounds.play("join", seat)
 
     def _steer(self, device: Device, act: Act) -> None:
-        """Left and right choose one's own team where there are teams; every other direction the strength of the AIs."""
+        """Left and right choose one's own team where there are teams, up and down one's own robot where there is a mat;
+        every other direction the strength of the AIs."""
         seat = self.seats.of(device)
+        if self.seats.mat and seat is not None and act in (Act.UP, Act.DOWN):
+            self._swap(seat)
+            return
         if self.seats.teams and seat is not None and act in (Act.LEFT, Act.RIGHT):
             self._change_team(seat)
         elif self.seats.strengthen(1 if act in (Act.RIGHT, Act.UP) else -1):
@@ -184,6 +190,12 @@ class Lobby:
         """The next lobby, of any game, begins with AIs of this strength; one that only one game has is not kept."""
         if self.seats.strength in STRENGTHS:
             self.house.settings.strength = self.seats.strength
+
+    def _swap(self, seat: int) -> None:
+        """A real robot for a simulated one, or the other way round; the next lobby begins like this."""
+        self.seats.swap(seat)
+        self.house.settings.real = [i + 1 for i, place in enumerate(self.seats.places) if place.real]
+        self.house.sounds.play("move")
 
     def _change_team(self, seat: int) -> None:
         self.seats.change_team(seat)
@@ -205,6 +217,8 @@ class Lobby:
         kind = self.seats.places[seat].kind
         if what == "team":
             self._change_team(seat)
+        elif what == "real":
+            self._swap(seat)
         elif what in ("weaker", "stronger"):
             self.seats.strengthen(1 if what == "stronger" else -1, seat)
             self._remember()

@@ -94,6 +94,10 @@ class LobbyPage:
             card.driver("pad" if place.device.kind == "pad" else "keys", name).draw(screen, x, y)
         else:
             card.driver("ai", words("lobby.ai")).draw(screen, x, y)
+        if self.seats.mat:
+            key = "lobby.real" if place.real else "lobby.simulated"
+            middle = card.REAL_Y if self.seats.teams else card.TEAM_Y
+            card.real(words(key), place.real, middle).draw(screen, x, y)
         self._bar(screen, seat)
 
     def _bar(self, screen: pygame.Surface, seat: int) -> None:
@@ -108,7 +112,8 @@ class LobbyPage:
 
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
         place, (x, y) = self.seats.places[seat], card_rect(seat).topleft
-        middle_y, scale, r = card.ROBOT_IN_TEAM if self.seats.teams else card.ROBOT
+        rows = int(self.seats.teams) + int(self.seats.mat)
+        middle_y, scale, r = (card.ROBOT, card.ROBOT_IN_TEAM, card.ROBOT_LOW)[rows]
         speed = 14 if place.ready else 3
         turn = int(self.now.clock * speed) % card.TURNS
         card.turntable(seat, turn, place.ready, r).draw(screen, round(x + card.MIDDLE), y + middle_y)
@@ -148,6 +153,9 @@ def spots(seats: Seats) -> list[Spot]:
             found.append(Spot(f"stronger {seat}", pygame.Rect(x + card.W - 124, y + 500, 100, 76)))
         if seats.teams and place.kind != EMPTY:
             found.append(Spot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, card.W - 48, 68)))
+        if seats.mat and place.kind != EMPTY:
+            middle = card.REAL_Y if seats.teams else card.TEAM_Y
+            found.append(Spot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, card.W - 48, 60)))
     return [*found, *(Spot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
 
 

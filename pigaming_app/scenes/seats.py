@@ -15,23 +15,28 @@ PLACES = 4
 
 @dataclass
 class Place:
-    """One seat. `team` is 0 or 1 and counts only while there are teams."""
+    """One seat. `team` is 0 or 1 and counts only while there are teams; `real`: its robot stands on the mat."""
 
     kind: str = EMPTY
     device: Device | None = None
     ready: bool = False
     strength: str = "normal"
     team: int = 0
+    real: bool = False
 
 
 @dataclass
 class Seats:
-    """The four seats. `strength` is that of the next AI, one of `rivals`; `sides`: what teams the game knows."""
+    """The four seats. `strength` is that of the next AI, one of `rivals`; `sides`: what teams the game knows.
+
+    `mat`: there is a mat on which the robots of seats can stand.
+    """
 
     strength: str = "normal"
     teams: bool = False
     sides: str = FREE
     rivals: tuple[str, ...] = STRENGTHS
+    mat: bool = False
     places: list[Place] = field(default_factory=lambda: [Place(team=i % 2) for i in range(PLACES)])
 
     def __post_init__(self) -> None:
@@ -73,7 +78,15 @@ class Seats:
         """Who drives each seat."""
         return [place.device for place in self.places]
 
+    def real(self) -> list[int]:
+        """The seats in the match whose robots are real."""
+        return [i for i, place in enumerate(self.places) if self.mat and place.real and place.kind != EMPTY]
+
     # ---- what people do
+
+    def swap(self, seat: int) -> None:
+        """A real robot for a simulated one, or the other way round."""
+        self.places[seat].real = not self.places[seat].real
 
     def join(self, device: Device) -> int | None:
         """Give a device the next empty seat, or the last AI's; None: four people sit there already."""
@@ -81,18 +94,19 @@ class Seats:
         if seat is None:
             seat = next(iter(reversed(self.like(AI))), None)
         if seat is not None:
-            self.places[seat] = Place(HUMAN, device, team=self._wanted(seat))
+            self.places[seat] = Place(HUMAN, device, team=self._wanted(seat), real=self.places[seat].real)
         return seat
 
     def leave(self, seat: int) -> None:
         """Empty a seat."""
-        self.places[seat] = Place(team=self.places[seat].team)
+        self.places[seat] = Place(team=self.places[seat].team, real=self.places[seat].real)
 
     def add(self, seat: int | None = None) -> int | None:
         """Put an AI on a seat, or on the next empty one; answers which, None: all are taken."""
         seat = next(iter(self.like(EMPTY)), None) if seat is None else seat
         if seat is not None:
-            self.places[seat] = Place(AI, strength=self.strength, team=self._wanted(seat))
+            real = self.places[seat].real
+            self.places[seat] = Place(AI, strength=self.strength, team=self._wanted(seat), real=real)
         return seat
 
     def clear(self) -> None:

@@ -109,14 +109,15 @@ class SetupPage:
     # ---- inside
 
     def _go(self) -> Turn:
-        from pigaming_app.scenes.match import MatchScene, new_seed
+        from pigaming_app.scenes.match import new_seed
+        from pigaming_app.scenes.robots.begin import match_of
 
         self._keep()
         self.house.sounds.play("accept")
         now = self.chosen
         minutes, seats = float(now.minutes), self.seats.seats()
         setup = Setup(self.game.name, now.arena, seats, minutes, new_seed(), now.variant, now.goal)
-        return Push(MatchScene(self.house, setup, self.seats.devices()))
+        return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
 
     def _keep(self) -> None:
         """Remember the choice for the next time, also after a power cut."""

@@ -83,7 +83,8 @@ class Stage:
                 sheet = plate(name, PLAYERS[seat], sign=sign)
                 margin = LEFT + 24 + sheet.width / 2
                 x = min(max(LEFT + robot.x, margin), 1920 - margin)
-                sheet.draw(screen, x, TOP + robot.y + (BESIDE if robot.y < HEIGHT / 2 else -BESIDE))
+                beside = self.view.reach(seat, BESIDE)
+                sheet.draw(screen, x, TOP + robot.y + (beside if robot.y < HEIGHT / 2 else -beside))
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
         """What drives a seat, in words, and the icon for it."""

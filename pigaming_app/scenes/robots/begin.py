@@ -10,11 +10,16 @@ from pigaming_app.scenes.press import Device
 from pigaming_app.scenes.stack import Scene
 
 
-def match_of(house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int]) -> Scene:
-    """The match, or the page that says why the robots of the seats `real` cannot be real."""
+def match_of(
+    house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], speed: float = 1.0
+) -> Scene:
+    """The match, or the page that says why the robots of the seats `real` cannot be real.
+
+    `speed`: times real time, for a match without real robots.
+    """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
     if not real or house.mat is None:
-        return MatchScene(house, setup, devices)
+        return MatchScene(house, setup, devices, speed)
     from pigaming_app.scenes.robots.match import RealMatch
     from pigaming_app.scenes.robots.refused import Refused
 

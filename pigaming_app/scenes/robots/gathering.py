@@ -26,7 +26,7 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 
 UNSEEN = 1e6  # px: so far away is a robot that nobody sees
 DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
-TITLE_Y, HINTS_Y = 48, 108  # px
+TITLE_Y, HINTS_Y = 42, 102  # px
 BESIDE = 150  # px from an outline to what is said about it
 MISSING = 1.5  # s until it is said that a robot is not seen
 
