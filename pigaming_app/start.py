@@ -15,8 +15,12 @@ ROOT = Path(__file__).resolve().parent.parent
 PROJECT = ROOT / "pyproject.toml"
 ARCADE = "arcade"  # the group of packages that every job needs; the others are the extras of pyproject.toml
 NEEDED = {"test": {"test"}}
-WISHED = {job: {"train"} for job in ("test", "bench", "duel", "league", "train")}  # the job goes on without
-WISHED |= {"robots": {"hardware"}, "fidelity": {"hardware", "plots"}}
+WISHED = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # the job goes on without
+WISHED |= {"test": {"train", "hardware", "plots"}}
+MEANT = {  # words that mean an extra wherever they stand
+    **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate"), "hardware"),
+    **dict.fromkeys(("--curve", "--plots"), "plots"),
+}
 WINDOWS = sys.platform == "win32"
 HANDED_OVER = "pigaming"  # python -X pigaming: main.py need not ask again
 
@@ -29,7 +33,8 @@ def start(args: list[str]) -> int:
     """Do the job of these arguments; its exit code, 2 where it cannot start, 130 where the installing was stopped."""
     job = "" if not args or {"-h", "--help"} & set(args) else args[0]
     try:
-        place = environment({ARCADE} | NEEDED.get(job, set()), WISHED.get(job, set()))
+        wished = WISHED.get(job, set()) | {MEANT[word] for word in args if word in MEANT}
+        place = environment({ARCADE} | NEEDED.get(job, set()), wished)
         return arcade(args) if place is None else hand_over(place, args)
     except Trouble as trouble:
         say(str(trouble))
