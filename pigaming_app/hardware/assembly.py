@@ -15,6 +15,7 @@ from pigaming_app.hardware.ground import Ground, NoGround, read
 from pigaming_app.hardware.line import ports, serial_port
 from pigaming_app.hardware.link import Link
 from pigaming_app.hardware.rig import UNMEASURED, Rig
+from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.stock import BAUD as STOCK_BAUD
 from pigaming_app.hardware.stock import Stock
 from pigaming_app.hardware.tracker import Tracker
@@ -68,8 +69,8 @@ def ground_of(path: Path) -> Ground:
         wide, high = entries["lens"]["size"]
         return read(text, str(entries["display"]), (int(wide), int(high)))
     except FileNotFoundError:
-        raise NoGround("There is no calibration yet: calibrate first.") from None
+        raise NoGround(Said("There is no calibration yet: calibrate first.", "none")) from None
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, KeyError, TypeError, ValueError) as error:
         if isinstance(error, NoGround):
             raise
-        raise NoGround(f"The calibration {path.name} cannot be read: calibrate again.") from None
+        raise NoGround(Said(f"The calibration {path.name} cannot be read: calibrate again.", "damaged")) from None
