@@ -35,14 +35,14 @@ HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px in ticks that are getting n
 class Unknown:
     """What the original leaves unknown about its machine."""
 
-    engage: float = 160.0  # px from which it aims and fires at an opponent in sight
-    period: int = 30  # ticks between decisions
-    tolerance: float = 0.02  # rad by which the gun may be off when it fires
-    beside: float = 10.0  # px between the machine in its hiding place and the wall
+    engage: float = 180.0  # px from which it aims and fires at an opponent in sight
+    period: int = 40  # ticks between decisions
+    tolerance: float = 0.05  # rad by which the gun may be off when it fires
+    beside: float = 35.0  # px between the machine in its hiding place and the wall
     along: float = 0.0  # where along the wall it hides: 0 behind the middle, 1 behind the end farther from the opponent
-    opposite: int = 0
-    wary: float = 160.0
-    arrived: float = 26.0  # px from the hiding place that count as there
+    opposite: int = 1
+    wary: float = 180.0
+    arrived: float = 80.0  # px from the hiding place that count as there
 
 
 @record

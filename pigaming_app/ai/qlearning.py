@@ -65,7 +65,7 @@ def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
     if match.tick % knobs.period:
         return
     opponent = nearest_opponent(match, seat)
-    here = situation(match, seat, opponent)
+    here = situation(match, seat, opponent, knobs.incoming)
     if mind.begun:
         take_in(table, mind, here)
     mind.begun, mind.state = 1, here
@@ -78,7 +78,7 @@ def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
 def learn_last(match: Any, seat: int, mind: Any, table: Any) -> None:
     """The time is up: that ends the match, not the world, so the last decision counts like any other."""
     if mind.begun and table.knobs.last:
-        take_in(table, mind, situation(match, seat, nearest_opponent(match, seat)))
+        take_in(table, mind, situation(match, seat, nearest_opponent(match, seat), table.knobs.incoming))
     mind.begun = 0
 
 
@@ -118,10 +118,10 @@ def best(table: Any, state: int) -> float:
 
 @kernel
 def temperature(table: Any) -> float:
-    """How daring a learner is: a straight line from hot to cold, and cold from the ceiling on."""
+    """How daring a learner is: a straight line (or one step) from hot to cold, and cold from the ceiling on."""
     knobs = table.knobs
-    share = table.experiences / knobs.ceiling
-    if share >= 1.0:
+    share = table.experiences / knobs.ceiling if knobs.ramp else 0.0
+    if table.experiences >= knobs.ceiling:
         cold: float = knobs.cold
         return cold
     heat: float = knobs.cold + (1.0 - share) * (knobs.hot - knobs.cold)
@@ -157,7 +157,7 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
         return
     opponent = nearest_opponent(match, seat)
     if opponent >= 0 and not free(match, seat, opponent, mind, known.knobs.period):
-        mind.state = situation(match, seat, opponent)
+        mind.state = situation(match, seat, opponent, known.knobs.incoming)
         mind.move = draw(known, mind.state, known.knobs.cold, mind)
         push(match.actions[seat], mind.move)
 

@@ -13,6 +13,7 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.sweep import clear
 
 AHEAD = 0  # the sector in which a robot looks
+CREEP = 10.0  # px/s below which a robot does not move
 BEHIND_FROM, BEHIND_TO = 4, 12  # the sectors in which an opponent is behind
 
 ANY, SWITCH, HEAT = (-1000.0, 1000.0), (0, 1), (0.001, 1000.0)
@@ -23,8 +24,11 @@ BOUNDS: dict[str, tuple[float, float]] = {
     "hot": HEAT,
     "cold": HEAT,
     "period": (1, 50),
+    "incoming": SWITCH,
     "loaded": SWITCH,
     "in_sight": SWITCH,
+    "moving": SWITCH,
+    "ramp": SWITCH,
     "last": SWITCH,
 }
 
@@ -43,8 +47,11 @@ class Recipe:
     hot: float = 1.0 / 2.0  # the temperature at the first experience
     cold: float = 1.0 / 50.0  # from the ceiling on, and whenever a trained robot plays
     period: int = 5  # ticks between decisions: 10 Hz; at 3 rad/s a decision turns by 17 degrees, less than a sector
+    incoming: int = 1  # 1: only bullets are seen that come nearer; 0: all of the opponent's
     loaded: int = 0  # 1: firing counts only when the gun is ready; 0: pressing the button counts
     in_sight: int = 1  # 1: to see the opponent nothing may stand between; 0: looking its way is enough
+    moving: int = 0  # 0: still is who gives no linear command; 1: who does not move, whatever the command
+    ramp: int = 1  # 1: the temperature falls in a line; 0: in one step at the ceiling, as the thesis's whole numbers do
     last: int = 1  # 1: what was done last is learned from when the time is up (a truncation: bootstrapped); 0: dropped
 
     def __post_init__(self) -> None:
@@ -77,7 +84,8 @@ def worth_of_action(match: Any, seat: int, opponent: int, state: int, action: An
             robot, other = match.robots[seat], match.robots[opponent]
             if not knobs.in_sight or clear(match, robot.x, robot.y, other.x, other.y, 0.0):
                 worth += knobs.hit
-    if action.linear == 0.0:
+    speed = match.robots[seat].linear
+    if (-CREEP < speed < CREEP) if knobs.moving else action.linear == 0.0:
         worth += knobs.still
     return worth
 

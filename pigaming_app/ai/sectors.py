@@ -66,11 +66,14 @@ def nearest_opponent(match: Any, seat: int) -> int:
 
 
 @kernel
-def situation(match: Any, seat: int, opponent: int) -> int:
-    """The state in which the robot on `seat` is, with the one on the seat `opponent` as its opponent."""
+def situation(match: Any, seat: int, opponent: int, incoming: int) -> int:
+    """The state in which the robot on `seat` is, with the one on the seat `opponent` as its opponent.
+
+    `incoming`: 1: only bullets count that come nearer; 0: all of the other teams'.
+    """
     robot, other = match.robots[seat], match.robots[opponent]
     ahead = sector(other.x - robot.x, other.y - robot.y, robot.heading)
-    return state(ahead, wall_sector(match, robot), bullet_sector(match, robot))
+    return state(ahead, wall_sector(match, robot), bullet_sector(match, robot, incoming))
 
 
 @kernel
@@ -89,8 +92,8 @@ def wall_sector(match: Any, robot: Any) -> int:
 
 
 @kernel
-def bullet_sector(match: Any, robot: Any) -> int:
-    """Where the closest bullet of another team is that comes nearer: position times velocity below 0."""
+def bullet_sector(match: Any, robot: Any, incoming: int) -> int:
+    """Where the closest bullet of another team is; `incoming`: that comes nearer, position times velocity below 0."""
     where, least = NONE, 1e18
     for k in range(ROBOTS):
         owner = match.robots[k]
@@ -101,7 +104,7 @@ def bullet_sector(match: Any, robot: Any) -> int:
             if bullet.alive:
                 dx, dy = bullet.x - robot.x, bullet.y - robot.y
                 away = dx * dx + dy * dy
-                if away < least and dx * bullet.vx + dy * bullet.vy < 0.0:
+                if away < least and not (incoming and dx * bullet.vx + dy * bullet.vy >= 0.0):
                     least = away
                     where = sector(dx, dy, robot.heading)
     return where

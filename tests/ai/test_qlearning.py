@@ -92,24 +92,31 @@ def test_it_sees_the_opponent_the_closest_wall_and_the_closest_bullet_that_comes
     near.alive, near.x, near.y, near.vy = 1, 430.0, 200.0, -560.0  # nearer, but it flies away
     own = match.bullets[0]
     own.alive, own.x, own.y, own.vx = 1, 500.0, 300.0, -560.0
-    here = situation(match, 0, 1)
+    here = situation(match, 0, 1, 1)
     assert (opponent_of(here), wall_of(here), bullet_of(here)) == (4, 8, 0)
     match.robots[0].heading = pi / 2
-    here = situation(match, 0, 1)
+    here = situation(match, 0, 1, 1)
     assert (opponent_of(here), wall_of(here), bullet_of(here)) == (0, 4, 12)
 
 
+def test_bullets_that_fly_away_are_seen_only_where_all_are():
+    match = standing((430.0, 300.0, 0.0), (430.0, 700.0, 0.0))
+    bullet = match.bullets[8]
+    bullet.alive, bullet.x, bullet.y, bullet.vy = 1, 430.0, 200.0, -560.0
+    assert [bullet_of(situation(match, 0, 1, incoming)) for incoming in (1, 0)] == [NONE, 12]
+
+
 def test_what_is_not_there_is_none():
-    here = situation(without_walls(standing((300.0, 300.0, 0.0), (900.0, 300.0, pi))), 0, 1)
+    here = situation(without_walls(standing((300.0, 300.0, 0.0), (900.0, 300.0, pi))), 0, 1, 1)
     assert (opponent_of(here), wall_of(here), bullet_of(here)) == (0, NONE, NONE)
 
 
 def test_a_wall_that_is_shot_away_is_no_longer_the_closest():
     match = standing((430.0, 300.0, 0.0), (430.0, 700.0, 0.0))
-    before = wall_of(situation(match, 0, 1))
+    before = wall_of(situation(match, 0, 1, 1))
     match.walls[0].health = 0
     assert before == 8
-    assert wall_of(situation(match, 0, 1)) == 1  # now the end of another one at (580, 380), 28 degrees to the right
+    assert wall_of(situation(match, 0, 1, 1)) == 1  # now the end of another one at (580, 380), 28 degrees to the right
 
 
 def test_among_several_the_nearest_of_another_team_is_the_opponent():
@@ -135,7 +142,7 @@ def act(match, linear, fire):
 
 def shot(match, recipe=RECIPES[1], linear=1.0):
     """The reward of seat 0 for a shot as things stand."""
-    return worth_of_action(match, 0, 1, situation(match, 0, 1), act(match, linear, 1), recipe)
+    return worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, linear, 1), recipe)
 
 
 def test_a_shot_at_an_opponent_in_plain_sight_is_worth_10():
@@ -167,8 +174,16 @@ def test_a_button_held_down_while_the_gun_cools_counts_unless_only_real_shots_do
 def test_standing_still_costs_10_by_the_second_table_alone(reward, worth):
     match = standing((300.0, 300.0, 1.0), (900.0, 300.0, pi))
     recipe = RECIPES[reward]
-    assert worth_of_action(match, 0, 1, situation(match, 0, 1), act(match, 0.0, 0), recipe) == worth
-    assert worth_of_action(match, 0, 1, situation(match, 0, 1), act(match, -1.0, 0), recipe) == 0.0
+    assert worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, 0.0, 0), recipe) == worth
+    assert worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == 0.0
+
+
+def test_who_pushes_a_wall_is_still_only_where_moving_counts():
+    match = standing((300.0, 300.0, 1.0), (900.0, 300.0, pi))
+    for speed, moving, worth in ((0.0, 0, 0.0), (0.0, 1, -10.0), (-200.0, 1, 0.0)):
+        match.robots[0].linear = speed
+        recipe = replace(RECIPES[2], moving=moving)
+        assert worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == worth
 
 
 def test_an_opponent_that_gets_behind_costs_1_once_by_the_first_table_and_every_time_by_the_second():
@@ -242,6 +257,13 @@ def test_the_temperature_falls_in_a_straight_line(experiences, heat):
     assert temperature(table) == pytest.approx(heat)
 
 
+@pytest.mark.parametrize(("experiences", "heat"), [(0, 0.5), (99_999, 0.5), (100_000, 0.02)])
+def test_whole_numbers_as_in_the_thesis_make_it_fall_in_one_step(experiences, heat):
+    table = taught(replace(RECIPES[1], ramp=0))
+    table.experiences = experiences
+    assert temperature(table) == pytest.approx(heat)
+
+
 def test_the_roulette_draws_by_exp_of_q_over_t():
     table = taught()
     table.q[FIRE], table.q[DRIVE] = 0.5, 0.25
@@ -278,7 +300,7 @@ def test_both_robots_learn_into_one_table_ten_times_a_second():
 def test_a_player_draws_at_the_last_temperature_and_changes_nothing_but_its_action():
     match, table, mind = Match(setting(1)).state, taught(), LearnerMind()
     wake(mind, 1)
-    here = situation(match, 0, 1)
+    here = situation(match, 0, 1, 1)
     table.q[here * ACTIONS + FIRE] = table.q[here * ACTIONS + DRIVE] = 1.0
     known, before = digest(table), digest(match)
     moves = set()

@@ -37,7 +37,10 @@ def short(fast=False, seed=1, recipe=RECIPES[2], table=None):
 
 
 @compiles
-@pytest.mark.parametrize("recipe", [*RECIPES.values(), replace(RECIPES[1], loaded=1, in_sight=0, period=7, last=0)])
+@pytest.mark.parametrize(
+    "recipe",
+    [*RECIPES.values(), replace(RECIPES[2], loaded=1, in_sight=0, period=7, last=0, incoming=0, moving=1, ramp=0)],
+)
 def test_both_bodies_learn_the_same_table_to_the_last_bit(recipe):
     plain, fast = (Training(recipe, 7, fast=fast, minutes=0.5) for fast in (False, True))
     for one in (plain, fast):
