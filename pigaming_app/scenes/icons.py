@@ -181,8 +181,8 @@ def _behind(pen: Pen) -> None:
 def _hook(pen: Pen, side: float) -> None:
     """An arrow that goes up, over and down on one side: it turns round."""
     arc = [math.pi * (0.95 + 1.05 * i / 14) for i in range(15)]
-    pen.line(*((side * 0.66 * math.cos(a), 0.1 + 0.66 * math.sin(a)) for a in arc))
-    pen.fill((side * 0.16, 0.1), (side * 1.16, 0.1), (side * 0.66, 0.84))
+    pen.line(*((side * (0.6 * math.cos(a) - 0.08), 0.06 + 0.6 * math.sin(a)) for a in arc))
+    pen.fill((side * 0.06, 0.06), (side * 0.98, 0.06), (side * 0.52, 0.8))
 
 
 def _turn_left(pen: Pen) -> None:

@@ -88,7 +88,7 @@ class Curve:
 
 def _height(share: float) -> float:
     """Where the number stands: beside the end of the line, but within the panel."""
-    return max(CURVE.top + 84.0, min(CURVE.bottom - 64.0, PLOT.bottom - PLOT.h * share))
+    return max(CURVE.top + 104.0, min(CURVE.bottom - 64.0, PLOT.bottom - PLOT.h * share))
 
 
 @lru_cache(maxsize=101)

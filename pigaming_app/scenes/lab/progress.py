@@ -17,7 +17,7 @@ MARKS = (0, 10, 50, 200)  # matches after which what it knows is kept
 MATCHES = {True: 20, False: 8}  # of an exam, compiled and plain
 EXAM_SEED = 1000
 SOON = 8.0  # seconds after which it is examined again, if it has learned at all
-GRAIN = 50  # exams over the length of the curve, about
+GRAIN = 25  # exams over the length of the curve, about
 PICTURE = {True: 1 / 14, False: 1 / 100}  # seconds between pictures, as fast as it can and else
 PETAL = 1 / 60  # seconds between two directions of the rose
 

@@ -10,7 +10,7 @@ from pigaming_app.scenes.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, T
 from pigaming_app.scenes.lab.menu import IDLE, Bench
 from pigaming_app.scenes.lab.robots import NotKept, fetch, file_of, names
 from pigaming_app.scenes.page import blacked, heading, text
-from pigaming_app.scenes.pane import Lit, Pane, backdrop, span
+from pigaming_app.scenes.pane import Lit, Pane, backdrop, fitted, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
@@ -119,6 +119,6 @@ def card(name: str, when: str, hot: bool) -> Lit:
     w = span(0, 4)[1]
     pane = Pane(0, 0, w, HIGH)
     pane.hot.line(cut(0, 0, w, HIGH, 16), STEEL, THIN, True)
-    pane.page.text(name, SUB, 36, HIGH / 2, FOCUS if hot else ICE, "hero")
+    pane.page.text(name, fitted(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
     pane.page.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
     return pane.done()
