@@ -22,10 +22,13 @@ STEP = 0.005  # s of the model
 NOISE = np.array([0.8, 0.8, 0.012])  # px, px, rad: of a fix
 FEWEST = 8  # fixes in a window that counts
 HUBER = 3.0  # standard deviations beyond which a fix counts less
-LATEST = 0.20  # s, the longest dead time that is tried
-COARSE, FINE = 0.02, 0.0025  # s, between dead times
-LAGS = 0.01, 0.6  # s, what is possible
-ROUNDS = 25
+LATEST, COARSE = 0.20, 0.02  # s: the longest dead time that is tried, and from one to the next
+EARLY = 2.0  # s before which what was told does not matter any more
+ROUNDS, TRIES = 25, 6
+LATE = 6  # the place of the dead time among the numbers: left, right, their deadbands, lag, base, dead time
+NUDGES = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1, 1e-3])  # of these, to see what they do
+LEAST = np.array([100.0, 100.0, 0.0, 0.0, 0.01, 20.0, 0.0])
+MOST = np.array([3000.0, 3000.0, 0.5, 0.5, 0.5, 300.0, 0.5])
 
 
 class Track(NamedTuple):
@@ -41,18 +44,18 @@ class Track(NamedTuple):
 
 def track(course: Course, drivetrain: Drivetrain, begin: float, end: float) -> Track:
     """Where the commands lead a robot with this drivetrain, from `begin` to `end`."""
-    early = 12.0 * drivetrain.lag  # until then what came before is forgotten
-    times = np.arange(begin - early, end + STEP, STEP)
-    acting = np.searchsorted(course.told_at + drivetrain.dead_time, times + 0.5 * STEP, side="right") - 1
-    told = np.where((acting >= 0)[:, None], course.wheels[np.maximum(acting, 0)], 0.0)
-    left = _follow(_speed(told[:, 0], drivetrain.left), drivetrain.lag)
-    right = _follow(_speed(told[:, 1], drivetrain.right), drivetrain.lag)
+    times = np.asarray(begin - EARLY + STEP * np.arange(int((end - begin + EARLY) / STEP) + 2), dtype=np.float64)
+    acts = course.told_at + drivetrain.dead_time
+    left, right = (
+        _follow(_mean(acts, _speed(course.wheels[:, i], wheel), times), drivetrain.lag)
+        for i, wheel in enumerate((drivetrain.left, drivetrain.right))
+    )
     heading = np.concatenate(([0.0], np.cumsum((left - right) / drivetrain.base * STEP)))
     middle = 0.5 * (heading[1:] + heading[:-1])
     way = 0.5 * (left + right) * STEP
     x = np.concatenate(([0.0], np.cumsum(way * np.cos(middle))))
     y = np.concatenate(([0.0], np.cumsum(way * np.sin(middle))))
-    return Track(np.append(times, times[-1] + STEP), np.column_stack([x, y, heading]))
+    return Track(times, np.column_stack([x, y, heading]))
 
 
 def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
@@ -89,47 +92,35 @@ def shifted(there: Floats, firsts: Index, move: Floats) -> Floats:
 
 def identify(course: Course, start: Drivetrain) -> Drivetrain:
     """The drivetrain that explains a course best, sought from `start`."""
-    tried = [_fitted(course, replace(start, dead_time=float(dead))) for dead in np.arange(0.0, LATEST + 1e-9, COARSE)]
-    cost, best = min(tried, key=_first)
-    step = COARSE / 2
-    while step >= FINE:
-        beside = [best.dead_time - step, best.dead_time + step]
-        found = min((_fitted(course, replace(best, dead_time=dead)) for dead in beside if dead >= 0.0), key=_first)
-        if found[0] < cost:
-            cost, best = found
-        else:
-            step /= 2
-    return best
+    grid = np.arange(0.0, LATEST + 1e-9, COARSE)
+    tried = [_fitted(course, replace(start, dead_time=float(dead)), LATE) for dead in grid]
+    return _fitted(course, min(tried, key=lambda one: one[0])[1], LATE + 1)[1]
 
 
-def _first(pair: tuple[float, Drivetrain]) -> float:
-    return pair[0]
-
-
-def _fitted(course: Course, start: Drivetrain) -> tuple[float, Drivetrain]:
-    """Levenberg-Marquardt for one dead time: the cost and the drivetrain."""
-    vector, dead, damping = _vector(start), start.dead_time, 1e-3
+def _fitted(course: Course, start: Drivetrain, free: int) -> tuple[float, Drivetrain]:
+    """Levenberg-Marquardt in the first `free` numbers of the drivetrain: the cost, and the drivetrain."""
+    vector, damping = _vector(start), 1e-3
     rest = _residual(course, start)
     cost = _cost(rest)
     for _ in range(ROUNDS):
-        jacobian = _jacobian(course, vector, start, dead, rest)
-        weighted = np.minimum(1.0, HUBER / np.maximum(np.abs(rest), 1e-9)) ** 0.5
-        normal = (jacobian * weighted[:, None]).T @ (jacobian * weighted[:, None])
-        slope = (jacobian * weighted[:, None]).T @ (rest * weighted)
-        for _ in range(6):
-            change = np.linalg.solve(normal + damping * np.diag(np.diag(normal) + 1e-9), slope)
-            candidate = _with(start, vector - change, dead)
+        weights = np.minimum(1.0, HUBER / np.maximum(np.abs(rest), 1e-9)) ** 0.5
+        jacobian = _jacobian(course, vector[:free], vector, rest) * weights[:, None]
+        normal, slope = jacobian.T @ jacobian, jacobian.T @ (rest * weights)
+        for _ in range(TRIES):
+            change = np.zeros(len(vector))
+            change[:free] = np.linalg.solve(normal + damping * np.diag(np.diag(normal) + 1e-9), slope)
+            candidate = _drivetrain(vector - change)
             new_rest = _residual(course, candidate)
             if _cost(new_rest) < cost:
                 break
             damping *= 8.0
         else:
             break
-        gain = cost - _cost(new_rest)
-        vector, rest, cost, damping = _vector(candidate), new_rest, _cost(new_rest), damping / 4.0
-        if gain < 1e-6 * cost:
+        gain, vector, rest, damping = cost - _cost(new_rest), _vector(candidate), new_rest, damping / 4.0
+        cost -= gain
+        if gain < 1e-5 * cost:
             break
-    return cost, _with(start, vector, dead)
+    return cost, _drivetrain(vector)
 
 
 def _residual(course: Course, drivetrain: Drivetrain) -> Floats:
@@ -145,36 +136,26 @@ def _residual(course: Course, drivetrain: Drivetrain) -> Floats:
     return np.asarray(((seen - fitted) / NOISE).ravel())
 
 
-def _jacobian(course: Course, vector: Floats, start: Drivetrain, dead: float, rest: Floats) -> Floats:
+def _jacobian(course: Course, free: Floats, vector: Floats, rest: Floats) -> Floats:
     """By differences. The start poses are fitted anew for each, which projects them out."""
     columns = []
-    for i, size in enumerate(STEPS):
+    for i in range(len(free)):
         nudged = vector.copy()
-        nudged[i] += size
-        columns.append((_residual(course, _with(start, nudged, dead)) - rest) / size)
+        nudged[i] += NUDGES[i]
+        columns.append((_residual(course, _drivetrain(nudged)) - rest) / NUDGES[i])
     return np.column_stack(columns)
-
-
-STEPS = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1])  # of left, right, their deadbands, lag, base
 
 
 def _vector(drivetrain: Drivetrain) -> Floats:
     left, right = drivetrain.left, drivetrain.right
-    return np.array([left.speed, right.speed, left.deadband, right.deadband, drivetrain.lag, drivetrain.base])
+    numbers = (left.speed, right.speed, left.deadband, right.deadband, drivetrain.lag, drivetrain.base)
+    return np.array([*numbers, drivetrain.dead_time])
 
 
-def _with(drivetrain: Drivetrain, vector: Floats, dead: float) -> Drivetrain:
+def _drivetrain(vector: Floats) -> Drivetrain:
     """The drivetrain of these numbers, each kept to what is possible."""
-    left, right, left_band, right_band, lag, base = (float(one) for one in vector)
-    nominal = max(drivetrain.left.speed, drivetrain.right.speed)
-    low, high = 0.2 * nominal, 4.0 * nominal
-    return Drivetrain(
-        Wheel(min(max(left, low), high), min(max(left_band, 0.0), 0.5)),
-        Wheel(min(max(right, low), high), min(max(right_band, 0.0), 0.5)),
-        min(max(base, 20.0), 300.0),
-        min(max(lag, LAGS[0]), LAGS[1]),
-        dead,
-    )
+    left, right, left_band, right_band, lag, base, dead = np.clip(vector, LEAST, MOST).tolist()
+    return Drivetrain(Wheel(left, left_band), Wheel(right, right_band), base, lag, dead)
 
 
 def _cost(rest: Floats) -> float:
@@ -186,6 +167,13 @@ def _cost(rest: Floats) -> float:
 def _speed(shares: Floats, wheel: Wheel) -> Floats:
     over = np.maximum(np.minimum(np.abs(shares), 1.0) - wheel.deadband, 0.0)
     return np.asarray(np.sign(shares) * wheel.speed * over / (1.0 - wheel.deadband))
+
+
+def _mean(acts: Floats, speeds: Floats, times: Floats) -> Floats:
+    """Of speeds that hold from `acts` on, the mean over each step between two times."""
+    way = np.concatenate(([0.0], np.cumsum(speeds[:-1] * np.diff(acts))))  # up to each command
+    acts, way = np.append(acts, times[-1] + 1.0), np.append(way, way[-1] + speeds[-1] * (times[-1] + 1.0 - acts[-1]))
+    return np.asarray(np.diff(np.interp(times, acts, way)) / STEP)
 
 
 def _follow(target: Floats, lag: float) -> Floats:

@@ -64,16 +64,16 @@ def test_a_piece_of_track_is_laid_over_what_was_seen():
     assert fitted == pytest.approx(seen)
 
 
-def test_wheels_lag_and_dead_time_are_found_within_a_few_hundredths():
+def test_wheels_lag_and_dead_time_are_found_within_one_hundredth():
     courses = danced(45.0, noise=1.0, train=ODD).courses
     found = identify(courses[0], UNMEASURED)
-    assert found.left.speed == pytest.approx(ODD.left.speed, rel=0.02)
-    assert found.right.speed == pytest.approx(ODD.right.speed, rel=0.02)
-    assert found.left.deadband == pytest.approx(ODD.left.deadband, abs=0.004)
-    assert found.right.deadband == pytest.approx(ODD.right.deadband, abs=0.004)
-    assert found.base == pytest.approx(ODD.base, rel=0.02)
-    assert found.lag == pytest.approx(ODD.lag, abs=0.012)
-    assert found.dead_time == pytest.approx(TRUE.dead_time, abs=0.006)  # the mat's, whatever the drivetrain says
+    assert found.left.speed == pytest.approx(ODD.left.speed, rel=0.01)
+    assert found.right.speed == pytest.approx(ODD.right.speed, rel=0.01)
+    assert found.left.deadband == pytest.approx(ODD.left.deadband, abs=0.002)
+    assert found.right.deadband == pytest.approx(ODD.right.deadband, abs=0.002)
+    assert found.base == pytest.approx(ODD.base, rel=0.01)
+    assert found.lag == pytest.approx(ODD.lag, abs=0.004)
+    assert found.dead_time == pytest.approx(TRUE.dead_time, abs=0.003)  # the mat's, whatever the drivetrain says
 
 
 def test_what_was_identified_foresees_much_better_what_was_held_out(run):
@@ -85,11 +85,14 @@ def test_what_was_identified_foresees_much_better_what_was_held_out(run):
         assert verdict.before.mm[2] > 60.0
 
 
-def test_the_true_model_foresees_a_run_without_noise_to_the_millimetre():
-    run = danced(12.0)
+def test_the_true_model_foresees_a_run_without_noise_and_so_does_what_was_identified_in_it():
+    run = danced(30.0)
     course = run.courses[2]
-    assert errors(course, TRUE, run.mm).mm[0] < 3.0
-    assert len(predictions(course, TRUE, 1.0)) >= 15
+    assert errors(course, TRUE, run.mm).mm[2] < 0.05
+    assert len(predictions(course, TRUE, 1.0)) >= 40
+    (verdict,) = measure(Run(run.mm, {2: course}))
+    assert verdict.after.mm[2] < 0.5
+    assert verdict.before.mm[2] > 50.0
 
 
 def test_a_run_of_a_few_seconds_is_too_short():
