@@ -196,7 +196,7 @@ def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monk
     arcade.pictures(ResultPage)
     monkeypatch.setattr(kept, "keep", full)
     arcade.press(Act.FIRE)
-    assert "the disk is full" in arcade.shown(ResultPage).sentence
+    assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).sentence
     monkeypatch.undo()
 
 

@@ -19,8 +19,8 @@ from pigaming_app.scenes.calibration.residuals import AREA, SIDE, arrows, figure
 from pigaming_app.scenes.calibration.telling import paragraph, tell
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import ALARM, BODY, ICE, MIST, STEEL
-from pigaming_app.scenes.page import blacked, calling, chip, heading, text
+from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, MIST, STEEL
+from pigaming_app.scenes.page import blacked, chip, heading, text
 from pigaming_app.scenes.pane import Lit, backdrop
 from pigaming_app.scenes.pixels import grey_surface
 from pigaming_app.scenes.press import Act, Press
@@ -110,7 +110,8 @@ class ResultPage:
             chip(words(f"calibrate.{spot.name}"), spot.rect.w, state, HIGH).draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
         if self.said > 0.0:
-            calling(self.sentence, "", BODY).draw(screen, 960, 1040)
+            for line in paragraph(self.sentence, 1600, 1, FOCUS, "c"):
+                line.draw(screen, 960, 1046)
         self.prompts.draw(screen)
 
     # ---- what is seen
@@ -186,7 +187,8 @@ class ResultPage:
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.house.sounds.play("back")
-            self.sentence, self.said = str(trouble), SAID
+            path = kept.path(finding.site)
+            self.sentence, self.said = self.house.words("calibrate.unsaved", path=path), SAID
             return None
         self.house.sounds.play("accept")
         return Pop()
