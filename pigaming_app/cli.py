@@ -132,6 +132,7 @@ def _play_options(play: argparse.ArgumentParser) -> None:
     play.add_argument("--record", type=Path, help="write a replay")
     play.add_argument("--screenshot", type=Path, help="save a picture (PNG)")
     play.add_argument("--at", type=float, default=5.0, help="after so many seconds of the match")
+    play.add_argument("--robots", type=Path, help="measured robots (see fidelity): simulated ones drive like them")
     play.add_argument("--real", help="seats with real robots, such as 1,3, or all")
     _mat_options(play)
     play.add_argument("--kiosk", action="store_true")

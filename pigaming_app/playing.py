@@ -14,6 +14,8 @@ from pigaming_app.games.choices import choose
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import save
+from pigaming_app.sim.drivetrain import DrivetrainError, parse
+from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS
 
 FASTEST = 64.0  # times real time that a window shows
@@ -46,9 +48,25 @@ def play(
         if path is not None and not path.absolute().parent.is_dir():
             raise wrong(f"{path}: there is no such folder")
     real = _real(arguments, setup, speed, wrong)
+    plant = _plant(arguments, real, wrong)
     if arguments.headless and not real:
-        return _headless(arguments, setup, speed, wrong)
-    return _on_screen(arguments, setup, min(speed, FASTEST), real, chosen, show)
+        return _headless(arguments, setup, speed, plant, wrong)
+    return _on_screen(arguments, setup, min(speed, FASTEST), real, plant, chosen, show)
+
+
+def _plant(arguments: argparse.Namespace, real: list[int], wrong: type[Exception]) -> Callable[[Any], Plant]:
+    """What makes the simulated robots: ideal ones, or with --robots FILE such as `fidelity` measured."""
+    if arguments.robots is None:
+        return SimPlant
+    if real or arguments.record is not None:
+        raise wrong("--robots: goes without --real and --record")
+    try:
+        drivetrains = parse(arguments.robots.read_text(encoding="utf-8"), arguments.robots.name)
+    except (OSError, UnicodeDecodeError):
+        raise wrong(f"{arguments.robots}: cannot be read") from None
+    except DrivetrainError as error:
+        raise wrong(str(error)) from None
+    return lambda world: SimPlant(world, drivetrains)
 
 
 def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type[Exception]) -> list[int]:
@@ -81,8 +99,14 @@ def _speed(text: str, wrong: type[Exception]) -> float:
     return speed
 
 
-def _headless(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type[Exception]) -> int:
-    match = seated(setup)
+def _headless(
+    arguments: argparse.Namespace,
+    setup: Setup,
+    speed: float,
+    plant: Callable[[Any], Plant],
+    wrong: type[Exception],
+) -> int:
+    match = seated(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):
         print("PiGaming: nobody can steer without a window; the human seat stands still", file=sys.stderr)
     began = perf_counter()
@@ -108,6 +132,7 @@ def _on_screen(
     setup: Setup,
     speed: float,
     real: list[int],
+    plant: Callable[[Any], Plant],
     chosen: dict[str, Any],
     show: Callable[[Any], int],
 ) -> int:
@@ -126,7 +151,8 @@ def _on_screen(
         free = [*house.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
         people = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         devices = dict(zip(people, free, strict=False))
-        shown = match_of(house, setup, [devices.get(i) for i in range(ROBOTS)], real, speed)
+        seats = [devices.get(i) for i in range(ROBOTS)]
+        shown = match_of(house, setup, seats, real, speed) if real else MatchScene(house, setup, seats, speed, plant)
         if isinstance(shown, MatchScene):
             made.append(shown)
         return shown

@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app import robots
 from pigaming_app.cli import main
-from pigaming_app.sim.drivetrain import parse
+from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, Wheel, parse, tell
 
 
 @pytest.fixture(autouse=True)
@@ -88,3 +88,25 @@ def test_what_cannot_be_done_is_one_line(arguments, capsys):
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert said.startswith("PiGaming: ")
+
+
+def test_simulated_robots_drive_like_measured_ones_where_that_is_wished(tmp_path, capsys):
+    slow = Drivetrain(Wheel(60.0, 0.0), Wheel(60.0, 0.0), 62.0, 0.2, 0.1)
+    file = tmp_path / "robots.toml"
+    file.write_text(tell([slow] * 4))
+    race = ["play", "--game", "race", "--seats", "hard,hard", "--headless", "--speed", "max", "--minutes", "0.4"]
+    ideal, measured = told(capsys, *race), told(capsys, *race, "--robots", str(file))
+    assert max(row["laps"] for row in ideal["rows"]) >= 1
+    assert max(row["laps"] for row in measured["rows"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "more"), [("", []), ("[[robot]]\nleft = 3", []), (None, []), (tell([NOMINAL]), ["--real", "1"])]
+)
+def test_robots_that_cannot_be_read_are_one_line(tmp_path, capsys, text, more):
+    file = tmp_path / "robots.toml"
+    if text is not None:
+        file.write_text(text)
+    assert main(["play", "--headless", "--robots", str(file), *more]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
