@@ -6,7 +6,6 @@ sign has been good for CALM seconds. Two deadmen stand behind it: the link sends
 the firmware stops robots that hear nothing at all.
 """
 
-import logging
 import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,8 +16,6 @@ from typing import NamedTuple
 from pigaming_app import ASSETS
 
 CALM = 0.5  # s for which a sign must be good before its fault is gone
-
-log = logging.getLogger("pigaming")
 
 
 class Does(IntEnum):
@@ -72,7 +69,6 @@ RULES = (
     Rule("low", lambda s: s.battery < 4.4, Does.WARN),
     Rule("drifts", lambda s: s.drift > 5.0, Does.WARN, everyone=True),
 )
-WORTH = {rule.name for rule in RULES if rule.pauses or rule.does is Does.WARN}  # a line in the log
 
 
 class Fault(NamedTuple):
@@ -85,7 +81,7 @@ class Fault(NamedTuple):
     since: float  # s
 
     def __str__(self) -> str:
-        """The reason in English, for the log."""
+        """The plain reason, in English."""
         robot = "" if self.robot is None else self.robot + 1
         return _texts()[self.name].format(robot=robot, button="the button")
 
@@ -121,7 +117,7 @@ class Safety:
         """What holds for each robot, and what is wrong in `faults`. None: not a real robot, or not in the match."""
         real = {robot: sign._replace(stopped=self.stopped) for robot, sign in enumerate(signs) if sign is not None}
         held = [Does.WARN] * len(signs)
-        before, self.faults = self.faults, []
+        self.faults = []
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
                 concerned = list(real) if robot is None else [robot]
@@ -132,7 +128,6 @@ class Safety:
                     held[one] = max(held[one], rule.does)
                 if (rule.name, robot) not in [(fault.name, fault.robot) for fault in self.faults]:
                     self.faults.append(Fault(rule.name, robot, rule.does, rule.pauses, since))
-        _note(before, self.faults)
         return held
 
     def _since(self, rule: Rule, robot: int | None, bad: bool, now: float) -> float | None:
@@ -145,14 +140,3 @@ class Safety:
             return since
         self._bad.pop((rule, robot), None)
         return None
-
-
-def _note(before: Sequence[Fault], now: Sequence[Fault]) -> None:
-    """Say in the log what has come and what has gone; a marker that flickers is not worth a line."""
-    was, faults = ({(one.name, one.robot): one for one in many if one.name in WORTH} for many in (before, now))
-    for key, fault in faults.items():
-        if key not in was:
-            log.warning("%s", fault)
-    for key, fault in was.items():
-        if key not in faults:
-            log.info("No longer: %s", fault)
