@@ -4,7 +4,7 @@ Nothing is moved but by its own motors. Before a match the robots take their pla
 it says so); while a match waits, somebody must `watch`, so that faults are noticed when they come and when they go.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from math import exp
 from typing import Any
 
@@ -72,8 +72,7 @@ class RealPlant:
         """One tick of driving there; whether all have arrived. Faults hold for it as for a match."""
         if self._homing is None:
             return True
-        seen = self.sense_all()
-        told = self._homing.twists(seen)
+        told = self._homing.twists(self.sense_all() | self._projected(self._homing.goals))
         real = self.real
         self.real = real | set(told)
         try:
@@ -99,6 +98,14 @@ class RealPlant:
         self.rig.pump()
         found = enumerate(self.rig.sense())
         return {i: (one.x, one.y, one.heading) for i, one in found if one.age < FORGOTTEN}
+
+    def _projected(self, calling: Collection[int]) -> dict[int, Pose]:
+        """The simulated robots among which the real ones take their places, counted from ROBOTS on."""
+        return {
+            ROBOTS + i: (robot.x, robot.y, robot.heading)
+            for i, robot in enumerate(self.world.robots)
+            if robot.present and i not in self.real and i not in calling
+        }
 
     def close(self) -> None:
         """Stop the robots and let go of the hardware."""

@@ -192,6 +192,19 @@ def test_a_robot_with_a_covered_marker_has_no_place_until_it_is_seen():
     assert plant.places == []
 
 
+def test_a_real_robot_takes_its_place_round_a_simulated_one():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat, real=[0], kind=MixedPlant)
+    plant.place([(1200.0, 450.0, 0.0), (750.0, 450.0, 0.0), (1400.0, 700.0, 0.0), (200.0, 700.0, 0.0)])
+    taken = 0
+    while not plant.take_places() and taken < 1000:
+        mat.pass_time()
+        assert hypot(mat.robots[0].x - 750.0, mat.robots[0].y - 450.0) > 2.0 * RADIUS
+        taken += 1
+    assert mat.robots[0].x == pytest.approx(1200.0, abs=20.0)
+    assert plant.world.robots[1].x == pytest.approx(750.0)
+
+
 def test_a_simulated_robot_cannot_push_a_real_one_nor_enter_it():
     mat = Mat([(800.0, 450.0, 0.0), *STARTS[1:]])
     plant = on_floor(mat, real=[0], kind=MixedPlant)
