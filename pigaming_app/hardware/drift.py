@@ -16,8 +16,9 @@ from pigaming_app.hardware.signals import Frame, Image, Mark
 
 WARN, PAUSE = 5.0, 15.0  # mm
 PICTURES = 10  # whose median counts
-PERIOD = 0.1  # s between two looks
-SEARCH = 1.0  # s between looks everywhere while one is missing
+PERIOD = 0.03  # s between two looks: what is worse than PAUSE pauses within a third of a second
+SEEK = 0.06  # s between two searches for one that is not where it was
+SEARCH = 1.0  # s between looks everywhere for it
 EDGE, QUIET = 84, 16  # canvas px: of a marker, and of the light round it
 PLACES = ((80, 84), (1840, 84), (1840, 996), (80, 996))  # canvas px: their middles, in the margins beside the arena
 
@@ -31,28 +32,28 @@ class Drift:
         self._places = {
             number: place - np.array(ARENA_AT) for number, place in zip(CORNER_IDS, _centres(), strict=True)
         }
-        self._spots = {number: self._spot(place) for number, place in self._places.items()}
+        self._seen = {number: self._outline(number) for number in CORNER_IDS}  # where each was seen last
+        self._spots = {number: _spot(mark) for number, mark in self._seen.items()}
         self._misses: dict[int, deque[Points]] = {number: deque(maxlen=PICTURES) for number in CORNER_IDS}
-        self._looked = self._searched = float("-inf")
+        self._looked = self._sought = self._searched = float("-inf")
 
     def see(self, frame: Frame) -> None:
         """Look at a picture, if it is time to."""
         if frame.captured - self._looked < PERIOD - 1e-6:
             return
         self._looked = frame.captured
-        marks = [self._markers.near(frame.image, spot, number) for number, spot in self._spots.items()]
-        found = [mark for mark in marks if mark is not None]
-        if len(found) < len(CORNER_IDS) and frame.captured - self._searched > SEARCH:
-            self._searched = frame.captured
-            edge = float(np.mean([spot.edge for spot in self._spots.values()]))
-            found += self._markers.glance(frame.image, edge, found, dim=False)
-        self.note(self._markers.exact(frame.image, found))
+        found = self._markers.still(frame.image, list(self._seen.values()))
+        found += self._further(frame, [number for number in CORNER_IDS if number not in {m.number for m in found}])
+        self.note(found)
 
     def note(self, marks: list[Mark]) -> None:
         """Take in the corner markers of one picture."""
-        for mark in marks:
-            seen = self.ground.on_mat(mark.corners).mean(axis=0)
-            self._misses[mark.number].append(seen - self._places[mark.number])
+        if not marks:
+            return
+        seen = self.ground.on_mat(np.concatenate([mark.corners for mark in marks])).reshape(-1, 4, 2).mean(axis=1)
+        for mark, place in zip(marks, seen, strict=True):
+            self._seen[mark.number] = mark
+            self._misses[mark.number].append(place - self._places[mark.number])
 
     @property
     def mm(self) -> float:
@@ -70,11 +71,31 @@ class Drift:
         """Whether nobody can play like this."""
         return self.mm > PAUSE
 
-    def _spot(self, place: Points) -> Spot:
+    def _further(self, frame: Frame, missing: list[int]) -> list[Mark]:
+        """Those that are not where they were: near there at first, and from time to time everywhere."""
+        if not missing or frame.captured - self._sought < SEEK:
+            return []
+        self._sought = frame.captured
+        near = [self._markers.near(frame.image, self._spots[number], number) for number in missing]
+        found = [mark for mark in near if mark is not None]
+        if len(found) < len(missing) and frame.captured - self._searched > SEARCH:
+            self._searched = frame.captured
+            edge = float(np.mean([spot.edge for spot in self._spots.values()]))
+            known = [*self._seen.values(), *found]
+            found += self._markers.glance(frame.image, edge, known, dim=False)
+        return self._markers.exact(frame.image, found)
+
+    def _outline(self, number: int) -> Mark:
+        """A corner marker as the calibration says that it is seen."""
         half = EDGE / 2.0
-        seen = self.ground.seen_at(place + half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]))
-        (x, y), edge = seen.mean(axis=0).tolist(), mean_edge(seen)
-        return Spot(x, y, 1.3 * edge, edge)
+        square = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+        return Mark(number, self.ground.seen_at(self._places[number] + square))
+
+
+def _spot(mark: Mark) -> Spot:
+    """Where to look for a marker that was there."""
+    (x, y), edge = mark.corners.mean(axis=0).tolist(), mean_edge(mark.corners)
+    return Spot(x, y, 1.3 * edge, edge)
 
 
 def corner_markers() -> list[tuple[int, int, Image]]:

@@ -22,14 +22,19 @@ ROUNDS = 2  # the second begins where the first ended, and so has the edges in t
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+NEXT, LAST = [1, 2, 3, 0], [3, 0, 1, 2]  # corners, clockwise
 ALONG = np.linspace(0.14, 0.86, PROFILES)
 ACROSS = np.linspace(-1.0, 1.0, SAMPLES)
 
 
-def refined(cv: Any, image: Image, corners: Floats) -> Floats:
-    """Corners (n, 4, 2), in ArUco's order and right to a third of a cell, made exact, or left if they cannot be."""
+def refined(cv: Any, image: Image, corners: Floats) -> tuple[Floats, Bools]:
+    """Corners (n, 4, 2), in ArUco's order and right to a third of a cell, made exact; and which could be, (n,).
+
+    The others are left as they were.
+    """
+    well = np.zeros(len(corners), np.bool_)
     for _ in range(ROUNDS if len(corners) else 0):
-        way = np.roll(corners, -1, axis=1) - corners  # of each edge, clockwise
+        way = corners[:, NEXT] - corners  # of each edge, clockwise
         length = np.sqrt((way * way).sum(axis=2, keepdims=True))
         out = np.stack([way[..., 1], -way[..., 0]], axis=2) / length
         step = out * np.minimum(length.mean(axis=1, keepdims=True) * (REACH / CELLS), FARTHEST)  # outwards
@@ -40,15 +45,16 @@ def refined(cv: Any, image: Image, corners: Floats) -> Floats:
         offsets, clear = _crossings(values.reshape(len(corners), 4 * PROFILES, SAMPLES).astype(np.float64))
         begin, slope, sure = _lines(offsets, clear)
         exact = _meetings(corners + step * begin[..., None], way + step * slope[..., None])
-        corners = np.where(np.asarray(sure.all(axis=1))[:, None, None], exact, corners)
-    return corners
+        well = np.asarray(sure.all(axis=1))
+        corners = np.where(well[:, None, None], exact, corners)
+    return corners, well
 
 
 def _crossings(values: Floats) -> tuple[Floats, Bools]:
     """Where each profile turns white, from -1 inside to 1 outside, and whether it is clear: (n, 4, PROFILES) each."""
     white, black = _middle(values[..., -2:]), _middle(values[..., :2])
     values = np.minimum(values, BRIGHT * white[..., None])
-    low, high = values[..., :2].mean(axis=2), values[..., -2:].mean(axis=2)
+    low, high = 0.5 * (values[..., 0] + values[..., 1]), 0.5 * (values[..., -2] + values[..., -1])
     clear = high - low > FLAT * np.maximum(white - black, 1.0)
     share = ((values - low[..., None]) / np.where(clear, high - low, 1.0)[..., None]).clip(0.0, 1.0)
     area = share.sum(axis=2) - 0.5 * (share[..., 0] + share[..., -1])
@@ -77,7 +83,7 @@ def _lines(offsets: Floats, clear: Bools) -> tuple[Floats, Floats, Bools]:
 
 def _meetings(begins: Floats, ways: Floats) -> Floats:
     """Where each edge meets the one before it: the corners."""
-    before, way_before = np.roll(begins, 1, axis=1), np.roll(ways, 1, axis=1)
+    before, way_before = begins[:, LAST], ways[:, LAST]
     gap = begins - before
     cross = way_before[..., 0] * ways[..., 1] - way_before[..., 1] * ways[..., 0]
     share = (gap[..., 0] * ways[..., 1] - gap[..., 1] * ways[..., 0]) / np.where(np.abs(cross) < 1e-9, 1e-9, cross)

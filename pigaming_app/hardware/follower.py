@@ -25,14 +25,14 @@ COAST = 1.0  # s for which a robot that is not seen is predicted; then it takes 
 STEP = 0.02  # s, the longest step of a prediction
 NEVER = 1e9  # s since a robot was seen that never was
 
-FIX_PX, FIX_RAD = 0.8, 0.013  # noise of a fix, standard deviations
-SLIP_PX, SLIP_RAD = 3.0, 0.06  # what the model does not know of: random walk, per root of a second
+FIX_PX, FIX_RAD = 0.6, 0.008  # noise of a fix, standard deviations
+SLIP_PX, SLIP_RAD = 6.0, 0.1  # what the model does not know of: random walk, per root of a second
 NUMBERS = 8  # in the filter
 START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02, 20.0]))
 WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001, 0.5]))  # per second
 NEW = Wear(1.0, 1.0, 1.0, 0.0, 0.0)
 LOW, HIGH = Wear(0.6, 0.6, 0.6, -0.06, -30.0), Wear(1.4, 1.4, 1.4, 0.06, 90.0)
-SURPRISE = 25.0  # squared standard deviations: beyond, it was pushed or lifted, which teaches nothing about wheels
+SURPRISE = 36.0  # squared standard deviations: beyond, it was pushed or lifted, which teaches nothing about wheels
 NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
 
 Matrix = NDArray[np.float64]

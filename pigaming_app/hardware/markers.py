@@ -19,6 +19,7 @@ ROBOT_IDS = (0, 1, 2, 3)
 CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
 READABLE = 19.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
 SMALLEST = 0.5  # scale of a quick look's picture: below, noise is no longer averaged
+PLENTY = 30.0  # px of an edge that are enough anywhere
 NARROW, WIDE = 0.6, 1.6  # an edge is this much of what is expected, at least and at most
 NEAR, FAR = 1.3, 1.6  # what is brighter than so many medians of a region, or of a picture, is dimmed to that
 QUIETLY = {
@@ -77,24 +78,30 @@ class Markers:
         return [mark for mark in found if mark is not None]
 
     def near(self, image: Image, spot: Spot, number: int) -> Mark | None:
-        """The marker with this number in a square of the picture."""
+        """The marker with this number in a square of the picture; a large one is looked for in a smaller copy."""
         left, top = max(0, round(spot.x - spot.half)), max(0, round(spot.y - spot.half))
         part = image[top : max(0, round(spot.y + spot.half)), left : max(0, round(spot.x + spot.half))]
         if min(part.shape) < 2.0 * spot.edge * NARROW:
             return None
-        rate = 4.0 * spot.edge / max(part.shape)
-        window = max(5, round(spot.edge / 3.0) | 1)
+        rate, fold = 4.0 * spot.edge / max(part.shape), max(1, int(spot.edge / PLENTY))
+        if fold > 1:
+            part = self._cv.resize(part, None, fx=1.0 / fold, fy=1.0 / fold, interpolation=self._cv.INTER_AREA)
+        window = max(5, round(spot.edge / fold / 3.0) | 1)
         for picture, windows in ((self._dimmed(part, NEAR), (window, window)), (part, (3, 3 * window))):
             for mark in self._look(self._detector(windows, NARROW * rate, WIDE * rate), picture):
                 if mark.number == number:
-                    return Mark(number, mark.corners + np.array((left, top)))
+                    return Mark(number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
         return None
 
     def exact(self, image: Image, marks: Sequence[Mark]) -> list[Mark]:
         """The same markers with their corners right to a few hundredths of a pixel."""
-        corners = np.array([mark.corners for mark in marks]).reshape(-1, 4, 2)
-        found = refined(self._cv, image, corners)
+        found, _ = refined(self._cv, image, _stacked(marks))
         return [Mark(mark.number, corner) for mark, corner in zip(marks, found, strict=True)]
+
+    def still(self, image: Image, marks: Sequence[Mark]) -> list[Mark]:
+        """Those of the markers that are within a few pixels of where they were, exactly. Whose they are is not read."""
+        found, well = refined(self._cv, image, _stacked(marks))
+        return [Mark(mark.number, corner) for mark, corner, ok in zip(marks, found, well, strict=True) if ok]
 
     def _dimmed(self, image: Image, medians: float) -> Image:
         """The picture with nothing in it brighter than so many of its medians.
@@ -122,6 +129,11 @@ class Markers:
             wanted.minMarkerPerimeterRate, wanted.maxMarkerPerimeterRate = smallest, largest
             self._detectors[key] = aruco.ArucoDetector(aruco.getPredefinedDictionary(aruco.DICT_4X4_50), wanted)
         return self._detectors[key]
+
+
+def _stacked(marks: Sequence[Mark]) -> NDArray[np.float64]:
+    """The corners of all, (n, 4, 2)."""
+    return np.array([mark.corners for mark in marks]).reshape(-1, 4, 2)
 
 
 def same(mark: Mark, known: Sequence[Mark]) -> bool:
