@@ -16,7 +16,7 @@ CLEAR = 0.05  # share beyond chance from which on it has made up its mind
 
 @dataclass(frozen=True)
 class Direction:
-    """`seen`: decisions made with the opponent there; `worth`: Q of the best move, mean; `shares`: of the 18 moves."""
+    """`seen`: decisions with the opponent there; `worth`: Q of the best move tried, mean; `shares`: of the 18 moves."""
 
     seen: int
     worth: float
@@ -62,4 +62,5 @@ def direction(table: Any, sector: int, cold: float) -> Direction:
     most = q.max(axis=1)
     odds = np.exp((q - most[:, None]) / cold)
     odds /= odds.sum(axis=1, keepdims=True)
-    return Direction(seen, float(weight @ most), tuple(float(share) for share in weight @ odds))
+    known = np.where(tried[there] > 0, q, -np.inf).max(axis=1)
+    return Direction(seen, float(weight @ known), tuple(float(share) for share in weight @ odds))

@@ -37,7 +37,7 @@ def test_it_does_what_it_found_best_and_worth_is_weighed_by_how_often_a_state_wa
 
 def test_what_was_never_tried_is_done_rather_than_what_went_wrong() -> None:
     found = direction(filled((8, NONE, SHOOT, 1, -1.0)), 8, COLD)
-    assert found.worth == 0.0
+    assert found.worth == -1.0, "what was never tried says nothing about how good it is there"
     assert found.shares[SHOOT] < 1e-9
     assert found.shares[LEFT] == pytest.approx(1.0 / (ACTIONS - 1))
     assert found.deed == "unknown", "half of all moves shoot: that is chance, no plan"

@@ -3,6 +3,7 @@
 The training goes on while the page is shown, rests while people play against the robot, and goes on after that.
 """
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -23,6 +24,7 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.rose import LEVELS, SIGNS
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 
+FIRST = replace(RECIPES[1], behind_always=1)  # each knob counts at every decision, so that turning it is seen soon
 IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
 DEAF = 0.35  # seconds in which the press that led here counts for nothing
 LAST = 20.0  # seconds before that in which it asks
@@ -37,7 +39,7 @@ class Lab:
 
     def __init__(self, house: House, fast: bool | None = None) -> None:
         self.house = house
-        self.workshop = Workshop(RECIPES[1], new_seed(), fast)
+        self.workshop = Workshop(FIRST, new_seed(), fast)
         self.name = ""  # under which it was saved or opened
         self.shown = Shown()
         self.page: LabPage | None = None
@@ -212,8 +214,13 @@ class Lab:
         shown.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = workshop.progress.plan
         most = max([LEAST] + [abs(one.worth) for one in plan if one])
-        shown.levels = [round(LEVELS * one.worth / most) if one else 0 for one in plan]
+        shown.levels = [level(one.worth / most) if one else 0 for one in plan]
         shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
+
+
+def level(share: float) -> int:
+    """How long a petal is whose worth is this share of the best one's, -1..1; by its root, so that little is seen."""
+    return round(math.copysign(LEVELS * math.sqrt(abs(share)), share))
 
 
 def turned(recipe: Recipe, knob: str, value: int) -> Recipe:
