@@ -284,10 +284,12 @@ def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
 
 def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:
     here = lab(arcade)
+    here.workshop.recipe = RECIPES[2]
     arcade.house.idle = scene.IDLE + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
     assert here.workshop.training.experiences == 0
+    assert here.workshop.recipe == scene.FIRST
     assert here.workshop.join()
 
 

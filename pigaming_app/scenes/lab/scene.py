@@ -104,6 +104,7 @@ class Lab:
         self.compiling = self.compiling + seconds if self.workshop.compiling else 0.0
         self._follow(seconds)
         if self.house.idle > IDLE:
+            self.workshop.recipe, self.workshop.speed = FIRST, 0
             self.begin()
             return self.leave(Home())
         return None
@@ -192,7 +193,7 @@ class Lab:
         return self.leave(Push(LabMenu(self)))
 
     def _value(self, knob: str) -> int:
-        return int(getattr(self.workshop.recipe, knob))
+        return max(-MOST, min(MOST, int(getattr(self.workshop.recipe, knob))))
 
     def _set(self, knob: str, value: int) -> None:
         """Turn a knob as far as it goes."""
