@@ -158,7 +158,7 @@ def side(said: str, number: int) -> Lit:
 def real(said: str, on: bool, middle: int) -> Lit:
     """Whether a seat's robot is real, as it is lit on the mat, or a drawn one; between the arrows that change it."""
     pane = Pane(24, middle - 30, W - 48, 60)
-    size = fitted(said, BODY, W - 230)
+    size = fitted(said, BODY - 4, W - 250, "body")
     x = MIDDLE - (text_width(said, size, "body") + 54) / 2
     color = GREEN if on else MIST
     pane.hot.ring(x + 18, middle, 18, color, THIN)

@@ -6,7 +6,9 @@ wrong is one sentence, `trouble`; the arcade plays on with simulated robots.
 
 import logging
 import time
-from typing import TYPE_CHECKING, Any, Protocol
+from contextlib import suppress
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
@@ -15,12 +17,14 @@ from pigaming_app.settings import Settings, folders
 from pigaming_app.sim.world import DT
 
 if TYPE_CHECKING:
+    from pigaming_app.hardware.assembly import Wiring
     from pigaming_app.hardware.emulator.arena import EmulatedArena
     from pigaming_app.hardware.emulator.live import Live
     from pigaming_app.hardware.emulator.site import EmulatedSite
     from pigaming_app.hardware.ground import Ground
     from pigaming_app.hardware.line import OpenPort
-    from pigaming_app.hardware.rig import Rig
+    from pigaming_app.hardware.link import Link
+    from pigaming_app.hardware.rig import Rig, Talks
     from pigaming_app.hardware.signals import Frame
 
 LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
@@ -47,6 +51,9 @@ class Mat(Protocol):
     def open(self) -> "Rig":
         """Start, or go on with, what real robots need. Raises NoMat."""
 
+    def listen(self) -> "Link | None":
+        """The radio alone, where `open` raises; None where there is none either."""
+
     def close(self) -> None:
         """Stop the robots and end all threads. May be called again."""
 
@@ -65,35 +72,46 @@ class RealMat:
     def __init__(self, settings: Settings, canvas: Canvas) -> None:
         self.settings, self.canvas = settings, canvas
         self._rig: Rig | None = None
+        self._link: Link | None = None
 
     @property
     def trouble(self) -> str | None:
         """What is wrong with camera or radio."""
-        return trouble_of(self._rig) if self._rig else None
+        if self._rig is not None:
+            return trouble_of(self._rig)
+        return told(self._link) if self._link else None
 
     def open(self) -> "Rig":
         """Start camera, tracker and radio in their threads. Raises NoMat."""
         if self._rig is None:
-            from pigaming_app.hardware.assembly import Wiring, connect, measured
+            from pigaming_app.hardware.assembly import connect, measured
             from pigaming_app.hardware.ground import NoGround
             from pigaming_app.hardware.markers import NoVision
             from pigaming_app.sim.drivetrain import DrivetrainError
 
-            chosen = self.settings
-            wiring = Wiring(chosen.camera, chosen.port, chosen.baud, chosen.radio)
             try:
                 ground = kept_ground("calibration.toml", self.canvas.projection)
-                self._rig = connect(wiring, ground, measured(folders().config / "robots.toml"))
+                self._rig = connect(self._wiring, ground, measured(folders().config / "robots.toml"))
             except (NoGround, NoVision, DrivetrainError, ImportError) as trouble:
                 raise refused(trouble) from trouble
-            self._rig.channels = tuple(one - 1 for one in chosen.radios)
+            self._rig.channels = tuple(one - 1 for one in self.settings.radios)
         return self._rig
+
+    def listen(self) -> "Link | None":
+        """The radio of the settings."""
+        if self._link is None:
+            from pigaming_app.hardware.assembly import linked
+
+            self._link = linked(self._wiring).start()
+        return self._link
 
     def close(self) -> None:
         """Stop the robots and end all threads."""
-        rig, self._rig = self._rig, None
+        rig, self._rig, link, self._link = self._rig, None, self._link, None
         if rig is not None:
             rig.close()
+        if link is not None:
+            link.close()
 
     def end(self) -> None:
         """Close for good."""
@@ -101,6 +119,13 @@ class RealMat:
 
     def advance(self, seconds: float) -> None:
         """Real time passes by itself."""
+
+    @property
+    def _wiring(self) -> "Wiring":
+        from pigaming_app.hardware.assembly import Wiring
+
+        chosen = self.settings
+        return Wiring(chosen.camera, chosen.port, chosen.baud, chosen.radio)
 
 
 class EmulatedMat:
@@ -174,6 +199,10 @@ class EmulatedMat:
                 self._rig.start()
         return self._rig
 
+    def listen(self) -> "Link | None":
+        """There is no radio where there is no arena."""
+        return None
+
     def close(self) -> None:
         """Stop the robots and let go of camera and radio; the arena's time goes on."""
         rig, self._rig = self._rig, None
@@ -219,12 +248,9 @@ class EmulatedMat:
 
         arena.skip(time.monotonic() - arena.clock())
         terminal: Terminal | None = None
-        try:
-            import serial  # noqa: F401
-
-            terminal = Terminal()
-        except (ImportError, OSError):
-            pass
+        if find_spec("serial"):
+            with suppress(OSError):  # a system without pseudo-terminals
+                terminal = Terminal()
         return Live(arena, terminal).start()
 
     def _port(self, arena: "EmulatedArena") -> "tuple[OpenPort, str]":
@@ -244,10 +270,19 @@ def kept_ground(file: str, projection: str) -> "Ground":
     return read(written(ground), projection, ground.lens.size)
 
 
-def trouble_of(rig: Any) -> str | None:
+def trouble_of(rig: "Rig") -> str | None:
     """What a camera or a link says is wrong with it."""
-    told = getattr(rig.eye, "trouble", None) or rig.link.trouble
-    return told if isinstance(told, str) else str(told) if told else None
+    return getattr(rig.eye, "trouble", None) or told(rig.link)
+
+
+def told(link: "Talks") -> str | None:
+    """What a link says is wrong with it, with a key for other languages."""
+    from pigaming_app.hardware.said import Said
+
+    trouble = link.trouble
+    if trouble is None:
+        return None
+    return Said(str(trouble), f"radio_{trouble.reason}", port=trouble.port, detail=trouble.detail)
 
 
 def refused(trouble: BaseException) -> NoMat:

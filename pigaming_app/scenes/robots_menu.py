@@ -10,7 +10,7 @@ from pigaming_app.scenes.calibration import rows
 from pigaming_app.scenes.calibration.telling import paragraph, tell
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, cut
+from pigaming_app.scenes.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.scenes.options import Value
 from pigaming_app.scenes.page import blacked, heading, text
 from pigaming_app.scenes.pane import Lit, backdrop
@@ -19,7 +19,7 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 from pigaming_app.settings import folders
 
-ROWS = ("calibrate", "check", "pin", "sheet")
+ROWS = ("robots", "calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
 SAID = 8.0  # seconds for which a sentence stays
 IDLE = 300.0  # seconds without a press until the title
@@ -84,6 +84,10 @@ class RobotsMenu:
 
         self.house.sounds.play("accept")
         match name:
+            case "robots":
+                from pigaming_app.scenes.robots.page import RobotsPage
+
+                return Push(RobotsPage(self.house))
             case "calibrate":
                 return Push(CalibrationPage(self.house))
             case "check":
@@ -114,11 +118,15 @@ class RobotsMenu:
         self.said = SAID
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=5)
 def sketch(name: str) -> Lit:
     """The picture of a row, round (0, 0)."""
     ink = Ink(480, 340).to(240, 170)
-    if name == "calibrate":
+    if name == "robots":
+        for x, y, player in ((-120, -70, 0), (120, -70, 1), (-120, 80, 2), (120, 80, 3)):
+            ink.ring(x, y, 46, PLAYERS[player], LINE).disc(x, y, 34, GREY)
+            ink.arc(x, y, 68, -0.5, 1.1, FOCUS, THIN).arc(x, y, 68, 2.6, 4.2, FOCUS, THIN)
+    elif name == "calibrate":
         ink.line(cut(-46, -146, 92, 60, 12), ICE, LINE, True).ring(0, -84, 16, ICE, LINE)
         for x in (-150, 150):
             ink.dashes([(x * 0.16, -62), (x, 60)], FOCUS, THIN, 14, 10, False)

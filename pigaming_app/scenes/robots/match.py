@@ -11,6 +11,7 @@ import pygame
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.mixed import MixedPlant
 from pigaming_app.hardware.safety import Does, Fault
+from pigaming_app.scenes.calibration.drift_watch import DriftWatch
 from pigaming_app.scenes.countdown import Countdown
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM
@@ -48,6 +49,7 @@ class RealMatch(MatchScene):
         assert isinstance(plant, MixedPlant)
         self.plant = plant
         self.discs = Discs(rig)
+        self.watch = DriftWatch(rig)
         self.gathering: Gathering | None = Gathering(house, self.match.state, plant)
         self.waiting = Pace()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
@@ -125,7 +127,8 @@ class RealMatch(MatchScene):
         self._rest(seconds)
 
     def shine(self, screen: pygame.Surface) -> None:
-        """The discs, over everything."""
+        """The corner markers and the discs, over everything."""
+        self.watch.draw(screen)
         self.discs.draw(screen, self.real)
 
     def swap(self, seat: int, real: bool) -> None:
@@ -185,7 +188,7 @@ class RealMatch(MatchScene):
         """Write what is newly wrong into the log; what is only said, over the match."""
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
         for key in now.keys() - self.logged:
-            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, ""), self.mat.trouble))))
+            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), self.mat.trouble))))
             if now[key].name in TOLD:
                 said = named(now[key], self.house.words, "")
                 self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE

@@ -44,14 +44,21 @@ def _stop(ink: Ink, x: float, y: float, r: float, color: Color) -> None:
 def _robot(ink: Ink, x: float, y: float, r: float, color: Color) -> None:
     ink.ring(x, y, 0.75 * r, color, LINE)
     for side in (-1, 1):
-        ink.line([(x - 0.3 * r, y + side * 0.92 * r), (x + 0.3 * r, y + side * 0.92 * r)], color, 2 * LINE)
-    ink.line([(x + 0.05 * r, y - 0.3 * r), (x + 0.4 * r, y), (x + 0.05 * r, y + 0.3 * r)], color, LINE)
+        ink.line([(x + side * 0.95 * r, y - 0.3 * r), (x + side * 0.95 * r, y + 0.3 * r)], color, 2 * LINE)
+    ink.line([(x - 0.3 * r, y - 0.05 * r), (x, y - 0.4 * r), (x + 0.3 * r, y - 0.05 * r)], color, LINE)
+
+
+def _eye(ink: Ink, x: float, y: float, r: float, color: Color) -> None:
+    ink.arc(x, y + 0.75 * r, 1.25 * r, -2.5, -0.64, color, LINE).arc(x, y - 0.75 * r, 1.25 * r, 0.64, 2.5, color, LINE)
+    ink.ring(x, y, 0.3 * r, color, LINE).line([(x - 0.8 * r, y + 0.8 * r), (x + 0.8 * r, y - 0.8 * r)], color, LINE)
 
 
 SIGNS: dict[str, Draw] = {
     "camera": _camera,
     "drift": _camera,
     "drifts": _camera,
+    "lost": _eye,
+    "twice": _eye,
     "radio": _radio,
     "silent": _radio,
     "empty": _battery,

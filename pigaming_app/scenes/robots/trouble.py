@@ -106,12 +106,15 @@ class Trouble:
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         title(pane, first.robot, about, ICE)
         sign(pane.hot, first.name, *ICON, 76, ALARM)
+        pane.page.body(
+            words("mat.goes_on"), TEXT_X, FOOT - 40, MIST, "l", fitted(words("mat.goes_on"), 36, ROOM, "body")
+        )
         y = write(pane, named(first, words, words.printed(self.house.controls.label(None, Act.FIRE))), HEAD + 56, ICE)
         detail = self.match.mat.trouble if first.name in ("camera", "radio") else None
         if detail:
             y = write(pane, tell(words, detail), y + 8, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
-        if others and y < FOOT - 50:
+        if others and y < FOOT - 130:
             write(pane, words("mat.also", other=named(others[0], words, "")), y + 8, MIST)
 
 

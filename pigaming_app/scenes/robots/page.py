@@ -1,0 +1,222 @@
+"""The page of the robots: which camera and radio, who is there and how well, who is who, and how late it all is."""
+
+import logging
+
+import pygame
+
+from pigaming_app.hardware.cameras import cameras
+from pigaming_app.hardware.line import ports
+from pigaming_app.keeping import NotSaved
+from pigaming_app.scenes import dials
+from pigaming_app.scenes.calibration import rows
+from pigaming_app.scenes.calibration.telling import paragraph, tell
+from pigaming_app.scenes.focus import Focus
+from pigaming_app.scenes.house import House
+from pigaming_app.scenes.ink import ALARM, FOCUS, GREEN, ICE, MIST, Color
+from pigaming_app.scenes.options import Value
+from pigaming_app.scenes.page import blacked, heading, stamp, text
+from pigaming_app.scenes.pane import backdrop
+from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.robots.checkup import Checkup, worst
+from pigaming_app.scenes.robots.discs import Discs, tag
+from pigaming_app.scenes.stack import Home, Pop, Turn
+from pigaming_app.settings import folders
+from pigaming_app.sim.world import ROBOTS
+
+BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
+RADIOS = ("api2", "api1", "transparent", "stock")
+EMULATED = ("pair", "latency")
+ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
+WEAK, LOW = 0.7, 4.4  # share of reports, V
+IDLE = 600.0  # seconds without a press until the title
+SAID = 8.0  # seconds for which a sentence stays
+ANEW = 0.8  # seconds after a change until everything is opened anew
+EVERY = 0.4  # seconds between two readings
+
+log = logging.getLogger("pigaming")
+
+
+class RobotsPage:
+    """The page of a house whose mat may be used."""
+
+    def __init__(self, house: House) -> None:
+        assert house.mat is not None
+        self.house = house
+        self.check = Checkup(house.mat, house.settings)
+        self.names = EMULATED if house.mat.emulated else ROWS
+        self.focus = Focus(rows.spots(self.names), "pair")
+        self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
+        self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
+        self.prompts = Prompts(
+            house, [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        )
+
+    def entered(self) -> None:
+        """Look and listen."""
+        self.check.begin()
+        if self.check.refusal:
+            self._say(tell(self.house.words, self.check.refusal))
+
+    def left(self) -> None:
+        """Stop the robots; let go of camera and radio."""
+        self.check.end()
+
+    def on(self, press: Press) -> Turn:
+        """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
+        press = self.prompts.meant(press)
+        if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
+            self.check.stop()
+            self._say(self.house.words("fleet.stopped"))
+            return None
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(press):
+            self.house.sounds.play("move")
+        name = self.focus.name
+        if by := rows.pushed(press, self.focus, self._value(name)):
+            self._change(name, by, False)
+        elif self.focus.chosen(press) and (press.act is not Act.CLICK or self._value(name).kind == "deed"):
+            self._do(name)
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Read what there is to read."""
+        words = self.house.words
+        self.focus.update(seconds)
+        self.said -= seconds
+        self.age += seconds
+        if self.anew > 0.0:
+            self.anew -= seconds
+            if self.anew <= 0.0:
+                self.check.end()
+                self.entered()
+        pairing = self.check.pairing is not None
+        if self.check.update(seconds):
+            self._found() if pairing else self._say(words("fleet.measured"))
+            self.house.sounds.play("accept")
+        if self.age >= EVERY:
+            self.age = 0.0
+            self.lines = [self._read(robot) for robot in range(ROBOTS)]
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page; the discs on top."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("fleet.title"), self._state()).draw(screen)
+        blacked(screen, dials.PANEL)
+        rows.draw(screen, self.house, self.focus, "fleet", {name: self._value(name) for name in self.names})
+        dials.beside().draw(screen, *dials.PANEL.topleft)
+        for robot, (heard, bright, seen, dim) in enumerate(self.lines):
+            x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
+            stamp(screen, tag(robot), x, y)
+            text(heard, 40, bright, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y - 26)
+            text(seen, 34, dim, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y + 26)
+        moving = self.check.moving
+        told = words("fleet.moving", robot=moving + 1) if moving is not None else words(f"fleet.{self.focus.name}_line")
+        for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
+            line.draw(screen, dials.PANEL.x + 30, dials.PANEL.y + 520 + 48 * i)
+        sentence = self._trouble() or (self.sentence if self.said > 0.0 else "")
+        for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
+            line.draw(screen, 960, 896 + 44 * i)
+        self.prompts.draw(screen)
+        if self.check.rig is not None:
+            Discs(self.check.rig).draw(screen, set(range(ROBOTS)))
+
+    # ---- what is read
+
+    def _state(self) -> str:
+        """What the camera does."""
+        words, check = self.house.words, self.check
+        if check.rig is None:
+            return words("fleet.no_camera")
+        return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
+
+    def _trouble(self) -> str | None:
+        """What camera or radio say is wrong."""
+        told = self.check.mat.trouble
+        return tell(self.house.words, told) if told else None
+
+    def _read(self, robot: int) -> tuple[str, Color, str, Color]:
+        words, health = self.house.words, self.check.health(robot)
+        late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
+        seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
+        if health.battery is None:
+            return words("fleet.silent"), MIST, seen, MIST
+        heard = words("fleet.heard", volts=f"{health.battery:.1f}", share=round(100 * health.share))
+        weak = health.battery < LOW or health.share < WEAK
+        return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST
+
+    # ---- what the rows are
+
+    def _value(self, name: str) -> Value:
+        words, settings = self.house.words, self.house.settings
+        match name:
+            case "mat":
+                return Value("toggle", (words("options.off"), words("options.on")), int(settings.mat))
+            case "pair" | "latency":
+                return Value("deed", (words("fleet.begin"),))
+        values, now = self._choices(name)
+        return Value("arrows", tuple(values.values()), list(values).index(now))
+
+    def _choices(self, name: str) -> tuple[dict[object, str], object]:
+        """What can be chosen, by what is kept, and what is now."""
+        words, settings = self.house.words, self.house.settings
+        if name == "camera":
+            known: dict[object, str] = {one.number: f"{one.number}: {one.name}" for one in cameras()}
+            return {settings.camera: str(settings.camera), **known}, settings.camera
+        if name == "port":
+            there: dict[object, str] = {one.device: one.device for one in ports()}
+            first = words("fleet.first", port=next(iter(there), "-"))
+            return {"": first, settings.port or "": settings.port or first, **there}, settings.port
+        if name == "baud":
+            return {one: str(one) for one in sorted({*BAUDS, settings.baud})}, settings.baud
+        return {one: words(f"fleet.{one}") for one in RADIOS}, settings.radio
+
+    def _change(self, name: str, by: int, around: bool) -> None:
+        """The next value of a row, or the one before it."""
+        settings = self.house.settings
+        if name in EMULATED:
+            return
+        if name == "mat":
+            settings.mat = not settings.mat
+        else:
+            values, now = self._choices(name)
+            keys = list(values)
+            at = keys.index(now) + by
+            settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
+            self.anew = ANEW
+        self.house.sounds.play("move")
+        try:
+            settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self._say(self.house.words("app.unsaved"))
+
+    def _do(self, name: str) -> None:
+        """Begin what the row is for, or take its next value."""
+        if name not in EMULATED:
+            self._change(name, 1, True)
+            return
+        begun = self.check.pair() if name == "pair" else self.check.measure()
+        self.house.sounds.play("accept" if begun else "error")
+        if not begun:
+            self._say(self.house.words("fleet.nobody"))
+
+    def _found(self) -> None:
+        """Say what came of the pairing."""
+        words, told = self.house.words, worst(self.check.findings)
+        if told is None:
+            self._say(words("fleet.paired"))
+        else:
+            marker = 0 if told.marker is None else told.marker + 1
+            self._say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
+        try:
+            self.house.settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+
+    def _say(self, sentence: str) -> None:
+        self.sentence, self.said = sentence, SAID
