@@ -5,7 +5,7 @@ import time
 from argparse import Namespace
 from typing import Any
 
-from pigaming_app.workshop import Workshop, open_workshop, wiring
+from pigaming_app.workshop import Workshop, keep_radios, open_workshop, wiring
 
 LISTEN = 2.5  # s
 HZ = 50
@@ -62,7 +62,7 @@ def _heard(arguments: Namespace) -> dict[str, Any]:
     link = linked(wiring(arguments.camera, arguments.port))
     with link.start():
         time.sleep(LISTEN)
-        return {"radio": link.trouble and str(link.trouble), "robots": [_robot(link, i, None) for i in range(4)]}
+        return {"radio": link.trouble and str(link.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
 
 
 def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
@@ -74,23 +74,24 @@ def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
     seen = rig.sense()
     told["radio"] = rig.link.trouble and str(rig.link.trouble)
     told["eyes"] = getattr(rig.eye, "trouble", None)
-    told["robots"] = [_robot(rig.link, i, seen[i]) for i in range(4)]
+    told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if told["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
         raise NotThere(told["radio"] or "No robot answers: are they switched on?")
     if arguments.pair:
-        told["pairing"] = _paired(shop)
+        told["pairing"] = _paired(shop, kept=arguments.emulate is None)
     if arguments.latency:
         told["latency"] = [_late(shop, i) for i in movable if told["robots"][i]["seen"]]
     return told
 
 
-def _robot(link: Any, robot: int, seen: Any) -> dict[str, Any]:
-    """One robot: battery (V), how well it is heard, where it is seen (px, px, rad)."""
-    report, quality = link.telemetry.get(robot), link.quality(robot)
+def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
+    """One robot: its radio, battery (V), how well it is heard, where it is seen (px, px, rad)."""
+    report, quality = link.telemetry.get(channel), link.quality(channel)
     there = seen is not None and seen.age < 1.0
     return {
         "robot": robot + 1,
+        "radio": channel + 1,
         "heard": report is not None and quality.share > 0.0,
         "battery": round(report.battery, 2) if report else None,
         "share": round(quality.share, 2),
@@ -101,14 +102,20 @@ def _robot(link: Any, robot: int, seen: Any) -> dict[str, Any]:
     }
 
 
-def _paired(shop: Workshop) -> list[dict[str, Any]]:
-    """Spin each robot in turn."""
-    from pigaming_app.hardware.pairing import Pairing
+def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
+    """Spin each robot in turn; remember who is who unless it is unclear."""
+    from pigaming_app.hardware.pairing import Case, Pairing
+    from pigaming_app.keeping import NotSaved
 
     pairing = Pairing(shop.rig)
     while not pairing.tick():
         shop.tick()
     shop.rig.channels = pairing.channels
+    if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
+        try:
+            keep_radios(pairing.channels)
+        except NotSaved as trouble:
+            raise NotThere(str(trouble)) from None
     return [
         {"radio": one.channel + 1, "marker": None if one.marker is None else one.marker + 1, "case": str(one.case)}
         for one in sorted(pairing.findings)

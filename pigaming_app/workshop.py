@@ -1,6 +1,7 @@
 """Where the jobs `robots` and `fidelity` get robots from: the real ones, or the emulated arena in made-up time."""
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -32,6 +33,7 @@ class RealWorkshop:
         ground = ground_of(config / CALIBRATION)
         self.mm = ground.mm
         self.rig = connect(wiring(camera, port), ground, measured(config / ROBOTS))
+        self.rig.channels = tuple(radio - 1 for radio in Settings.load(config)[0].radios)
         self._next = time.monotonic()
 
     def tick(self) -> None:
@@ -75,6 +77,14 @@ def wiring(camera: int | None = None, port: str | None = None) -> Any:
 def open_workshop(emulate: int | None, camera: int | None, port: str | None) -> Workshop:
     """The emulated arena of a seed, or the real one. Raises ValueError, ImportError, NoVision."""
     return EmulatedWorkshop(emulate) if emulate is not None else RealWorkshop(camera, port)
+
+
+def keep_radios(channels: Sequence[int]) -> None:
+    """Remember which radio drives which marker. Raises NotSaved."""
+    config = folders().config
+    settings, _ = Settings.load(config)
+    settings.radios = [channel + 1 for channel in channels]
+    settings.save(config)
 
 
 def kept_robots(emulated: bool) -> Path:

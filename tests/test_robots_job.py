@@ -6,7 +6,9 @@ import pytest
 
 from pigaming_app import robots
 from pigaming_app.cli import main
+from pigaming_app.settings import Settings, folders
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, Wheel, parse, tell
+from pigaming_app.workshop import keep_radios
 
 
 @pytest.fixture(autouse=True)
@@ -49,6 +51,13 @@ def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
     assert [(one["radio"], one["marker"], one["case"]) for one in found["pairing"]] == [
         (i, i, "fits") for i in range(1, 5)
     ]
+
+
+def test_who_is_who_is_remembered(home):
+    keep_radios([0, 2, 1, 3])
+    settings, said = Settings.load(folders().config)
+    assert settings.radios == [1, 3, 2, 4]
+    assert said == []
 
 
 def test_emulated_robots_are_recorded_identified_and_replayed(tmp_path, capsys):
