@@ -141,3 +141,10 @@ def lit(floor: Image, robots: list[Sighting]) -> Image:
             middle = (round(robot.x + ARENA_AT[0]), round(robot.y + ARENA_AT[1]))
             cv2.circle(page, middle, round(DISC), GREY, -1)
     return page
+
+
+def one_core() -> None:
+    """Let OpenCV use no more than one core, as is measured."""
+    import cv2
+
+    cv2.setNumThreads(1)
