@@ -56,14 +56,27 @@ def square(pose, edge):
 
 def lids(corners_of, size=SIZE, ground=40.0):
     """A picture of white lids with markers whose corners (camera px) are given as (number, corners) pairs."""
-    words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
-    picture = np.full((size[1] * 2, size[0] * 2), ground, np.float32)
+    picture = np.full((size[1], size[0]), ground, np.float32)
     for number, corners in corners_of:
-        tile = np.full((160, 160), 225, np.uint8)
-        tile[20:140, 20:140] = np.clip(cv2.aruco.generateImageMarker(words, number, 120), 25, 225)
-        inner = np.array([(19.5, 19.5), (139.5, 19.5), (139.5, 139.5), (19.5, 139.5)], np.float32)
-        onto = cv2.getPerspectiveTransform(inner, (corners * 2.0 + 0.5).astype(np.float32))
-        shape = (size[0] * 2, size[1] * 2)
-        there = cv2.warpPerspective(np.ones_like(tile), onto, shape) > 0
-        picture[there] = cv2.warpPerspective(tile, onto, shape)[there]
-    return cv2.GaussianBlur(cv2.resize(picture, size, interpolation=cv2.INTER_AREA), (0, 0), 0.7)
+        left, top = np.floor(corners.min(axis=0)).astype(int) - 40
+        wide, high = np.ceil(corners.max(axis=0)).astype(int) + 40 - (left, top)
+        patch = lid(number, corners - (left, top), (wide, high), ground)
+        x, y = max(0, left), max(0, top)
+        room = picture[y : top + high, x : left + wide]
+        room[:] = patch[y - top : y - top + room.shape[0], x - left : x - left + room.shape[1]]
+    return picture
+
+
+def lid(number, corners, size, ground):
+    """One marker on its lid, at twice the size and shrunk, a little blurred."""
+    words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    tile = np.full((160, 160), 225, np.uint8)
+    tile[20:140, 20:140] = np.clip(cv2.aruco.generateImageMarker(words, number, 120), 25, 225)
+    inner = np.array([(19.5, 19.5), (139.5, 19.5), (139.5, 139.5), (19.5, 139.5)], np.float32)
+    onto = cv2.getPerspectiveTransform(inner, (corners * 2.0 + 0.5).astype(np.float32))
+    large = np.full((int(size[1]) * 2, int(size[0]) * 2), ground, np.float32)
+    shape = large.shape[::-1]
+    there = cv2.warpPerspective(np.ones_like(tile), onto, shape) > 0
+    large[there] = cv2.warpPerspective(tile, onto, shape)[there]
+    shrunk = cv2.resize(large, (int(size[0]), int(size[1])), interpolation=cv2.INTER_AREA)
+    return cv2.GaussianBlur(shrunk, (0, 0), 0.7)
