@@ -105,6 +105,7 @@ class Camera:
 
     def _ask(self, capture: Any) -> None:
         cv, wanted = self._cv, self.wanted
+        free(cv, capture)
         capture.set(cv.CAP_PROP_FOURCC, cv.VideoWriter_fourcc(*"MJPG"))  # raw 1080p does not fit through USB 2
         capture.set(cv.CAP_PROP_FRAME_WIDTH, wanted.width)
         capture.set(cv.CAP_PROP_FRAME_HEIGHT, wanted.height)
@@ -144,6 +145,13 @@ class Camera:
         with self._lock:
             self._count += 1
             self._newest, self._arrived, self.trouble = Frame(grey, captured, self._count), now, None
+
+
+def free(cv: Any, capture: Any) -> None:
+    """Let the camera find its exposure and the like anew: drivers keep a lock when the camera is closed."""
+    automatic = 3.0 if sys.platform.startswith("linux") else 0.75  # two drivers, two words for it
+    for name, on in ((cv.CAP_PROP_AUTO_EXPOSURE, automatic), (cv.CAP_PROP_AUTO_WB, 1.0), (cv.CAP_PROP_AUTOFOCUS, 1.0)):
+        capture.set(name, on)
 
 
 def lock(cv: Any, capture: Any) -> list[str]:

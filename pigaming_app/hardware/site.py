@@ -3,9 +3,10 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 from typing import Protocol
 
-from pigaming_app.hardware.camera import Camera
+from pigaming_app.hardware.camera import SETTLE, Camera
 from pigaming_app.hardware.cameras import Known, cameras
 from pigaming_app.hardware.ground import LID
 from pigaming_app.hardware.signals import Clock, Frame
@@ -49,8 +50,8 @@ class Site(Protocol):
 
     def cameras(self) -> list[Known]: ...
 
-    def open(self, number: int) -> Sees:
-        """Use a camera. Raises NoVision."""
+    def open(self, number: int, locks: bool = True) -> Sees:
+        """Use a camera; `locks`: it locks its exposure when it has settled. Raises NoVision."""
 
     def advance(self, seconds: float) -> None: ...
 
@@ -77,9 +78,9 @@ class RealSite:
         """The cameras that are plugged in."""
         return cameras()
 
-    def open(self, number: int) -> Sees:
+    def open(self, number: int, locks: bool = True) -> Sees:
         """Use a camera. Raises NoVision."""
-        return Camera(number, clock=self.clock, open_capture=self._open_capture)
+        return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf)
 
     def advance(self, seconds: float) -> None:
         """Time passes by itself."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.ground import project
 from pigaming_app.hardware.markers import opencv
+from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.solver import homography
 
 CANVAS = (1920, 1080)
@@ -37,7 +38,7 @@ class Warp:
 
     def __init__(self, corners: Sequence[float], size: tuple[int, int] = CANVAS) -> None:
         if crooked(corners):
-            raise ValueError("No picture fits into these corners: each must be in its own quarter, not on a line.")
+            raise ValueError(Said("No picture fits into these corners.", "corners"))
         self._cv = opencv()
         self.size = size
         grown = np.array((size[0] / CANVAS[0], size[1] / CANVAS[1]))

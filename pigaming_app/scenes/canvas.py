@@ -133,12 +133,13 @@ class Canvas:
             self.corners, self._warp = (), None
             return
         from pigaming_app.hardware.markers import NoVision
+        from pigaming_app.hardware.said import said
         from pigaming_app.hardware.warp import Warp
 
         try:
             self._warp = Warp(corners)
         except (NoVision, ValueError) as trouble:
-            raise NoPin(str(trouble)) from trouble
+            raise NoPin(said(trouble)) from trouble
         self.corners = tuple(corners)
 
     @property

@@ -158,7 +158,7 @@ def test_exposure_and_the_rest_are_locked_once_they_have_settled():
     driver.settings = {cv2.CAP_PROP_EXPOSURE: 156.0, cv2.CAP_PROP_GAIN: 7.0}
     with Camera(0, open_capture=driver, settle=0.0) as camera:
         driver.go.release()
-        wait_for(lambda: cv2.CAP_PROP_AUTOFOCUS in driver.settings)
+        wait_for(lambda: driver.settings.get(cv2.CAP_PROP_AUTOFOCUS) == 0.0)
     assert camera.loose == []
     assert driver.settings[cv2.CAP_PROP_AUTO_WB] == 0
     assert driver.settings[cv2.CAP_PROP_EXPOSURE] == 156.0
@@ -224,3 +224,13 @@ def test_without_opencv_there_is_one_sentence(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "cv2", None)
     with pytest.raises(NoVision, match="install opencv-python-headless"):
         Camera(0)
+
+
+def test_a_camera_that_was_locked_finds_its_exposure_anew(monkeypatch):
+    quick(monkeypatch)
+    driver = Driver()
+    driver.settings[cv2.CAP_PROP_AUTO_EXPOSURE] = 1.0  # as the one before has left it
+    with Camera(0, open_capture=driver, settle=1e9):
+        wait_for(lambda: driver.tries == 1 and cv2.CAP_PROP_BUFFERSIZE in driver.settings)
+        assert driver.settings[cv2.CAP_PROP_AUTO_EXPOSURE] in (3.0, 0.75)
+        assert driver.settings[cv2.CAP_PROP_AUTO_WB] == 1.0

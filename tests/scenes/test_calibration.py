@@ -13,7 +13,7 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware import calibrating, camera, cameras
+from pigaming_app.hardware import calibrating, camera, cameras, looking, standing
 from pigaming_app.hardware.cameras import Known
 from pigaming_app.hardware.emulator.site import EmulatedSite
 from pigaming_app.hardware.ground import NoGround
@@ -219,12 +219,12 @@ def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
         arcade.picture()
     arcade.site.arena.faults.switch("camera_frozen", True)
     result = arcade.pictures(ResultPage)
-    assert result.finding.trouble == calibrating.NO_PICTURE
+    assert result.finding.trouble == looking.NO_PICTURE
     arcade.shown(ResultPage)
 
 
 def test_nobody_puts_a_robot_on_the_outline(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(calibrating, "PATIENCE", 1.0)
+    monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
     arcade.go("by")
     arcade.press(Act.RIGHT)
@@ -361,7 +361,7 @@ def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
     controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(RealSite, "settle", 0.05)
-    monkeypatch.setattr(calibrating, "BLIND", 0.5)
+    monkeypatch.setattr(looking, "BLIND", 0.5)
     driver = Driver()
     arcade = real(controls, driver)
     arcade.begin()
@@ -403,10 +403,10 @@ def test_what_breaks_in_the_thread_ends_in_a_sentence_not_in_silence(
     def broken(image: object) -> object:
         raise RuntimeError("nobody thought of this")
 
-    monkeypatch.setattr(calibrating, "shrunk", broken)
+    monkeypatch.setattr(looking, "shrunk", broken)
     arcade = real(controls, Driver())
     first = arcade.shown(CalibrationPage)
-    until(arcade, lambda: first.preview is not None and first.preview.trouble == calibrating.BROKEN)
+    until(arcade, lambda: first.preview is not None and first.preview.trouble == looking.BROKEN)
     arcade.press(Act.BACK)
 
 

@@ -57,7 +57,7 @@ class EmulatedSite:
         """The one that there is."""
         return [Known(0, "emulated")]
 
-    def open(self, number: int) -> EmulatedEye:
+    def open(self, number: int, locks: bool = True) -> EmulatedEye:
         """Use the camera."""
         return EmulatedEye(self.arena)
 

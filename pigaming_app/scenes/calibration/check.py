@@ -4,8 +4,8 @@ from functools import lru_cache, partial
 
 import pygame
 
-from pigaming_app.hardware.calibrating import Checking
 from pigaming_app.hardware.drift import PAUSE, WARN
+from pigaming_app.hardware.looking import Checking
 from pigaming_app.hardware.markers import NoVision
 from pigaming_app.hardware.said import said
 from pigaming_app.hardware.site import Site

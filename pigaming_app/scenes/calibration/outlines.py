@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.hardware.calibrating import PLACES, STILL, Standing
+from pigaming_app.hardware.standing import PLACES, STILL, Standing
 from pigaming_app.hardware.worker import Worker
 from pigaming_app.scenes.calibration.result import Finding, ResultPage
 from pigaming_app.scenes.house import House

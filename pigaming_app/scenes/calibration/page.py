@@ -4,8 +4,8 @@ import logging
 
 import pygame
 
-from pigaming_app.hardware.calibrating import SMALL, Preview
 from pigaming_app.hardware.ground import NoGround
+from pigaming_app.hardware.looking import SMALL, Preview
 from pigaming_app.hardware.said import Said, said
 from pigaming_app.hardware.site import Measures, RealSite, Site
 from pigaming_app.keeping import NotSaved
@@ -30,6 +30,7 @@ LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
 HASTE = ((40, 100), (14, 10), (0, 1))  # after so many presses of a held direction, steps of so many mm
 USUAL = 2500  # mm, a height to begin with
 IDLE = 600.0  # seconds without a press until the title
+EVERY = 2.0  # s between two looks for cameras that were plugged in
 SAID = 5.0  # seconds for which a sentence stays
 PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 
@@ -56,6 +57,7 @@ class CalibrationPage:
         self.known = self.site.cameras()
         self.state = ""
         self._state_of: tuple[int, int] = (0, 0)
+        self.asked = 0.0  # s since it was asked which cameras there are
         self.held, self.sentence, self.said = 0, "", 0.0
         self._small: object = None
         self._picture: pygame.Surface | None = None
@@ -100,6 +102,9 @@ class CalibrationPage:
         """Look; leave when nobody is there."""
         self.focus.update(seconds)
         self.said -= seconds
+        self.asked += seconds
+        if self.asked > EVERY:
+            self.asked, self.known = 0.0, self.site.cameras()
         self.site.advance(seconds)
         if self.preview is not None:
             self.preview.pump()

@@ -8,8 +8,10 @@ from functools import lru_cache
 
 import pygame
 
+from pigaming_app.hardware.said import said
 from pigaming_app.hardware.warp import STRAIGHT
 from pigaming_app.keeping import NotSaved
+from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.canvas import NoPin
 from pigaming_app.scenes.focus import WAYS
 from pigaming_app.scenes.house import House
@@ -156,7 +158,7 @@ class PinPage:
             return True
         except NoPin as trouble:
             log.warning("%s", trouble)
-            self._say(str(trouble))
+            self._say(tell(self.house.words, said(trouble)))
             return False
 
     def _restore(self) -> None:

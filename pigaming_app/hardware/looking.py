@@ -1,0 +1,137 @@
+"""Looking through a camera beside the pictures of the arcade: what it sees, and whether its calibration still holds.
+
+Each is a Worker: it opens the camera, works bit by bit, and lets go of it.
+"""
+
+from collections.abc import Callable
+from math import inf
+
+import numpy as np
+
+from pigaming_app.hardware.drift import Drift
+from pigaming_app.hardware.ground import Ground, NoGround
+from pigaming_app.hardware.markers import NoVision, opencv
+from pigaming_app.hardware.said import Said, said
+from pigaming_app.hardware.signals import Frame, Image
+from pigaming_app.hardware.site import Sees, Site
+from pigaming_app.hardware.worker import Worker
+
+BLIND = 6.0  # s without a picture after which it is given up
+SMALL = (520, 292)  # px of the picture that shows what the camera sees
+RATE = 1.0  # s over which pictures are counted
+
+NO_PICTURE = Said("The camera sends no pictures.", "no_picture")
+BROKEN = Said("Something broke; the log says what.", "broken")
+
+
+class Looking(Worker):
+    """Opens a camera and hands on its pictures."""
+
+    locks = True  # whether the camera locks its exposure: to measure, but not just to look
+
+    def __init__(self, site: Site, number: int) -> None:
+        super().__init__()
+        self.site, self.number = site, number
+        self.trouble: str | None = None
+        self.small: Image | None = None  # the newest picture, as small as it is shown
+        self._eye: Sees | None = None
+        self._since = self._newest = inf  # s: when it was opened, when the newest picture came
+
+    def step(self) -> None:
+        """Look at the newest picture, if there is a new one."""
+        now = self.site.clock()
+        if self._eye is None:
+            self._since = self._newest = now
+            try:
+                self._eye = self.site.open(self.number, self.locks)
+            except NoVision as missing:
+                self.give_up(said(missing))
+                return
+        frame = self._eye.newest()
+        if frame is not None:
+            self._newest = now
+            self.small = shrunk(frame.image)
+            self.look(frame)
+        else:
+            self.idle(now - self._newest, self._eye.trouble)
+
+    def look(self, frame: Frame) -> None:
+        """A new picture."""
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        """No new picture for so long."""
+
+    def give_up(self, trouble: str) -> None:
+        """End with this sentence."""
+        self.trouble = trouble
+
+    def failed(self, error: Exception) -> None:
+        self.give_up(BROKEN)
+
+    def end(self) -> None:
+        if self._eye is not None:
+            self._eye.close()
+
+
+class Preview(Looking):
+    """What a camera sees: `small`, its `size` in px and how many pictures a second; or what is wrong with it."""
+
+    locks = False
+
+    def __init__(self, site: Site, number: int) -> None:
+        super().__init__(site, number)
+        self.size = (0, 0)
+        self.rate = 0.0
+        self.count = 0
+        self._counted = (inf, 0)
+
+    def look(self, frame: Frame) -> None:
+        self.size, self.trouble = (frame.image.shape[1], frame.image.shape[0]), None
+        self.count += 1
+        now, (since, before) = self.site.clock(), self._counted
+        if now - since > RATE:
+            self.rate = (self.count - before) / (now - since)
+        if not 0.0 <= now - since <= RATE:
+            self._counted = (now, self.count)
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        if seconds > 1.0:
+            self.trouble = trouble or NO_PICTURE
+
+
+class Checking(Looking):
+    """Whether a calibration still holds: how far the four corner markers are from where it says that they are seen.
+
+    `load` makes the ground for a camera with pictures of so many px, or raises NoGround.
+    """
+
+    def __init__(self, site: Site, number: int, load: Callable[[tuple[int, int]], Ground]) -> None:
+        super().__init__(site, number)
+        self.drift: Drift | None = None
+        self.mm: float | None = None  # None: not yet known
+        self._load = load
+
+    def look(self, frame: Frame) -> None:
+        if self.trouble is not None:
+            return
+        try:
+            if self.drift is None:
+                self.drift = Drift(self._load((frame.image.shape[1], frame.image.shape[0])))
+        except NoGround as trouble:
+            self.give_up(said(trouble))
+            return
+        self.drift.see(frame)
+        self.mm = self.drift.mm or None  # exactly 0: none has been seen often enough
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        if seconds > BLIND:
+            self.give_up(trouble or NO_PICTURE)
+
+
+def shrunk(image: Image) -> Image:
+    """A picture as small as it is shown, whatever its shape."""
+    cv = opencv()
+    h, w = image.shape
+    scale = min(SMALL[0] / w, SMALL[1] / h)
+    size = (max(1, round(w * scale)), max(1, round(h * scale)))
+    return np.asarray(cv.resize(image, size, interpolation=cv.INTER_AREA), dtype=np.uint8)
