@@ -28,7 +28,7 @@ class Pinhole:
 
     def photo(self, canvas, noise=2.0, seed=1):
         """What it sees of a canvas (1080, 1920) projected on the mat."""
-        x, y = np.meshgrid(np.arange(SIZE[0], dtype=float), np.arange(SIZE[1], dtype=float))
+        x, y = np.meshgrid(np.arange(0.0, SIZE[0] + 8, 8), np.arange(0.0, SIZE[1] + 8, 8))  # the rest is interpolated
         bent = (np.stack([x, y], axis=-1).reshape(-1, 2) - self.centre) / self.focal
         flat = bent.copy()
         for _ in range(25):
@@ -36,7 +36,9 @@ class Pinhole:
             flat = bent / (1 + self.k1 * r2 + self.k2 * r2 * r2)
         rays = np.column_stack([flat, np.ones(len(flat))]) @ self.turn
         mat = self.eye[:2] + rays[:, :2] * (-self.eye[2] / rays[:, 2:])
-        maps = (mat + np.array([160.0, 140.0])).astype(np.float32).reshape(SIZE[1], SIZE[0], 2)
+        coarse = (mat + np.array([160.0, 140.0])).astype(np.float32).reshape(*x.shape, 2)
+        v, u = np.mgrid[0 : SIZE[1], 0 : SIZE[0]].astype(np.float32) / 8.0
+        maps = cv2.remap(coarse, u, v, cv2.INTER_LINEAR)
         seen = cv2.remap(canvas, maps[..., 0], maps[..., 1], cv2.INTER_LINEAR)
         return speckled(cv2.GaussianBlur(seen, (0, 0), 0.7) * 0.75 + 25.0, noise, seed)
 
