@@ -10,7 +10,7 @@ from pigaming_app.ai.rollout import Batch
 from pigaming_app.ai.training import ARENA, GAME, MINUTES, Training, setting
 from pigaming_app.sim.world import HZ
 
-HANDMADE = "classic"  # the hand-written robot of the measured results
+HANDMADE = "hard"  # the best that people have written by hand
 
 
 class Exam:
@@ -39,7 +39,7 @@ class Exam:
 
     @property
     def share(self) -> float:
-        """Of all matches so far, won; a tie is half a win. Against one like itself that is a half."""
+        """Of all matches so far, won; a tie is half a win. Against one like itself that is a half, on average."""
         return (self.wins + 0.5 * self.ties) / max(1, self._played)
 
     def play(self, ticks: int) -> None:
