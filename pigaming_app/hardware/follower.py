@@ -31,8 +31,11 @@ NUMBERS = 8  # in the filter
 START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02, 20.0]))
 WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001, 0.5]))  # per second
 NEW = Wear(1.0, 1.0, 1.0, 0.0, 0.0)
-LOW, HIGH = Wear(0.6, 0.6, 0.6, -0.06, -30.0), Wear(1.4, 1.4, 1.4, 0.06, 90.0)
+LOW, HIGH = Wear(0.6, 0.6, 0.6, -0.06, -30.0), Wear(1.4, 1.4, 1.4, 0.06, 60.0)
 SURPRISE = 36.0  # squared standard deviations: beyond, it was pushed or lifted, which teaches nothing about wheels
+STUCK = 0.4  # of the way or turn that was predicted, below which it does not do as it is told
+CLEAR_PX, CLEAR_RAD = 1.5, 0.03  # ways and turns from which that can be said
+UNTAUGHT = 0.25  # s after such a surprise in which nothing is learnt
 NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
 
 Matrix = NDArray[np.float64]
@@ -47,7 +50,7 @@ class Follower:
         self._rolling = Rolling(0.0, 0.0, 0.0)
         self.wear = NEW
         self._spread = START.copy()
-        self._seen = -inf
+        self._seen = self._surprised = -inf
         self._elsewhere: list[Fix] = []  # where it was seen and not believed
 
     def told(self, time: float, twist: Twist) -> None:
@@ -85,6 +88,8 @@ class Follower:
         if hypot(fix.x - rolling.x, fix.y - rolling.y) * self.mm > FASTEST * dt + LEEWAY:
             return self._again(fix)
         self._elsewhere.clear()
+        if _stuck(self._rolling, rolling, fix):
+            self._surprised = fix.captured
         self._seen, self._rolling = fix.captured, rolling
         self._blend(fix, flow @ self._spread @ flow.T + WALK * dt)
         return True
@@ -128,10 +133,8 @@ class Follower:
 
     def _begin(self, fix: Fix) -> None:
         """It is there, standing; what was learnt about its wheels stays."""
-        self._rolling = Rolling(fix.x, fix.y, fix.heading)
-        self._seen = fix.captured
-        self._spread[:3, :], self._spread[:, :3] = 0.0, 0.0
-        self._spread[:3, :3] = NOISE
+        self._rolling, self._seen = Rolling(fix.x, fix.y, fix.heading), fix.captured
+        self._forget_pose()
         self._elsewhere.clear()
 
     def _again(self, fix: Fix) -> bool:
@@ -148,14 +151,16 @@ class Follower:
         return True
 
     def _blend(self, fix: Fix, spread: Matrix) -> None:
-        """Kalman's correction; what surprises too much moves the pose only."""
+        """Kalman's correction; one that surprises too much moves the pose only."""
         rolling = self._rolling
-        turned = (fix.heading - rolling.heading + pi) % tau - pi
+        turned = _turn_to(rolling.heading, fix.heading)
         miss = np.array((fix.x - rolling.x, fix.y - rolling.y, turned))
         doubt = np.linalg.inv(spread[:3, :3] + NOISE)
         if miss @ doubt @ miss > SURPRISE:
+            self._surprised = fix.captured
+        if fix.captured - self._surprised < UNTAUGHT:
             rolling.x, rolling.y, rolling.heading = fix.x, fix.y, rolling.heading + turned
-            self._spread = spread
+            self._forget_pose()
             return
         share = spread[:, :3] @ doubt
         change = share @ miss
@@ -163,3 +168,23 @@ class Follower:
         rolling.x, rolling.y, rolling.heading = rolling.x + x, rolling.y + y, rolling.heading + heading
         self.wear = Wear(*np.clip(change[3:] + self.wear, LOW, HIGH).tolist())
         self._spread = spread - share @ spread[:3, :]
+
+    def _forget_pose(self) -> None:
+        """What is known of the pose is the newest fix, and nothing that ties it to the wheels."""
+        self._spread[:3, :], self._spread[:, :3] = 0.0, 0.0
+        self._spread[:3, :3] = NOISE
+
+
+def _stuck(before: Rolling, predicted: Rolling, fix: Fix) -> bool:
+    """Whether a robot went or turned much less than predicted: it is blocked, held, empty, or does not hear."""
+    dx, dy = predicted.x - before.x, predicted.y - before.y
+    turn = predicted.heading - before.heading
+    way = hypot(dx, dy)
+    went = (fix.x - before.x) * dx + (fix.y - before.y) * dy
+    turned = _turn_to(before.heading, fix.heading)
+    return (way > CLEAR_PX and went < STUCK * way * way) or (abs(turn) > CLEAR_RAD and turned / turn < STUCK)
+
+
+def _turn_to(heading: float, other: float) -> float:
+    """The turn from one heading to another, the short way round."""
+    return (other - heading + pi) % tau - pi

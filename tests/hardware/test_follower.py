@@ -224,3 +224,14 @@ def test_a_robot_whose_cells_are_empty_is_not_thought_to_have_lost_its_wheels():
         robot.told(frame / 30.0 - 0.033, (260.0, 0.0))
         robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
         assert abs(robot.at(frame / 30.0).x - 500.0) < 6.0
+    assert robot.wear == pytest.approx(FRESH, abs=0.1)
+
+
+def test_a_robot_that_is_blocked_again_and_again_keeps_its_wheels():
+    """It pushes against another, turns, pushes: what does not follow its motors teaches nothing about them."""
+    robot = follower()
+    for frame in range(1, 300):
+        robot.told(frame / 30.0 - 0.033, (260.0 * (frame % 15 < 10), 3.0 * (frame % 20 < 6)))
+        robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
+    assert robot.wear[:3] == pytest.approx(FRESH[:3], abs=0.2)
+    assert robot.wear.stiction < 30.0
