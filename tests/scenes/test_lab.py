@@ -293,6 +293,20 @@ def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade
     assert here.workshop.join()
 
 
+def test_the_moment_in_which_it_beats_the_hand_made_robot_is_cheered_once(arcade: Arcade) -> None:
+    here = lab(arcade)
+    for share in (1.0, 0.0, 0.2, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0):
+        measures = here.workshop.progress.measures
+        here.workshop.progress.measures = [*measures, Measure(len(measures), share)]
+        lab(arcade)
+        arcade.frame()
+    assert arcade.sounds.heard.count("win") == 1
+    assert here.sentence == arcade.house.words("lab.outdone")
+    here.begin()
+    arcade.frame()
+    assert arcade.sounds.heard.count("win") == 1
+
+
 def test_the_line_through_the_dots_moves_part_of_the_way_to_each() -> None:
     line = smoothed([Measure(0, 0.0), Measure(1, 1.0), Measure(2, 1.0)])
     assert line == pytest.approx([0.0, 0.3, 0.51])

@@ -13,9 +13,11 @@ from pigaming_app.ai.rewards import RECIPES, Recipe
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS
+from pigaming_app.scenes.lab.curve import HANDMADE
 from pigaming_app.scenes.lab.dial import MOST
 from pigaming_app.scenes.lab.page import SPEEDS, LabPage, Shown, speed_at
 from pigaming_app.scenes.lab.places import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
+from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.workshop import Workshop
 from pigaming_app.scenes.match import new_seed
 from pigaming_app.scenes.plate import plate
@@ -40,6 +42,8 @@ class Lab:
     def __init__(self, house: House, fast: bool | None = None) -> None:
         self.house = house
         self.workshop = Workshop(FIRST, new_seed(), fast)
+        self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
+        self.cheered: Progress | None = None  # in which that was over
         self.name = ""  # under which it was saved or opened
         self.shown = Shown()
         self.page: LabPage | None = None
@@ -211,12 +215,23 @@ class Lab:
         if self.page:
             self.page.update(seconds)
         shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, workshop.progress.measures
+        self._cheer(workshop.progress)
         shown.speed, shown.focus, shown.held = workshop.speed, self.focus.name, self.held
         shown.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = workshop.progress.plan
         most = max([LEAST] + [abs(one.worth) for one in plan if one])
         shown.levels = [level(one.worth / most) if one else 0 for one in plan]
         shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
+
+    def _cheer(self, progress: Progress) -> None:
+        """The moment in which it wins more often than the hand-made robot, once in a training."""
+        share = self.page.curve.share if self.page else None
+        if share is not None and share < HANDMADE:
+            self.lagged = progress
+        elif share is not None and share > HANDMADE and self.lagged is progress is not self.cheered:
+            self.cheered = progress
+            self.say(self.house.words("lab.outdone"))
+            self.house.sounds.play("win")
 
 
 def level(share: float) -> int:
