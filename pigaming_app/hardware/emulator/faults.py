@@ -123,7 +123,10 @@ class Faults:
         x, y, _ = poses[-1]
         if robot in self._robots["upside_down"]:
             return [Thing(underside(), LID_HEIGHT + height, poses)]
-        seen = [Thing(body(), BODY_HEIGHT + height, poses[-1:]), Thing(lid(robot), LID_HEIGHT + height, poses)]
+        seen = [
+            Thing(body(), BODY_HEIGHT + height, poses[-1:], dull=True),
+            Thing(lid(robot), LID_HEIGHT + height, poses),
+        ]
         if robot in self._robots["marker_covered"]:
             seen.append(Thing(hand(), LID_HEIGHT + 30.0, poses[-1:], HAND))
         if height:

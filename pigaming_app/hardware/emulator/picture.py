@@ -121,11 +121,15 @@ class Painter:
             min(place.right, window.right),
         )
         x, y = self.optics.plane(thing.height, *part.cut())
-        look = _look(thing.look, x, y, thing.poses)
+        look = _look(thing.look, x, y, thing.poses if thing.poses[0] != thing.poses[-1] else thing.poses[:1])
         rows = slice(part.top - window.top, part.bottom - window.top)
         columns = slice(part.left - window.left, part.right - window.left)
+        there = light[rows, columns]
+        if thing.dull:
+            there *= 1.0 + look[..., 0] - look[..., 1]
+            return
         lit = self._lit(scene, self._lids if thing.height else self._floor, part, room[rows, columns])
-        light[rows, columns] += look[..., 0] * lit - look[..., 1] * light[rows, columns]
+        there += look[..., 0] * lit - look[..., 1] * there
 
     def _lit(self, scene: Scene, maps: tuple[Map, Map], window: Window, room: Floats) -> Floats:
         """How much light falls on white paper."""

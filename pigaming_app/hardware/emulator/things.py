@@ -31,6 +31,7 @@ class Thing(NamedTuple):
     height: float  # mm
     poses: tuple[Placing, ...]
     reach: float = 50.0  # mm from its middle beyond which there is nothing of it
+    dull: bool = False  # so dark that what is projected on it cannot be told from what is projected beside it
 
 
 @lru_cache(maxsize=8)
