@@ -1,10 +1,14 @@
 """The proof of the robot loop, in small: `bench robots` does the same for longer."""
 
+import json
+
 import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app import bench_robots
 from pigaming_app.bench_robots import TARGETS, Job, jobs, on_mat, reached
+from pigaming_app.cli import main
 from pigaming_app.games import GAMES
 from pigaming_app.hardware.emergencies import EMERGENCIES, hang, leave, stop
 from pigaming_app.hardware.proving import Trail, entered, follow
@@ -112,3 +116,20 @@ def test_a_robot_that_was_carried_is_followed_where_it_was_put_down():
         for _ in range(50):
             trail.tick()
     assert max(mm for mm, _ in bed.misses()) < 10.0
+
+
+def test_the_job_prints_exactly_these_figures(monkeypatch, capsys):
+    monkeypatch.setattr(bench_robots, "measure", lambda note: dict(TARGETS))
+    assert main(["bench", "robots", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == TARGETS
+    assert main(["bench", "robots"]) == 0
+    assert "everything is reached" in capsys.readouterr().out
+
+
+def test_what_fails_is_one_line(monkeypatch, capsys):
+    def fails(note):
+        raise bench_robots.Unproven("race in classic, seed 3: the match did not end: []")
+
+    monkeypatch.setattr(bench_robots, "measure", fails)
+    assert main(["bench", "robots"]) == 2
+    assert capsys.readouterr().err.strip().endswith("the match did not end: []")
