@@ -41,13 +41,16 @@ class MixedPlant(RealPlant):
 
     def swap(self, robot: int, real: bool) -> None:
         """Hand a robot of the match to the real or the simulated one. A real one must take its place first."""
+        goals = self.goals
         if not real:
             self.real.discard(robot)
             self.arriving.discard(robot)
-            self._call(self.arriving)
+            goals.pop(robot, None)
         elif robot not in self.real:
             self.arriving.add(robot)
-            self._call(self.arriving)
+            record = self.world.robots[robot]
+            goals[robot] = (record.x, record.y, record.heading)
+        self.summon(goals)
 
     def take_places(self) -> bool:
         """One tick of driving to the places; whether all have arrived."""
@@ -61,11 +64,6 @@ class MixedPlant(RealPlant):
         super().accept_places()
         self.real |= self.arriving
         self.arriving.clear()
-
-    def _call(self, robots: set[int]) -> None:
-        """Summon robots to where their simulated ones stand."""
-        records = self.world.robots
-        self.summon({i: (records[i].x, records[i].y, records[i].heading) for i in robots})
 
 
 def drive_among(world: Any, simulated: Sequence[int]) -> None:

@@ -42,6 +42,11 @@ class RealPlant:
         """How far the robots that take their places are; empty once all have."""
         return self._homing.places if self._homing else []
 
+    @property
+    def goals(self) -> dict[int, Pose]:
+        """Where the robots that take their places shall be."""
+        return dict(self._homing.goals) if self._homing else {}
+
     def sense(self) -> list[Sighting]:
         self.rig.pump()
         seen = self.rig.sense()

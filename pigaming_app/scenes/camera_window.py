@@ -1,6 +1,7 @@
 """A second window beside the arcade: what the camera over the emulated mat sees."""
 
 import logging
+import sys
 
 import pygame
 
@@ -23,7 +24,9 @@ class CameraWindow:
             self.window = pygame.Window("PiGaming: what the camera sees", SIZE, position=(24, 24), resizable=True)
             self.window.get_surface()
         except pygame.error as reason:
-            log.warning("There is no second window for the camera's view: %s.", reason)
+            sentence = f"There is no second window for the camera's view: {reason}."
+            log.warning("%s", sentence)
+            print(f"PiGaming: {sentence}", file=sys.stderr)
             self.close()
 
     def update(self, seconds: float) -> None:

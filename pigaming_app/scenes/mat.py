@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
 SLICE = 0.5 * DT  # s of made-up time in which the parts of an emulated mat take turns
+DARK = (1080, 1920)  # px of a picture of nothing
 FPS = 30.0  # of the emulated camera
 WHOLE, QUICK = 3, 30  # every which picture of it is painted whole, in real and in made-up time
 
@@ -157,12 +158,15 @@ class EmulatedMat:
                 opencv()
             except NoVision as trouble:
                 raise refused(trouble) from trouble
+            import numpy as np
+
             from pigaming_app.hardware.emulator.arena import EmulatedArena
             from pigaming_app.hardware.emulator.camera import Pace
             from pigaming_app.hardware.testbed import MODERATE, calibrated
 
             arena = EmulatedArena(self.seed, Pace(FPS), MODERATE, refresh=WHOLE if self.live else QUICK)
             self._made, _ = calibrated(arena)
+            arena.project(np.zeros(DARK, np.uint8))  # until the window shows something
             self._arena = arena
         if self.live and self._live is None:
             self._live = self._begin(self._arena)

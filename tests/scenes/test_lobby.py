@@ -6,9 +6,11 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.scenes import lobby
+from pigaming_app.scenes.card import TEAM_Y
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.lobby import Lobby
 from pigaming_app.scenes.lobby_page import card_rect
+from pigaming_app.scenes.mat import EmulatedMat
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.seats import AI, EMPTY, HUMAN
 from pigaming_app.scenes.setup import SetupPage
@@ -179,3 +181,32 @@ def test_whoever_comes_back_from_the_choice_of_the_arena_has_to_be_ready_again(a
     assert not arcade.shown(Lobby).seats.places[0].ready
     arcade.wait(3.0)
     arcade.shown(Lobby)
+
+
+def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(arcade: Arcade) -> None:
+    arcade.house.mat = EmulatedMat(live=False)
+    arcade.house.settings.real = [2]
+    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.press(Act.FIRE)
+    arcade.press(Act.FIRE, KEYS[1])
+    page = arcade.shown(Lobby)
+    assert page.seats.real() == [1]
+    arcade.press(Act.UP)
+    arcade.press(Act.DOWN, KEYS[1])
+    assert page.seats.real() == [0]
+    assert arcade.house.settings.real == [1]
+    arcade.click(card_rect(1).centerx, card_rect(1).top + TEAM_Y)
+    assert page.seats.real() == [0, 1]
+    arcade.press(Act.EXTRA)
+    arcade.shown(Lobby)
+    arcade.press(Act.BACK)
+    assert page.seats.real() == [1]
+
+
+def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
+    arcade.house.settings.real = [1, 2, 3, 4]
+    arcade.open(Lobby(arcade.house, "race"))
+    arcade.press(Act.FIRE)
+    arcade.press(Act.UP)
+    assert arcade.shown(Lobby).seats.real() == []
+    assert arcade.house.settings.real == [1, 2, 3, 4]

@@ -5,14 +5,15 @@ The mat stays dark but for outlines, arrows and discs, so that markers are found
 
 import math
 from functools import cache, lru_cache
-from typing import Any
 
 import pygame
 
 from pigaming_app.hardware.homing import Place
 from pigaming_app.hardware.mixed import MixedPlant
+from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
+from pigaming_app.scenes.mat import Mat
 from pigaming_app.scenes.page import stamp, text
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.plate import plate
@@ -32,16 +33,16 @@ MISSING = 1.5  # s until it is said that a robot is not seen
 
 
 class Gathering:
-    """What is shown while the robots of a plant take their places in a match's state."""
+    """What is shown while the robots of a plant take their places."""
 
     DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
 
-    def __init__(self, house: House, state: Any, plant: MixedPlant) -> None:
-        self.house, self.state, self.plant = house, state, plant
+    def __init__(self, house: House, mat: Mat, plant: MixedPlant) -> None:
+        self.house, self.mat, self.plant = house, mat, plant
         self.clock = 0.0
         self.prompts = Prompts(
-            house, [(Act.FIRE, "mat.hint_begin"), (Act.START, "pause.hint_menu"), (Act.BACK, "mat.hint_leave")],
-            HINTS_Y, 1500,
+            house, [(Act.FIRE, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
+            HINTS_Y, 1560,
         )  # fmt: skip
 
     def update(self, seconds: float) -> None:
@@ -68,7 +69,8 @@ class Gathering:
         self.prompts.draw(screen)
         faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in ("lost", "outside")]
         if faults:
-            sentence = named(faults[0], words, "")
+            exact = self.mat.trouble if faults[0].name in ("camera", "radio") else None
+            sentence = tell(words, exact) if exact else named(faults[0], words, "")
             shown(sentence, ALARM).draw(screen, 960, 206)
 
     def _outline(self, screen: pygame.Surface, place: Place) -> None:

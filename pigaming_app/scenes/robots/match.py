@@ -50,7 +50,7 @@ class RealMatch(MatchScene):
         self.plant = plant
         self.discs = Discs(rig)
         self.watch = DriftWatch(rig)
-        self.gathering: Gathering | None = Gathering(house, self.match.state, plant)
+        self.gathering: Gathering | None = Gathering(house, mat, plant)
         self.waiting = Pace()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
         self._dressed()
@@ -73,7 +73,9 @@ class RealMatch(MatchScene):
         self.mat.close()
 
     def on(self, press: Press) -> Turn:
-        """As in every match; STOP stops all robots. While places are taken, FIRE begins as they stand, BACK leaves."""
+        """As in every match. STOP stops all robots. While places are taken, FIRE begins as they stand, EXTRA
+        lets simulated robots begin where real ones are missing, and BACK leaves.
+        """
         if press.act is Act.STOP and not self.match.over:
             self.plant.safety.all_stop()
             self.plant.watch()
@@ -84,6 +86,11 @@ class RealMatch(MatchScene):
         if press.act is Act.FIRE and self.gathering.clock > self.gathering.DEAF:
             self.plant.accept_places()
             self._begin()
+        elif press.act is Act.EXTRA:
+            for place in self.plant.places:
+                if not place.there:
+                    self.swap(place.robot, False)
+            self.house.sounds.play("accept")
         elif press.act is Act.BACK:
             self.house.sounds.play("back")
             return Pop()
@@ -137,7 +144,7 @@ class RealMatch(MatchScene):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
-            self.gathering = Gathering(self.house, self.match.state, self.plant)
+            self.gathering = Gathering(self.house, self.mat, self.plant)
         self._dressed()
 
     def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:

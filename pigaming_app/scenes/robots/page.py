@@ -55,8 +55,6 @@ class RobotsPage:
     def entered(self) -> None:
         """Look and listen."""
         self.check.begin()
-        if self.check.refusal:
-            self._say(tell(self.house.words, self.check.refusal))
 
     def left(self) -> None:
         """Stop the robots; let go of camera and radio."""
@@ -131,7 +129,7 @@ class RobotsPage:
         """What the camera does."""
         words, check = self.house.words, self.check
         if check.rig is None:
-            return words("fleet.no_camera")
+            return tell(words, check.refusal or words("fleet.no_camera"))
         return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
 
     def _trouble(self) -> str | None:
