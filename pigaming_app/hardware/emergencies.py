@@ -19,20 +19,21 @@ from pigaming_app.hardware.emulator.live import Live, Terminal
 from pigaming_app.hardware.proving import Trail
 from pigaming_app.sim.world import DT, HZ
 
+ENOUGH = 0.6  # s after which nothing will move again that has been stopped
 ROOT = Path(__file__).resolve().parents[2]
 
 
 class Emergency(NamedTuple):
-    """Something goes wrong with a robot, or with all: how it begins and ends, and which faults must be named."""
+    """Something goes wrong with a robot, or with all: how it begins and ends, and which faults, one of them, must be named."""
 
     begin: Callable[[Trail, int], None]
     end: Callable[[Trail, int], None]
-    says: str
+    says: tuple[str, ...]
     everyone: bool = False
     allowed: float = 0.0  # s that the table of faults itself allows before anything has to happen
 
 
-def fault(name: str, says: str, everyone: bool = False, allowed: float = 0.0) -> Emergency:
+def fault(name: str, *says: str, everyone: bool = False, allowed: float = 0.0) -> Emergency:
     """A fault of the emulated arena as an emergency."""
     return Emergency(
         lambda trail, robot: trail.bed.arena.faults.switch(name, True, robot),
@@ -59,17 +60,20 @@ EMERGENCIES: Mapping[str, Emergency] = {
     "camera stuck": fault("camera_stuck", "camera", everyone=True),
     "marker covered": fault("marker_covered", "lost"),
     "marker upside down": fault("upside_down", "lost"),
-    "marker in a hand": fault("marker_held", "lost"),
-    "marker twice": Emergency(_twice(True), _twice(False), "twice"),
+    "marker in a hand": fault("marker_held", "held", "lost"),
+    "marker twice": Emergency(_twice(True), _twice(False), ("twice",)),
     "radio dead": fault("radio_dead", "silent", everyone=True),
     "radio unplugged": fault("radio_unplugged", "radio", everyone=True),
     "robot mute": fault("robot_mute", "silent", allowed=1.0),
     "robot off": fault("robot_off", "silent"),
     "battery empty": fault("battery_low", "empty"),
     "all-stop": Emergency(
-        lambda trail, _: trail.plant.safety.all_stop(), lambda trail, _: trail.plant.safety.release(), "stopped", True
+        lambda trail, _: trail.plant.safety.all_stop(),
+        lambda trail, _: trail.plant.safety.release(),
+        ("stopped",),
+        True,
     ),
-    "camera bumped": fault("camera_bumped", "drift", everyone=True, allowed=1.0),
+    "camera bumped": fault("camera_bumped", "drift", everyone=True, allowed=0.35),
 }
 
 
@@ -87,9 +91,11 @@ def stop(trail: Trail, name: str, robot: int = 1) -> Stopped:
     began = arena.clock() + emergency.allowed
     emergency.begin(trail, robot)
     said = False
-    for _ in range(round((emergency.allowed + 1.6) * HZ)):
+    for tick in range(round((emergency.allowed + 1.6) * HZ)):
         trail.tick()
-        said = said or emergency.says in [fault.name for fault in trail.plant.faults]
+        said = said or any(fault.name in emergency.says for fault in trail.plant.faults)
+        if said and tick > (emergency.allowed + ENOUGH) * HZ:
+            break
     last = max(arena.ran) if emergency.everyone else arena.ran[robot]
     emergency.end(trail, robot)
     return Stopped(max(0.0, last - began), said)

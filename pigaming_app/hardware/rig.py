@@ -37,6 +37,10 @@ class Follows(Protocol):
     """The part of a tracker that a rig uses."""
 
     looked: float  # s, when the newest picture was taken that was looked at
+
+    @property
+    def refused(self) -> Mapping[int, str]: ...
+
     expected: set[int]  # robots worth searching for
 
     def sent(self, time: float, twists: Sequence[Twist | None]) -> None: ...
@@ -147,7 +151,7 @@ class Rig:
         """
         now, gone, drift = self.clock(), self.link.trouble is not None, self.drift()
         with self._lock:
-            looked, doubled = self.tracker.looked, self.tracker.doubled()
+            looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
             lost = {robot: self.tracker.lost(robot) for robot in outside}
         found = {}
         for robot, seconds in outside.items():
@@ -155,6 +159,7 @@ class Rig:
             found[robot] = Signs(
                 picture=now - max(looked, self._begun) + DT,
                 unseen=lost[robot] + DT if looked > now - lost[robot] + 1e-6 else 0.0,
+                refused=refused.get(robot, ""),
                 doubled=robot in doubled,
                 outside=seconds,
                 silence=now - (report.heard if report else self._begun),

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from pigaming_app import ASSETS
 
+IN_A_HAND = ("size", "tilted")  # how a marker that is not down on the mat is seen
 CALM = 0.5  # s for which a sign must be good before its fault is gone
 
 
@@ -33,6 +34,7 @@ class Signs(NamedTuple):
 
     picture: float = 0.0  # s, age of the newest picture
     unseen: float = 0.0  # s since it was seen, though there were newer pictures
+    refused: str = ""  # why a marker with its number was lately not believed: see Tracker.refused
     doubled: bool = False  # its marker was seen twice at once
     outside: float = 0.0  # s for which it has been outside the arena
     silence: float = 0.0  # s since it was heard
@@ -59,7 +61,8 @@ RULES = (
     Rule("camera", lambda s: s.picture > 0.200, Does.STOP, everyone=True, pauses=True),
     Rule("drift", lambda s: s.drift > 15.0, Does.STOP, everyone=True, pauses=True),
     Rule("twice", lambda s: s.doubled, Does.STOP, pauses=True),
-    Rule("lost", lambda s: s.unseen > 1.000, Does.STOP, pauses=True),
+    Rule("held", lambda s: s.unseen > 1.000 and s.refused in IN_A_HAND, Does.STOP, pauses=True),
+    Rule("lost", lambda s: s.unseen > 1.000 and s.refused not in IN_A_HAND, Does.STOP, pauses=True),
     Rule("unseen", lambda s: s.unseen > 0.250, Does.STOP),
     Rule("unseen", lambda s: s.unseen > 0.100, Does.HALF),
     Rule("empty", lambda s: s.battery < 4.0, Does.OFF, pauses=True),

@@ -53,6 +53,7 @@ class Mat:
         self.robots = [Robot(pose, train) for pose in poses]
         self.blind, self.trouble, self.closed = False, None, False
         self.looked = 0.0
+        self.refused = {}
         self.coming = deque()
         self.radio = [0, 1, 2, 3]  # by robot: the channel that it listens to
         self.past = deque()  # (s, poses), as long as they are on their way through the camera
