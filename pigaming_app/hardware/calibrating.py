@@ -13,11 +13,12 @@ from pigaming_app.hardware.boards import BOARD, FRAMES, HELD_OUT, Board, Look
 from pigaming_app.hardware.ground import Ground, NoGround
 from pigaming_app.hardware.looking import NO_PICTURE, Looking
 from pigaming_app.hardware.place import hung
-from pigaming_app.hardware.said import said
+from pigaming_app.hardware.said import Said, said
 from pigaming_app.hardware.signals import Frame
 from pigaming_app.hardware.site import Measures, Site
 from pigaming_app.hardware.solver import Residuals, solve, verified, verify
 
+LONGEST = 90.0  # s that all may take
 LIT = 0.4  # s from a picture being drawn until it is surely seen by the camera, all delays included
 
 
@@ -67,6 +68,9 @@ class Calibration(Looking):
 
     def look(self, frame: Frame) -> None:
         if self.over or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
+            return
+        if self.site.clock() - self._since > LONGEST:
+            self.give_up(Said("It takes too long: the camera sends too few pictures.", "slow"))
             return
         if self._look is None:
             self._look = Look()

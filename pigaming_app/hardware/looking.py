@@ -5,6 +5,7 @@ Each is a Worker: it opens the camera, works bit by bit, and lets go of it.
 
 from collections.abc import Callable
 from math import inf
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,7 +26,9 @@ BROKEN = Said("Something broke; the log says what.", "broken")
 
 
 class Looking(Worker):
-    """Opens a camera and hands on its pictures."""
+    """Opens a camera and hands on its pictures. A camera has one user at a time: the next one waits for it."""
+
+    users: ClassVar[dict[tuple[str, int], Worker]] = {}  # the last user of each camera, by the site's name and number
 
     locks = True  # whether the camera locks its exposure: to measure, but not just to look
 
@@ -36,6 +39,12 @@ class Looking(Worker):
         self.small: Image | None = None  # the newest picture, as small as it is shown
         self._eye: Sees | None = None
         self._since = self._newest = inf  # s: when it was opened, when the newest picture came
+
+    def begin(self) -> None:
+        """Work in a thread, or be pumped where time is made up."""
+        if not self.site.stepped:
+            before, self.users[self.site.name, self.number] = self.users.get((self.site.name, self.number)), self
+            self.start(before)
 
     def step(self) -> None:
         """Look at the newest picture, if there is a new one."""

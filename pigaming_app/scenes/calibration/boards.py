@@ -12,7 +12,6 @@ from pigaming_app.hardware.calibrating import Calibration
 from pigaming_app.hardware.markers import NoVision
 from pigaming_app.hardware.said import said
 from pigaming_app.hardware.site import Measures, Site
-from pigaming_app.hardware.worker import Worker
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.pixels import grey_surface
 from pigaming_app.scenes.press import Act, Press
@@ -23,13 +22,12 @@ GREY, DONE = (150, 150, 150), (20, 20, 20)
 
 
 class BoardsPage:
-    """One calibration. `before`: who lets go of the camera first."""
+    """One calibration."""
 
-    def __init__(self, house: House, site: Site, number: int, measures: Measures, before: Worker | None = None) -> None:
+    def __init__(self, house: House, site: Site, number: int, measures: Measures) -> None:
         self.house, self.site, self.number, self.measures = house, site, number, measures
         self.work = Calibration(site, number, measures, house.canvas.projection)
-        if not site.stepped:
-            self.work.start(before)
+        self.work.begin()
 
     def entered(self) -> None:
         """Quiet: nothing may move."""
@@ -61,8 +59,8 @@ class BoardsPage:
         finding = Finding(self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small)
         self.house.sounds.play("accept" if finding.good else "back")
         if finding.good and not self.measures.height:
-            return Swap(OutlinesPage(self.house, finding, work))
-        return Swap(ResultPage(self.house, finding, work))
+            return Swap(OutlinesPage(self.house, finding))
+        return Swap(ResultPage(self.house, finding))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the board, pure light, and how far it is."""

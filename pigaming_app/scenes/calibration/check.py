@@ -40,8 +40,7 @@ class CheckPage:
         """Look."""
         if self.house.mat is not None:
             self.house.mat.close()
-        if not self.site.stepped:
-            self.work.start()
+        self.work.begin()
 
     def left(self) -> None:
         """Let go of the camera."""

@@ -6,7 +6,6 @@ from functools import lru_cache
 import pygame
 
 from pigaming_app.hardware.standing import PLACES, STILL, Standing
-from pigaming_app.hardware.worker import Worker
 from pigaming_app.scenes.calibration.result import Finding, ResultPage
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
@@ -23,14 +22,13 @@ NEAR, FAR = 86, 128  # px from the middle, of the four lines that help to aim
 
 
 class OutlinesPage:
-    """The page. `finding`: a calibration that lacks only the camera's place; `before` lets go of the camera first."""
+    """The page. `finding`: a calibration that lacks only the camera's place."""
 
-    def __init__(self, house: House, finding: Finding, before: Worker) -> None:
+    def __init__(self, house: House, finding: Finding) -> None:
         assert finding.ground is not None
         self.house, self.finding = house, finding
         self.work = Standing(finding.site, finding.number, finding.ground)
-        if not finding.site.stepped:
-            self.work.start(before)
+        self.work.begin()
         self.known = 0
         self.prompts = Prompts(house, [(Act.BACK, "calibrate.hint_stop")], 1040)
 
@@ -62,7 +60,7 @@ class OutlinesPage:
         self.left()
         ground = work.found or self.finding.ground
         found = replace(self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small)
-        return Swap(ResultPage(self.house, found, work))
+        return Swap(ResultPage(self.house, found))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the spots, and what to do."""

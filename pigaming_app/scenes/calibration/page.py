@@ -126,10 +126,10 @@ class CalibrationPage:
         self._draw_camera(screen)
         name = self.focus.name
         text(words(f"calibrate.{name}"), LABEL, FOCUS, "head", "l", dials.PANEL.w - 40).draw(
-            screen, PICTURE.x, dials.PANEL.bottom - 190
+            screen, PICTURE.x, dials.PANEL.bottom - 216
         )
         for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
-            line.draw(screen, PICTURE.x, dials.PANEL.bottom - 130 + 50 * i)
+            line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
         if self.said > 0.0:
             calling(self.sentence, "", BODY).draw(screen, 960, 916)
         self.prompts.draw(screen)
@@ -240,14 +240,12 @@ class CalibrationPage:
 
     def _look(self) -> None:
         """Look through the camera that is chosen, once the one before is free."""
-        before, self._state_of = self.preview, (0, 0)
+        self._state_of = (0, 0)
         if self.house.mat is not None:
             self.house.mat.close()
-        if before is not None:
-            before.close()
+        self.left()
         self.preview = Preview(self.site, self.number)
-        if not self.site.stepped:
-            self.preview.start(before)
+        self.preview.begin()
 
     def _begin(self) -> Turn:
         """Show the boards on the whole display."""
@@ -259,7 +257,7 @@ class CalibrationPage:
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             canvas.show(canvas.display, True)
         self._keep()
-        return Push(BoardsPage(self.house, self.site, self.number, self.measures, self.preview))
+        return Push(BoardsPage(self.house, self.site, self.number, self.measures))
 
     def _measured(self) -> Measures:
         settings = self.house.settings

@@ -125,8 +125,9 @@ class PinPage:
         text(words("pin.title", corner=self.chosen + 1), SUB, FOCUS, "head").draw(screen, x, y + 76)
         text(words("pin.how"), BODY, ICE, "body", room=BOX.w - 60).draw(screen, x, y + 164)
         across, down = (self.corners[2 * self.chosen + i] - CORNERS[self.chosen][i] for i in (0, 1))
-        said = words("pin.at", x=f"{across:+d}".replace("-", "−"), y=f"{down:+d}".replace("-", "−"))
-        text(said, LABEL, ICE, "head", room=BOX.w - 60).draw(screen, x, y + 252)
+        text(words("pin.at", x=signed(across), y=signed(down)), LABEL, ICE, "head", room=BOX.w - 60).draw(
+            screen, x, y + 252
+        )
         text(words("pin.step", step=STEPS[self.step]), LABEL, MIST, "head").draw(screen, x, y + 340)
         if self.said > 0.0:
             plate(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
@@ -184,6 +185,11 @@ class PinPage:
     def _say(self, sentence: str) -> None:
         self.sentence, self.said = sentence, SAID
         self.house.sounds.play("back")
+
+
+def signed(number: int) -> str:
+    """A number with its sign; the hyphen is no minus."""
+    return f"{number:+d}".replace("-", "−") if number else "0"
 
 
 @lru_cache(maxsize=1)

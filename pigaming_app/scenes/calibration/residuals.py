@@ -12,7 +12,7 @@ AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the picture
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it
 SCALE = 0.47  # px of the picture for a px of the canvas
 LONGEST = 40.0  # px, of the longest arrow
-TIMES = (2, 5, 10, 20, 50, 100, 200, 500)
+TIMES = (2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 def arrows(residuals: Residuals) -> tuple[Lit, int]:

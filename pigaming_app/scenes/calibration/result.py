@@ -12,7 +12,6 @@ from pigaming_app.hardware.ground import Ground
 from pigaming_app.hardware.signals import Image
 from pigaming_app.hardware.site import Measures, Site
 from pigaming_app.hardware.solver import MAX_MM, MEAN_MM, Residuals
-from pigaming_app.hardware.worker import Worker
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes.calibration import kept
 from pigaming_app.scenes.calibration.residuals import AREA, SIDE, arrows, figure
@@ -56,10 +55,10 @@ class Finding:
 
 
 class ResultPage:
-    """The page: save, again, or back. `before`: the work that has just let go of the camera."""
+    """The page: save, again, or back."""
 
-    def __init__(self, house: House, finding: Finding, before: Worker) -> None:
-        self.house, self.finding, self.before = house, finding, before
+    def __init__(self, house: House, finding: Finding) -> None:
+        self.house, self.finding = house, finding
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
         self.sentence, self.said = "", 0.0
@@ -179,7 +178,7 @@ class ResultPage:
             return Pop()
         if name == "again":
             self.house.sounds.play("accept")
-            return Swap(BoardsPage(self.house, finding.site, finding.number, finding.measures, self.before))
+            return Swap(BoardsPage(self.house, finding.site, finding.number, finding.measures))
         if finding.ground is None:
             return None
         try:
