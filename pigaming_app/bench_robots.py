@@ -19,10 +19,9 @@ from pigaming_app.games.match import Match
 from pigaming_app.hardware import emergencies, proving
 from pigaming_app.hardware.emergencies import EMERGENCIES, Stopped
 from pigaming_app.hardware.emulator.radio import Air
-from pigaming_app.hardware.ground import NoGround
+from pigaming_app.hardware.ground import Ground, NoGround
 from pigaming_app.hardware.plant import RealPlant
 from pigaming_app.hardware.proving import Followed, Masher, Played, Trail
-from pigaming_app.hardware.solver import Residuals
 from pigaming_app.hardware.testbed import Bed, one_core
 from pigaming_app.sim.world import ROBOTS
 
@@ -49,7 +48,8 @@ class Unproven(Exception):
 
 
 class Job(NamedTuple):
-    """One match on the mat; `mashed`: by people who mash the buttons, else by the normal AIs."""
+    """One match on the mat. `mashed`: by people who mash the buttons, else by the normal AIs; `carried`: somebody puts
+    the robots on their places, else they drive there."""
 
     game: str
     arena: str
@@ -57,6 +57,7 @@ class Job(NamedTuple):
     seed: int
     minutes: float = MINUTES
     mashed: bool = True
+    carried: bool = False
 
 
 def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
@@ -101,35 +102,36 @@ def jobs() -> list[Job]:
     return found
 
 
-def on_mat(job: Job) -> Played:
-    """Play a match on an emulated mat of its own."""
+def on_mat(job: Job, ground: Ground | None = None) -> Played:
+    """Play a match on an emulated mat of its own; a `ground` that is known need not be found."""
     rules = GAMES[job.game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.variants[0], goal)
-    bed = Bed(job.seed, job.fps, LOST, Air(loss=LOST, doubled=LOST / 2, broken=LOST / 4))
+    bed = Bed(job.seed, job.fps, LOST, Air(loss=LOST, doubled=LOST / 2, broken=LOST / 4), ground)
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat
         match.sit(seat, Masher(seed) if job.mashed else make(job.game, "normal", seed))
+        if job.carried:
+            robot = match.state.robots[seat]
+            bed.arena.place(seat, (robot.x, robot.y, robot.heading))
     return proving.play(bed, match, 60.0 * job.minutes)
 
 
 def follow_alone(seed: int, fps: float) -> Followed:
     """Follow robots, on one core."""
-    return proving.follow(seed, fps, SECONDS)
+    return proving.follow(Trail(Bed(seed, fps)), SECONDS)
 
 
-def calibration(seed: int) -> Residuals:
-    """The errors of a calibration on the board that it was not solved from."""
-    return Bed(seed, RATES[0]).residuals
+def calibration(seed: int) -> Ground:
+    """What a calibration finds; it knows its errors on the board that it was not solved from."""
+    return Bed(seed, RATES[0]).ground
 
 
 def all_emergencies(seed: int, fps: float) -> dict[str, Stopped]:
     """Everything that can go wrong, one after the other, to different robots."""
-    bed = Bed(seed, fps)
-    bed.find()
-    trail = Trail(bed)
+    trail = Trail(Bed(seed, fps))
     stops = {name: emergencies.stop(trail, name, i % ROBOTS) for i, name in enumerate(EMERGENCIES)}
     return {
         **stops,

@@ -283,7 +283,7 @@ def bench(arguments: argparse.Namespace) -> int:
     from pigaming_app.games.choices import one_of
 
     if arguments.game == "robots":
-        figures = _bench_robots(arguments.json)
+        figures = _bench_robots()
     else:
         one_of("game", arguments.game, [*GAMES, "robots"])
         figures = benches.measure(arguments.game)
@@ -295,14 +295,13 @@ def bench(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _bench_robots(quiet: bool) -> dict[str, Any]:
-    """The proof of the robot loop; says on the way what it found, unless `quiet`."""
+def _bench_robots() -> dict[str, Any]:
+    """The proof of the robot loop; says on the way what it found, on standard error."""
     from pigaming_app.bench_robots import Unproven, measure, reached
     from pigaming_app.hardware.markers import NoVision, opencv
 
     def note(line: str) -> None:
-        if not quiet:
-            print(line, flush=True)
+        print(line, file=sys.stderr, flush=True)
 
     try:
         opencv()

@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class Emergency(NamedTuple):
-    """Something goes wrong with a robot, or with all: how it begins and ends, and which faults, one of them, must be named."""
+    """Something goes wrong with a robot, or with all: how it begins and ends, and faults of which one must be named."""
 
     begin: Callable[[Trail, int], None]
     end: Callable[[Trail, int], None]

@@ -34,6 +34,7 @@ class Trail:
     """Four robots that drive figures of eight, each in its quarter, steered by what the rig says."""
 
     def __init__(self, bed: Bed) -> None:
+        bed.find()
         self.bed, self.world = bed, World()
         for robot in self.world.robots:
             robot.present = 1
@@ -62,11 +63,9 @@ class Trail:
         return middle_x + 250.0 * sin(turn), middle_y + 110.0 * sin(2.0 * turn)
 
 
-def follow(seed: int, fps: float, seconds: float) -> Followed:
+def follow(trail: Trail, seconds: float) -> Followed:
     """Drive for so long at 0.35 m/s, after two seconds to get up speed."""
-    bed = Bed(seed, fps)
-    bed.find()
-    trail, misses = Trail(bed), []
+    bed, misses = trail.bed, []
     for _ in range(2 * HZ):
         trail.tick()
     bed.count()

@@ -20,7 +20,7 @@ from pigaming_app.hardware.ground import Ground, NoGround
 from pigaming_app.hardware.link import Link
 from pigaming_app.hardware.rig import UNMEASURED, Rig
 from pigaming_app.hardware.signals import Fix, Frame, Image
-from pigaming_app.hardware.solver import Residuals, verified
+from pigaming_app.hardware.solver import verified
 from pigaming_app.hardware.tracker import Tracker
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, HZ, ROBOTS
@@ -49,11 +49,13 @@ class Watched(Tracker):
 
 
 class Bed:
-    """A calibrated arena with a rig on it. Robots stand on their starts; `tick` lets 1/50 s pass."""
+    """A calibrated arena with a rig on it; `tick` lets 1/50 s pass. A `ground` that is known need not be found."""
 
-    def __init__(self, seed: int, fps: float, drops: float = 0.0, air: Air = MODERATE) -> None:
+    def __init__(
+        self, seed: int, fps: float, drops: float = 0.0, air: Air = MODERATE, ground: Ground | None = None
+    ) -> None:
         self.arena = EmulatedArena(seed, Pace(fps, DELAY, drops=drops), air, QUICK, UNREST)
-        self.ground, self.residuals = calibrated(self.arena)
+        self.ground = ground or calibrated(self.arena)
         self.tracker = Watched(self.ground, self.arena.clock, [UNMEASURED] * ROBOTS)
         self.link = Link(self.arena.radio.open, self.arena.clock)
         self.tracker.drift = drift = Drift(self.ground)
@@ -101,8 +103,8 @@ class Bed:
         ]
 
 
-def calibrated(arena: EmulatedArena) -> tuple[Ground, Residuals]:
-    """The ground of an arena, found and verified as the wizard does it, with its errors. Raises NoGround."""
+def calibrated(arena: EmulatedArena) -> Ground:
+    """The ground of an arena, found and verified as the wizard does it. Raises NoGround."""
     site = EmulatedSite(arena=arena)
     work = Calibration(site, 0, site.measures, "emulated")
     pictures = {board: board.picture() for board in (BOARD, HELD_OUT)}
@@ -115,7 +117,7 @@ def calibrated(arena: EmulatedArena) -> tuple[Ground, Residuals]:
     work.close()
     if work.ground is None or work.residuals is None:
         raise NoGround(work.trouble)
-    return verified(work.ground, work.residuals), work.residuals
+    return verified(work.ground, work.residuals)
 
 
 def busy_floor(seed: int) -> Image:
