@@ -16,7 +16,7 @@ from pigaming_app.hardware.signals import Frame, Image, Mark
 
 WARN, PAUSE = 5.0, 15.0  # mm
 PICTURES = 10  # whose median counts
-PERIOD = 0.03  # s between two looks: what is worse than PAUSE pauses within a third of a second
+PERIOD = 0.06  # s between two looks: what is worse than PAUSE pauses within half a second
 SEEK = 0.06  # s between two searches for one that is not where it was
 SEARCH = 1.0  # s between looks everywhere for it
 EDGE, QUIET = 84, 16  # canvas px: of a marker, and of the light round it

@@ -108,15 +108,19 @@ class Follower:
 
     def _predict(self, rolling: Rolling, until: float) -> Matrix:
         """Move it to a time; how the numbers of the filter there depend on those of the newest correction."""
-        flow = np.eye(NUMBERS)
+        rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        for row in rows:
+            row += [0.0] * len(self.wear)
         for left, right, dt in self._acting(self._seen, until):
             before = rolling.copy()
             rolling.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
-            flow = self._step(before, rolling, dt) @ flow
+            self._step(rows, before, rolling, dt)
+        flow = np.eye(NUMBERS)
+        flow[:3] = rows
         return flow
 
-    def _step(self, before: Rolling, after: Rolling, dt: float) -> Matrix:
-        """How the numbers of the filter after a step depend on those before it, to first order in `dt`."""
+    def _step(self, rows: list[list[float]], before: Rolling, after: Rolling, dt: float) -> None:
+        """Take a step, to first order in `dt`, into how x, y and heading depend on the numbers before."""
         wear, way = self.wear, 0.5 * dt
         left, right = way * (before.left + after.left), way * (before.right + after.right)
         faster_left, faster_right = wear.left * (after.left - before.left), wear.right * (after.right - before.right)
@@ -124,12 +128,16 @@ class Follower:
         ahead = (left, right, 0.0, -faster_left - faster_right, -stuck_left - stuck_right)
         turn = (left, -right, 0.0, faster_right - faster_left, stuck_right - stuck_left)
         c, s, t = 0.5 * cos(before.heading), 0.5 * sin(before.heading), wear.turning / self.drivetrain.base
-        step = np.eye(NUMBERS)
-        step[0, 2:] = (before.y - after.y, *(c * one for one in ahead))
-        step[1, 2:] = (after.x - before.x, *(s * one for one in ahead))
-        step[2, 3:] = tuple(t * one for one in turn)
-        step[2, 5] = (after.heading - before.heading) / wear.turning
-        return step
+        dx, dy = after.x - before.x, after.y - before.y
+        x, y, heading = rows
+        for i in range(2, NUMBERS):
+            x[i] -= dy * heading[i]
+            y[i] += dx * heading[i]
+        for i, (forward, sideways) in enumerate(zip(ahead, turn, strict=True), 3):
+            x[i] += c * forward
+            y[i] += s * forward
+            heading[i] += t * sideways
+        heading[5] += (after.heading - before.heading) / wear.turning
 
     def _begin(self, fix: Fix) -> None:
         """It is there, standing; what was learnt about its wheels stays."""

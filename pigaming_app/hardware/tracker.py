@@ -25,7 +25,7 @@ GLANCE = 0.1  # s between quick looks everywhere: robots that appear, markers th
 SEARCH = 0.05  # s between them while one is missing
 THOROUGH = 1.0  # s between thorough looks while one is missing
 REMEMBERED = 0.5  # s for which it is known why a marker was refused
-MARGIN, ASTRAY = 8.0, 350.0  # how far from its prediction a marker is looked for: px, and px/s since it was seen
+MARGIN, ASTRAY = 6.0, 200.0  # how far from its prediction a marker is looked for: px, and px/s since it was seen
 
 
 class Tracker:
