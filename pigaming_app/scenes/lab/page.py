@@ -83,7 +83,7 @@ class Shown:
 
 
 class LabPage:
-    """The page; `show` tells it what is so."""
+    """The page; `draw` is told what is so."""
 
     def __init__(self, house: House) -> None:
         self.words, self.language = house.words, house.words.language
