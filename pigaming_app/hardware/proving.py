@@ -88,9 +88,11 @@ class Playable(Protocol):
     plant: Any
 
     @property
-    def over(self) -> bool: ...
+    def over(self) -> bool:
+        """Whether it has ended."""
 
-    def tick(self) -> None: ...
+    def tick(self) -> None:
+        """Advance by 1/50 s."""
 
 
 class Masher:

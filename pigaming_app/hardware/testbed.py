@@ -40,6 +40,7 @@ class Watched(Tracker):
     pictures = complete = 0
 
     def see(self, frame: Frame) -> list[Fix]:
+        """Correct the robots by a picture; the fixes that were believed."""
         began = thread_time()
         fixes = super().see(frame)
         self.seconds += thread_time() - began

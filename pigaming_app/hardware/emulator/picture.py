@@ -42,14 +42,17 @@ class Window(NamedTuple):
     right: int
 
     def cut(self) -> tuple[slice, slice]:
+        """Its rows and columns."""
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
     def meets(self, other: "Window") -> bool:
+        """Whether the two have a pixel in common."""
         return (
             self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
         )
 
     def joined(self, other: "Window") -> "Window":
+        """The smallest window that holds both."""
         return Window(
             min(self.top, other.top),
             min(self.left, other.left),
@@ -65,6 +68,7 @@ class Painter:
     """Paints scenes as one camera sees them. Two painters with the same seed paint the same."""
 
     def __init__(self, optics: Optics, seed: int, refresh: int = 1, noise: float = NOISE) -> None:
+        """`refresh`: every which picture is whole; `noise`: grey levels, standard deviation."""
         self.refresh = refresh
         self._seed = seed
         random = np.random.default_rng(seed)
