@@ -18,7 +18,6 @@ from pigaming_app.hardware.signals import Image, Mark
 ROBOT_IDS = (0, 1, 2, 3)
 CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
 READABLE = 19.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
-SNAP = 0.56  # scale below which it is halved, which is much quicker
 SMALLEST = 0.5  # scale of a quick look's picture: below, noise is no longer averaged
 PLENTY = 30.0  # px of an edge that are enough anywhere
 NARROW, WIDE = 0.6, 1.6  # an edge is this much of what is expected, at least and at most
@@ -65,8 +64,6 @@ class Markers:
         `dim`: look past what is projected across markers; without, past a mat as dark as their black.
         """
         scale, rate = max(SMALLEST, READABLE / edge), 4.0 * edge / max(image.shape)
-        if scale < SNAP:
-            scale = SMALLEST
         if scale > 0.9:
             scale, small = 1.0, image
         else:
