@@ -17,7 +17,7 @@ from pigaming_app.hardware.signals import Image, Mark
 
 ROBOT_IDS = (0, 1, 2, 3)
 CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
-READABLE = 19.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
+READABLE = 23.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
 SMALLEST = 0.5  # scale of a quick look's picture: below, noise is no longer averaged
 PLENTY = 30.0  # px of an edge that are enough anywhere
 NARROW, WIDE = 0.6, 1.6  # an edge is this much of what is expected, at least and at most
