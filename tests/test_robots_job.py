@@ -4,11 +4,12 @@ import json
 
 import pytest
 
-from pigaming_app import robots
+from pigaming_app import fidelity, robots
 from pigaming_app.cli import main
 from pigaming_app.settings import Settings, folders
-from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, Wheel, parse, tell
+from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, tell
 from pigaming_app.workshop import keep_radios
+from tests.hardware.mat import TRUE, Mat
 
 
 @pytest.fixture(autouse=True)
@@ -60,16 +61,26 @@ def test_who_is_who_is_remembered(home):
     assert said == []
 
 
-def test_emulated_robots_are_recorded_identified_and_replayed(tmp_path, capsys):
-    pytest.importorskip("cv2")
+class Shop:
+    """A workshop whose robots stand on a mat without light or air."""
+
+    def __init__(self, *_):
+        self.mat = Mat()
+        self.rig, self.mm, self.tick = self.mat.rig, MM, self.mat.pass_time
+        self.close = self.rig.close
+
+
+def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(fidelity, "open_workshop", Shop)
     run, out = tmp_path / "run.jsonl", tmp_path / "robots.toml"
-    told(capsys, "fidelity", "record", str(run), "--emulate", "--seconds", "24")
+    assert told(capsys, "fidelity", "record", str(run), "--seconds", "24")["robots"] == [1, 2, 3, 4]
     found = told(capsys, "fidelity", "identify", str(run), "--out", str(out))
     for one in found["robots"].values():
-        assert one["after_mm"][0] < 0.6 * one["before_mm"][0]
-    assert len(parse(out.read_text(), "robots.toml")) == 4
+        assert one["after_mm"][0] < 0.1 * one["before_mm"][0]
+    for train in parse(out.read_text(), "robots.toml"):
+        assert train.left.speed == pytest.approx(TRUE.left.speed, rel=0.01)
     again = told(capsys, "fidelity", "replay", str(run), "--robots", str(out))
-    assert all(one["5"] < 80.0 for one in again["robots"].values())
+    assert all(one["5"] < 40.0 for one in again["robots"].values())
 
 
 def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_path, capsys):
@@ -87,7 +98,6 @@ def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_pa
     [
         ["fidelity", "identify", "nowhere.jsonl"],
         ["fidelity", "replay", "nowhere.jsonl"],
-        ["fidelity", "record", "/nowhere/run.jsonl", "--emulate"],
         ["fidelity", "dance", "run.jsonl"],
         ["fidelity", "record", "run.jsonl"],
     ],
