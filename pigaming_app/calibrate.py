@@ -44,6 +44,8 @@ def _write(path: Path, edge: float) -> int:
     from pigaming_app.hardware.markers import NoVision
     from pigaming_app.hardware.sheet import sheet
 
+    if path.suffix.lower() != ".pdf":
+        raise NotCalibrated(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     try:
         page = sheet(edge)
         path.write_bytes(page)

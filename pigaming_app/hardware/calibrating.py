@@ -18,6 +18,7 @@ from pigaming_app.hardware.signals import Frame
 from pigaming_app.hardware.site import Measures, Site
 from pigaming_app.hardware.solver import Residuals, solve, verified, verify
 
+QUEUED = 5  # pictures of the time before that a driver may still hand out
 LONGEST = 90.0  # s that all may take
 LIT = 0.4  # s from a picture being drawn until it is surely seen by the camera, all delays included
 
@@ -48,6 +49,7 @@ class Calibration(Looking):
         self.seen = 0  # markers in the newest picture
         self._look: Look | None = None
         self._shown = inf  # s, since when the board is projected
+        self._skipped = 0  # pictures since then
 
     @property
     def progress(self) -> tuple[int, int]:
@@ -72,6 +74,9 @@ class Calibration(Looking):
         if self.site.clock() - self._since > LONGEST:
             self.give_up(Said("It takes too long: the camera sends too few pictures.", "slow"))
             return
+        self._skipped += 1
+        if self._skipped <= QUEUED:
+            return
         if self._look is None:
             self._look = Look()
             self.stage = Stage.LOOKING if self.stage is Stage.OPENING else self.stage
@@ -94,7 +99,7 @@ class Calibration(Looking):
         ground = solve(look.corners(), BOARD, look.size, measures.width, self.display)
         ground = replace(ground, lid=measures.lid)
         self.ground = hung(ground, measures.height) if measures.height else ground
-        self._look, self._shown = None, inf
+        self._look, self._shown, self._skipped = None, inf, 0
         self.stage, self.board = Stage.VERIFYING, HELD_OUT
 
     def _verify(self, look: Look) -> None:
