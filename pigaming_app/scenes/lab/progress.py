@@ -14,7 +14,8 @@ from pigaming_app.scenes.rose import PETALS
 from pigaming_app.sim.world import HZ
 
 MARKS = (0, 10, 50, 200)  # matches after which what it knows is kept
-MATCHES = {True: 20, False: 8}  # of an exam, compiled and plain
+MATCHES = {True: 20, False: 6}  # of an exam, compiled and plain
+MINUTES = {True: 2.0, False: 1.0}  # of each of them
 EXAM_SEED = 1000
 SOON = 8.0  # seconds after which it is examined again, if it has learned at all
 GRAIN = 25  # exams over the length of the curve, about
@@ -101,8 +102,9 @@ class Progress:
     def _examined(self, learned: Kind) -> Exam:
         """An exam by the hand-made robot."""
         training, handmade = self.training, BRAINS[GAME][HANDMADE]
-        matches, fast = MATCHES[training.fast], training.fast
-        return Exam(learned, handmade, matches, EXAM_SEED, training.minutes, training.arena, fast)
+        fast = training.fast
+        minutes = min(MINUTES[fast], training.minutes)
+        return Exam(learned, handmade, MATCHES[fast], EXAM_SEED, minutes, training.arena, fast)
 
     def _mark(self) -> None:
         """Keep what it knows after so many matches."""
