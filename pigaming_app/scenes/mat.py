@@ -5,9 +5,7 @@ wrong is one sentence, `trouble`; the arcade plays on with simulated robots.
 """
 
 import logging
-import time
-from contextlib import suppress
-from importlib.util import find_spec
+from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 import pygame
@@ -19,15 +17,16 @@ from pigaming_app.sim.world import DT
 if TYPE_CHECKING:
     from pigaming_app.hardware.assembly import Wiring
     from pigaming_app.hardware.emulator.arena import EmulatedArena
-    from pigaming_app.hardware.emulator.live import Live
+    from pigaming_app.hardware.emulator.paced import Paced
     from pigaming_app.hardware.emulator.site import EmulatedSite
     from pigaming_app.hardware.ground import Ground
-    from pigaming_app.hardware.line import OpenPort
     from pigaming_app.hardware.link import Link
     from pigaming_app.hardware.rig import Rig, Talks
     from pigaming_app.hardware.signals import Frame
 
 LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
+AHEAD = 0.03  # s by which the arena's time may run ahead of the pictures of the window
+DIM = 0.015  # s between two pictures that fall on the emulated mat
 SLICE = 0.5 * DT  # s of made-up time in which the parts of an emulated mat take turns
 DARK = (1080, 1920)  # px of a picture of nothing
 FPS = 30.0  # of the emulated camera
@@ -61,8 +60,8 @@ class Mat(Protocol):
     def end(self) -> None:
         """Close for good."""
 
-    def advance(self, seconds: float) -> None:
-        """Let time pass, where it is made up."""
+    def advance(self, seconds: float) -> float:
+        """Let time pass, where it does not pass by itself; how much has passed."""
 
 
 class RealMat:
@@ -118,8 +117,9 @@ class RealMat:
         """Close for good."""
         self.close()
 
-    def advance(self, seconds: float) -> None:
+    def advance(self, seconds: float) -> float:
         """Real time passes by itself."""
+        return seconds
 
     @property
     def _wiring(self) -> "Wiring":
@@ -130,7 +130,7 @@ class RealMat:
 
 
 class EmulatedMat:
-    """The emulated arena. `live`: its time is the real one; else it passes in `advance` alone."""
+    """The emulated arena. `live`: its time passes like the real one; else in `advance` alone."""
 
     emulated = True
 
@@ -139,7 +139,8 @@ class EmulatedMat:
         self._arena: EmulatedArena | None = None
         self._made: Ground | None = None  # found without showing it
         self._rig: Rig | None = None
-        self._live: Live | None = None
+        self._time: Paced | None = None
+        self._lit = self._now = -1.0  # s of the arena's clock: when it was last lit, and asked for the time
         if canvas is not None:
             canvas.watchers.append(self.see)
 
@@ -165,11 +166,13 @@ class EmulatedMat:
             from pigaming_app.hardware.testbed import MODERATE, calibrated
 
             arena = EmulatedArena(self.seed, Pace(FPS), MODERATE, refresh=WHOLE if self.live else QUICK)
-            self._made, _ = calibrated(arena)
+            self._made = calibrated(arena)
             arena.project(np.zeros(DARK, np.uint8))  # until the window shows something
             self._arena = arena
-        if self.live and self._live is None:
-            self._live = self._begin(self._arena)
+        if self.live and self._time is None:
+            from pigaming_app.hardware.emulator.paced import Paced
+
+            self._time = Paced(self._arena).start()
         return self._arena
 
     @property
@@ -195,12 +198,13 @@ class EmulatedMat:
 
             arena, trains = self.arena, [UNMEASURED] * ROBOTS
             arena.cleared = False
-            clock = time.monotonic if self.live else arena.clock
-            open_port, name = self._port(arena)
-            tracker = Tracker(self._ground(), clock, trains)
-            self._rig = Rig(EmulatedEye(arena), tracker, Link(open_port, clock, name=name), clock, trains)
-            if self.live:
+            self._now = arena.clock()
+            link = Link(arena.radio.open, arena.clock, name="the emulated radio")
+            tracker = Tracker(self._ground(), arena.clock, trains)
+            self._rig = Rig(EmulatedEye(arena), tracker, link, arena.clock, trains)
+            if self._time is not None:
                 self._rig.start()
+                self._time.watched, self._time.limit = True, self._now + AHEAD
         return self._rig
 
     def listen(self) -> "Link | None":
@@ -212,25 +216,33 @@ class EmulatedMat:
         rig, self._rig = self._rig, None
         if rig is not None:
             rig.close()
+        if self._time is not None:
+            self._time.watched, self._time.limit = False, inf
 
     def end(self) -> None:
         """Close, and stop the arena's time too."""
         self.close()
-        live, self._live = self._live, None
-        if live is not None:
-            live.close()
+        passing, self._time = self._time, None
+        if passing is not None:
+            passing.close()
 
-    def advance(self, seconds: float) -> None:
-        """Let made-up time pass."""
-        if self.live or self._rig is None:
-            return
-        for _ in range(max(1, round(seconds / SLICE))):
-            self._rig.pump()
-            self.arena.advance(SLICE)
+    def advance(self, seconds: float) -> float:
+        """Let time pass in the arena; how much has passed: less than asked for where this computer is too slow."""
+        if self._rig is None:
+            return seconds
+        if self._time is None:
+            for _ in range(max(1, round(seconds / SLICE))):
+                self._rig.pump()
+                self.arena.advance(SLICE)
+            return seconds
+        before, self._now = self._now, self.arena.clock()
+        self._time.limit = self._now + seconds + AHEAD
+        return self._now - before
 
     def see(self, window: pygame.Surface) -> None:
         """What the window shows falls on the mat, once there is one."""
-        if self._arena is not None:
+        if self._arena is not None and self._arena.clock() - self._lit > DIM:
+            self._lit = self._arena.clock()
             from pigaming_app.hardware.emulator.projector import Projector
             from pigaming_app.scenes.pixels import pixels_of
 
@@ -245,24 +257,6 @@ class EmulatedMat:
         except NoGround:
             assert self._made is not None
             return self._made
-
-    def _begin(self, arena: "EmulatedArena") -> "Live":
-        """Let the arena's time pass, with a serial port of its own where there can be one."""
-        from pigaming_app.hardware.emulator.live import Live, Terminal
-
-        arena.skip(time.monotonic() - arena.clock())
-        terminal: Terminal | None = None
-        if find_spec("serial"):
-            with suppress(OSError):  # a system without pseudo-terminals
-                terminal = Terminal()
-        return Live(arena, terminal).start()
-
-    def _port(self, arena: "EmulatedArena") -> "tuple[OpenPort, str]":
-        """What opens the radio, and its name."""
-        from pigaming_app.hardware.line import serial_port
-
-        terminal = self._live and self._live.terminal
-        return (serial_port(terminal.name), terminal.name) if terminal else (arena.radio.open, "the emulated radio")
 
 
 def kept_ground(file: str, projection: str) -> "Ground":

@@ -39,6 +39,7 @@ class EmulatedCamera:
         self.frozen = self.stuck = self.gone = False
         self.more_drops = 0.0
         self.exposed = self.delivered = 0
+        self._taken: float | None = None  # s, when the picture was taken that somebody looks at now
         self._random = Random(f"camera {seed}")
         self._under_way: deque[Exposure] = deque()
         self.last: Frame | None = None  # the newest that was given out
@@ -55,14 +56,25 @@ class EmulatedCamera:
         if not (lost or self.frozen or self.gone):
             self._under_way.append(Exposure(scene, arrives))
 
+    @property
+    def overdue(self) -> float:
+        """Seconds for which a picture has been waiting to be taken, or whoever took one has not come back for more."""
+        if self._taken is not None:
+            return self.clock() - self._taken
+        try:
+            return max(0.0, self.clock() - self._under_way[0].arrives)
+        except IndexError:  # none is under way, or it was taken just now
+            return 0.0
+
     def newest(self) -> Frame | None:
         """The newest picture that arrived by now and was not given out before, or None."""
-        taken = None
+        taken = self._taken = None
         while self._under_way and self._under_way[0].arrives <= self.clock():
             taken = self._under_way.popleft()
         if taken is None or self.gone:
             return None
         self.delivered += 1
+        self._taken = self.clock()
         captured = taken.arrives - self.pace.delay
         if self.stuck and self.last is not None:
             self.last = Frame(self.last.image, captured, taken.scene.number)

@@ -98,7 +98,7 @@ class Checkup:
 
     def update(self, seconds: float) -> bool:
         """Let time pass; true at the moment in which something is done."""
-        self.mat.advance(seconds)
+        seconds = self.mat.advance(seconds)
         if self.rig is None:
             return False
         self._count(self.rig, seconds)

@@ -67,7 +67,7 @@ class Gathering:
             told = words("mat.there", there=there, all=len(places))
             text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
         self.prompts.draw(screen)
-        faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in ("lost", "outside")]
+        faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in ("lost", "held", "outside")]
         if faults:
             exact = self.mat.trouble if faults[0].name in ("camera", "radio") else None
             sentence = tell(words, exact) if exact else named(faults[0], words, "")

@@ -102,7 +102,7 @@ class RealMatch(MatchScene):
         """Let the match run on, unless something is wrong with a robot in it."""
         if self.repeated or self.stopped:
             return super().update(seconds)
-        self.mat.advance(seconds)
+        seconds = self.mat.advance(seconds)
         if self.gathering is not None:
             return self._gather(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
@@ -130,8 +130,7 @@ class RealMatch(MatchScene):
 
     def hold(self, seconds: float) -> None:
         """Let time pass under a page: all robots stand, and faults come and go."""
-        self.mat.advance(seconds)
-        self._rest(seconds)
+        self._rest(self.mat.advance(seconds))
 
     def shine(self, screen: pygame.Surface) -> None:
         """The corner markers and the discs, over everything."""

@@ -58,6 +58,7 @@ SIGNS: dict[str, Draw] = {
     "drift": _camera,
     "drifts": _camera,
     "lost": _eye,
+    "held": _eye,
     "twice": _eye,
     "radio": _radio,
     "silent": _radio,
