@@ -11,7 +11,7 @@ import numpy as np
 
 from pigaming_app.hardware.drift import Drift
 from pigaming_app.hardware.ground import Ground, NoGround
-from pigaming_app.hardware.markers import NoVision, opencv
+from pigaming_app.hardware.markers import ROBOT_IDS, Markers, NoVision, opencv
 from pigaming_app.hardware.said import Said, said
 from pigaming_app.hardware.signals import Frame, Image
 from pigaming_app.hardware.site import Sees, Site
@@ -19,6 +19,8 @@ from pigaming_app.hardware.worker import Worker
 
 BLIND = 6.0  # s without a picture after which it is given up
 SMALL = (520, 292)  # px of the picture that shows what the camera sees
+SPOT, NEAR = (140.0, 400.0), 90.0  # arena px: where a robot is asked to stand, and how near that is
+SEARCH = 0.5  # s between two looks for it
 RATE = 1.0  # s over which pictures are counted
 
 NO_PICTURE = Said("The camera sends no pictures.", "no_picture")
@@ -111,14 +113,18 @@ class Preview(Looking):
 class Checking(Looking):
     """Whether a calibration still holds: how far the four corner markers are from where it says that they are seen.
 
-    `load` makes the ground for a camera with pictures of so many px, or raises NoGround.
+    `load` makes the ground for a camera with pictures of so many px, or raises NoGround. `marker_mm` is how large the
+    marker of a robot at `SPOT` seems: far from its true size, the width of the mat was measured wrongly.
     """
 
     def __init__(self, site: Site, number: int, load: Callable[[tuple[int, int]], Ground]) -> None:
         super().__init__(site, number)
         self.drift: Drift | None = None
         self.mm: float | None = None  # None: not yet known
+        self.marker_mm: float | None = None
         self._load = load
+        self._robots: Markers | None = None
+        self._searched = -inf
 
     def look(self, frame: Frame) -> None:
         if self.trouble is not None:
@@ -131,6 +137,18 @@ class Checking(Looking):
             return
         self.drift.see(frame)
         self.mm = self.drift.mm or None  # exactly 0: none has been seen often enough
+        if frame.captured - self._searched > SEARCH:
+            self._searched = frame.captured
+            self._measure(frame, self.drift.ground)
+
+    def _measure(self, frame: Frame, ground: Ground) -> None:
+        """How large the marker of a robot on the spot seems."""
+        self._robots = self._robots or Markers(ROBOT_IDS)
+        self.marker_mm = None
+        for mark in self._robots.everywhere(frame.image):
+            away = ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT)
+            if float(away @ away) < NEAR * NEAR:
+                self.marker_mm = ground.edge_mm(mark)
 
     def idle(self, seconds: float, trouble: str | None) -> None:
         if seconds > BLIND:

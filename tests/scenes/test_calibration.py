@@ -244,6 +244,11 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
         arcade.picture()
     assert checking.mm is not None
     assert checking.mm < 2.0
+    assert checking.marker_mm is None
+    arcade.site.stand(*looking.SPOT)
+    for _ in range(24):
+        arcade.picture()
+    assert checking.marker_mm == pytest.approx(50.0, rel=0.04), "the width of the mat was measured well"
     canvas = arcade.house.canvas
     canvas.pin([8, 0, 1928, 0, 1928, 1080, 8, 1080])  # somebody pushes the projector
     for _ in range(24):

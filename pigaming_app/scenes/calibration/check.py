@@ -5,13 +5,15 @@ from functools import lru_cache, partial
 import pygame
 
 from pigaming_app.hardware.drift import PAUSE, WARN
-from pigaming_app.hardware.looking import Checking
+from pigaming_app.hardware.looking import SPOT, Checking
 from pigaming_app.hardware.markers import NoVision
 from pigaming_app.hardware.said import said
 from pigaming_app.hardware.site import Site
 from pigaming_app.scenes.calibration import kept
 from pigaming_app.scenes.calibration.drift_watch import draw_corners
+from pigaming_app.scenes.calibration.outlines import DISC, GREY
 from pigaming_app.scenes.calibration.page import site_of
+from pigaming_app.scenes.calibration.result import OFF
 from pigaming_app.scenes.calibration.telling import paragraph, tell
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
@@ -20,8 +22,9 @@ from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Turn
+from pigaming_app.scenes.stage import LEFT, TOP
 
-BAR = pygame.Rect(460, 640, 1000, 40)
+BAR = pygame.Rect(560, 640, 800, 40)
 MOST = 20.0  # mm at the right end of the bar
 IDLE = 300.0  # seconds without a press until the title
 
@@ -77,7 +80,22 @@ class CheckPage:
             draw_corners(screen)
         except NoVision as missing:
             work.trouble = said(missing)
+        self._draw_spot(screen)
         self.prompts.draw(screen)
+
+    def _draw_spot(self, screen: pygame.Surface) -> None:
+        """A robot here shows by its marker whether the width of the mat was measured well."""
+        words, work = self.house.words, self.work
+        x, y = LEFT + SPOT[0], TOP + SPOT[1]
+        pygame.draw.circle(screen, GREY, (x, y), DISC)
+        said, color = words("calibrate.put"), MIST
+        if work.marker_mm is not None and work.drift is not None:
+            true = work.drift.ground.marker
+            off = abs(work.marker_mm / true - 1.0) > OFF
+            key, color = ("marker_off", ALARM) if off else ("marker", ICE)
+            said = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{true:.0f}")
+        for i, line in enumerate(paragraph(said, 330, 4, color, "c")):
+            line.draw(screen, x, y + 120 + 48 * i)
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
