@@ -35,14 +35,11 @@ HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px in ticks that are getting n
 class Unknown:
     """What the original leaves unknown about its machine."""
 
-    engage: float = 180.0  # px from which it aims and fires at an opponent in sight
+    engage: float = 200.0  # px from which it aims and fires at an opponent in sight, closing in no further
     period: int = 40  # ticks between decisions
-    tolerance: float = 0.05  # rad by which the gun may be off when it fires
-    beside: float = 35.0  # px between the machine in its hiding place and the wall
-    along: float = 0.0  # where along the wall it hides: 0 behind the middle, 1 behind the end farther from the opponent
-    opposite: int = 1
-    wary: float = 180.0
-    arrived: float = 80.0  # px from the hiding place that count as there
+    tolerance: float = 0.08  # rad by which the gun may be off when it fires
+    beside: float = 50.0  # px between the machine in its hiding place and the wall
+    arrived: float = 85.0  # px from the hiding place that count as there
 
 
 @record
@@ -97,9 +94,8 @@ def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
     elif dx * dx + dy * dy > mind.numbers.arrived * mind.numbers.arrived:
         follow(match, seat, errand, mind.numbers.period)
     else:
-        press(
-            match.actions[seat], 0.0, turning(match, robot, bearing(robot, other.x, other.y), mind.numbers.period), 0, 0
-        )
+        stick = turning(match, robot, bearing(robot, other.x, other.y), mind.numbers.period)
+        press(match.actions[seat], 0.0, stick, 0, 0)
 
 
 @kernel
@@ -147,8 +143,8 @@ def feel_held_up(robot: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
-    """1 if the opponent is in sight, and near enough to fire at in this state."""
-    reach = mind.numbers.engage if mind.state == ATTACK else mind.numbers.wary
+    """1 if the opponent is in sight and near enough to fire at."""
+    reach = mind.numbers.engage
     dx, dy = other.x - robot.x, other.y - robot.y
     if dx * dx + dy * dy > reach * reach:
         return 0
@@ -157,8 +153,11 @@ def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 @kernel
 def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
-    """Make for the place behind the inner wall that is nearest to go to, away from the opponent; 0: there is none."""
-    numbers = mind.numbers
+    """Make for the place behind the inner wall that is nearest to go to, away from the opponent; 0: there is none.
+
+    The place lies on the line from the opponent through the middle of the wall: so near behind it that `beside` px are
+    between robot and wall, or past its end where the opponent looks along it.
+    """
     least = 1e18
     for i in range(match.wall_count):
         wall = match.walls[i]
@@ -167,20 +166,15 @@ def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
         if not wall.health or half < 1.0:
             continue
         mx, my = wall.ax + ex, wall.ay + ey
-        gap = wall.half + RADIUS + numbers.beside
+        gap = wall.half + RADIUS + mind.numbers.beside
         nx, ny = -ey / half * gap, ex / half * gap
-        if nx * (mx - other.x) + ny * (my - other.y) < 0.0:
-            nx, ny = -nx, -ny
-        far = numbers.along if ex * (mx - other.x) + ey * (my - other.y) >= 0.0 else -numbers.along
-        x, y = mx + nx + far * ex, my + ny + far * ey
-        if numbers.opposite:
-            ux, uy = mx - other.x, my - other.y
-            line = sqrt(ux * ux + uy * uy)
-            across = abs(ux * nx + uy * ny) / gap
-            t = half + gap
-            if across * t > gap * line:
-                t = gap * line / across
-            x, y = mx + ux / line * t, my + uy / line * t
+        ux, uy = mx - other.x, my - other.y
+        line = sqrt(ux * ux + uy * uy)
+        across = abs(ux * nx + uy * ny) / gap
+        behind = half + gap
+        if across * behind > gap * line:
+            behind = gap * line / across
+        x, y = mx + ux / line * behind, my + uy / line * behind
         dx, dy = x - robot.x, y - robot.y
         away = dx * dx + dy * dy
         inside = RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS
