@@ -19,6 +19,7 @@ ROBOT_IDS = (0, 1, 2, 3)
 CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
 READABLE = 23.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
 SMALLEST = 0.5  # scale of a quick look's picture: below, noise is no longer averaged
+SHARPER = 2.5
 PLENTY = 30.0  # px of an edge that are enough anywhere
 NARROW, WIDE = 0.6, 1.6  # an edge is this much of what is expected, at least and at most
 NEAR, FAR = 1.3, 1.6  # what is brighter than so many medians of a region, or of a picture, is dimmed to that
@@ -86,8 +87,10 @@ class Markers:
         rate, fold = 4.0 * spot.edge / max(part.shape), max(1, int(spot.edge / PLENTY))
         if fold > 1:
             part = self._cv.resize(part, None, fx=1.0 / fold, fy=1.0 / fold, interpolation=self._cv.INTER_AREA)
-        window = max(5, round(spot.edge / fold / 3.0) | 1)
-        for picture, windows in ((self._dimmed(part, NEAR), (window, window)), (part, (3, 3 * window))):
+        edge = spot.edge / fold
+        window = max(5, round(edge / 3.0) | 1)
+        for i, windows in enumerate(((window, window), (window, window), (3, 3 * window))):
+            picture = part if i == 2 else self._dimmed(part if i == 0 else self._sharp(part, edge), NEAR)
             for mark in self._look(self._detector(windows, NARROW * rate, WIDE * rate), picture):
                 if mark.number == number:
                     return Mark(number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
@@ -111,6 +114,11 @@ class Markers:
         sample = image[::4, ::4].reshape(-1)
         middle = float(np.partition(sample, sample.size // 2)[sample.size // 2])
         return np.asarray(self._cv.min(image, min(255.0, medians * middle)))
+
+    def _sharp(self, part: Image, edge: float) -> Image:
+        """Against motion and a lens out of focus: more of what is finer than a twelfth of a marker."""
+        soft = self._cv.GaussianBlur(part, (0, 0), edge / 12.0)
+        return np.asarray(self._cv.addWeighted(part, 1.0 + SHARPER, soft, -SHARPER, 0.0))
 
     def _look(self, detector: Any, image: Image) -> list[Mark]:
         corners, ids = listed(*detector.detectMarkers(np.ascontiguousarray(image))[:2])

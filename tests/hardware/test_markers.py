@@ -57,6 +57,15 @@ def test_what_is_projected_across_a_marker_does_not_hide_it():
     assert glanced >= 0.8 * tries
 
 
+def test_a_blurred_marker_is_found_where_it_must_be():
+    """As behind a lens out of focus, or in a long exposure of a robot that turns."""
+    markers = Markers(ROBOT_IDS)
+    for i in range(10):
+        corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
+        picture = cv2.GaussianBlur(lids([(3, corners)], SIZE, ground=150.0), (0, 0), 2.2)
+        assert markers.near(speckled(picture), Spot(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
+
+
 def test_corners_are_exact_to_a_tenth_of_a_pixel():
     markers = Markers(ROBOT_IDS)
     misses = []
