@@ -25,7 +25,8 @@ HELD = 4.0 * GAMMA  # px/s: where a wall allows less, the robot first drives awa
 AGAIN = 20  # ticks after which a way is found anew
 MOVED = 0.03  # rad, or tens of px: less than that is no motion
 PATIENCE = 10  # ticks without motion after which the slowest speeds grow, each tick by PUSH
-PUSH, MOST = 0.05, 4.0
+PUSH, MOST = 0.05, 2.5
+EASE = 0.99  # share of the push that is left after each tick in which it moves
 REST: Twist = (0.0, 0.0)
 
 
@@ -152,11 +153,12 @@ class Homing:
         return (-speed if back else speed), 2.5 * bearing
 
     def _feel(self, robot: int, pose: Pose, told: Twist) -> None:
-        """Motors with a wide deadband stand still at first: push until the robot moves, and remember how much."""
+        """Motors with a wide deadband stand still at first: push until the robot moves, then ease off."""
         since, (x, y, heading) = self._before.get(robot, (self._tick, pose))
         moved = 0.1 * apart((x, y), pose[:2]) + abs(turn_to(pose[2] - heading))
         if moved >= MOVED or told == REST or robot not in self._before:
             self._before[robot] = self._tick, pose
+            self._push[robot] = max(1.0, EASE * self._push[robot])
         elif self._tick - since > PATIENCE:
             self._push[robot] = min(self._push[robot] + PUSH, MOST)
 

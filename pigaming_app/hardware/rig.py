@@ -49,8 +49,6 @@ class Follows(Protocol):
 
     def sense(self, now: float) -> list[Sighting]: ...
 
-    def lost(self, robot: int) -> float: ...
-
     def doubled(self) -> set[int]: ...
 
     def wear(self, robot: int) -> Wear: ...
@@ -152,13 +150,13 @@ class Rig:
         now, gone, drift = self.clock(), self.link.trouble is not None, self.drift()
         with self._lock:
             looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
-            lost = {robot: self.tracker.lost(robot) for robot in outside}
+            ages = [sighting.age for sighting in self.tracker.sense(now)]  # by `now`, which is past by now
         found = {}
         for robot, seconds in outside.items():
             report = self.telemetry(robot)
             found[robot] = Signs(
                 picture=now - max(looked, self._begun) + DT,
-                unseen=lost[robot] + DT if looked > now - lost[robot] + 1e-6 else 0.0,
+                unseen=ages[robot] + DT if looked > now - ages[robot] + 1e-6 else 0.0,
                 refused=refused.get(robot, ""),
                 doubled=robot in doubled,
                 outside=seconds,

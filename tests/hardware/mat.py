@@ -106,13 +106,10 @@ class Mat:
                 one.x + ahead * one.linear * cos(one.heading),
                 one.y + ahead * one.linear * sin(one.heading),
                 one.heading + ahead * one.angular,
-                self.now - one.seen,
+                now - one.seen,
             )
             for one in self.robots
         ]
-
-    def lost(self, robot):
-        return self.now - self.robots[robot].seen
 
     def doubled(self):
         return {i for i, robot in enumerate(self.robots) if robot.doubled}

@@ -119,3 +119,18 @@ def test_a_tracker_that_breaks_once_is_logged_and_goes_on_with_the_next_picture(
     rig.close()
     assert tracker.shown == [2]
     assert "could not be used" in caplog.text
+
+
+def test_time_that_passes_while_signs_are_read_makes_nobody_unseen():
+    mat = Mat()
+    mat.pass_time(0.5)
+
+    def running():
+        mat.now += 0.003
+        return mat.now
+
+    mat.rig.clock = running
+    for robot in mat.robots:
+        robot.seen = mat.looked = mat.now - 0.12
+    for _ in range(20):
+        assert [sign.unseen for sign in mat.rig.signs(dict.fromkeys(range(4), 0.0)).values()] == [0.0] * 4
