@@ -62,7 +62,12 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
     mat = EmulatedMat()
     try:
         rig = mat.open()
-        assert soon(lambda: all(seen.age < 0.5 for seen in rig.sense()) and len(rig.link.telemetry) == 4)
+
+        def known() -> bool:
+            mat.advance(0.02)
+            return all(seen.age < 0.5 for seen in rig.sense()) and len(rig.link.telemetry) == 4
+
+        assert soon(known)
         assert mat.trouble is None
         assert mat.newest is not None
         assert mat.open() is rig

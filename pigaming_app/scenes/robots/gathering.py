@@ -29,6 +29,7 @@ UNSEEN = 1e6  # px: so far away is a robot that nobody sees
 DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
 TITLE_Y, HINTS_Y = 42, 102  # px
 BESIDE = 150  # px from an outline to what is said about it
+CARRIED = ("lost", "held", "outside")  # what happens to robots that are carried to their places
 MISSING = 1.5  # s until it is said that a robot is not seen
 
 
@@ -67,7 +68,7 @@ class Gathering:
             told = words("mat.there", there=there, all=len(places))
             text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
         self.prompts.draw(screen)
-        faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in ("lost", "held", "outside")]
+        faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
         if faults:
             exact = self.mat.trouble if faults[0].name in ("camera", "radio") else None
             sentence = tell(words, exact) if exact else named(faults[0], words, "")
