@@ -21,6 +21,7 @@ from pigaming_app.hardware.markers import NoVision
 from pigaming_app.hardware.said import Said, said
 from pigaming_app.hardware.site import Measures, RealSite
 from pigaming_app.keeping import NotSaved
+from pigaming_app.scenes import dials
 from pigaming_app.scenes.calibration import boards, kept, page
 from pigaming_app.scenes.calibration.boards import BoardsPage
 from pigaming_app.scenes.calibration.check import CheckPage
@@ -435,6 +436,22 @@ def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls
     assert (settings.arena_mm, settings.lid_mm, settings.camera) == (first.measures.width, 67.0, 3)
     again = CalibrationPage(arcade.house, arcade.site)
     assert again.measures == Measures(first.measures.width, 2500.0, 67.0)
+
+
+def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
+    first = arcade.go("by")
+    spot = first.focus.spot.rect
+    ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.house.words("calibrate.ruler"), "Robot")))
+    for x, by_robot in ((ruler, False), (robot, True), (robot, True), (ruler, False), (-60, False)):
+        arcade.click(spot.x + x, spot.centery)
+        assert (first.measures.height == 0.0) == by_robot
+    width, place = first.measures.width, first.focus.rect("width")
+    arcade.click(place.right - 60, place.centery)
+    assert first.measures.width == width + 1
+    arcade.click(place.x + dials.AT + 10, place.centery)
+    assert first.measures.width == width
+    arcade.click(*first.focus.rect("begin").center)
+    arcade.shown(BoardsPage)
 
 
 # ---- files and texts

@@ -214,7 +214,8 @@ class CalibrationPage:
             case "camera":
                 self._next_camera(by)
             case "by":
-                height = 0.0 if measures.height else self.site.measures.height or USUAL
+                robot = bool(measures.height) if around else by > 0
+                height = 0.0 if robot else measures.height or self.site.measures.height or USUAL
                 self.measures = Measures(measures.width, height, measures.lid)
                 self.focus.place(rows.spots(self._rows()))
             case "width" | "lid" | "height":

@@ -34,10 +34,13 @@ def draw(screen: pygame.Surface, house: House, focus: Focus, table: str, values:
 
 
 def pushed(press: Press, focus: Focus, value: Value) -> int:
-    """By how much a press changes the row in focus: 1, -1, or 0; clicks on its left and right half do, too."""
+    """By how much a press changes the row in focus: 1, -1, or 0; a click does what it hits."""
     if press.act in (Act.LEFT, Act.RIGHT):
         return 1 if press.act is Act.RIGHT else -1
     if press.act is Act.CLICK and press.at and focus.under(press) == focus.name and value.kind != "deed":
-        across = press.at[0] - focus.spot.rect.x - dials.AT
-        return 0 if across < 0 else -1 if across < dials.ROOM / 2 else 1
+        across = press.at[0] - focus.spot.rect.x
+        if value.kind == "toggle":
+            hit = dials.hit(value.kind, value.options, value.chosen, across)
+            return 0 if hit is None else hit - value.chosen
+        return 0 if across < dials.AT else -1 if across < dials.AT + dials.ROOM / 2 else 1
     return 0
