@@ -19,6 +19,7 @@ ROBOT_IDS = (0, 1, 2, 3)
 CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
 READABLE = 23.0  # px of an edge down to which a marker is shrunk for a quick look (HARDWARE.md: 96 % from 22, 52 at 14)
 SMALLEST = 0.5  # scale of a quick look's picture: below, noise is no longer averaged
+DIM, LIFT = 60.0, 6.0  # what is darker is lifted to that, by so much at most: OpenCV thresholds in absolute greys
 SHARPER = 2.5
 PLENTY = 30.0  # px of an edge that are enough anywhere
 NARROW, WIDE = 0.6, 1.6  # an edge is this much of what is expected, at least and at most
@@ -107,13 +108,15 @@ class Markers:
         return [Mark(mark.number, corner) for mark, corner, ok in zip(marks, found, well, strict=True) if ok]
 
     def _dimmed(self, image: Image, medians: float) -> Image:
-        """The picture with nothing in it brighter than so many of its medians.
+        """The picture with nothing in it brighter than so many of its medians; lifted if that is dark.
 
         What is projected across a marker draws edges on it, but nothing is darker than its black.
         """
         sample = image[::4, ::4].reshape(-1)
         middle = float(np.partition(sample, sample.size // 2)[sample.size // 2])
-        return np.asarray(self._cv.min(image, min(255.0, medians * middle)))
+        top = min(255.0, medians * middle)
+        cut = self._cv.min(image, top)
+        return np.asarray(cut if top > DIM else self._cv.convertScaleAbs(cut, alpha=min(DIM / max(top, 1.0), LIFT)))
 
     def _sharp(self, part: Image, edge: float) -> Image:
         """Against motion and a lens out of focus: more of what is finer than a twelfth of a marker."""

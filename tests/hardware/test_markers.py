@@ -66,6 +66,16 @@ def test_a_blurred_marker_is_found_where_it_must_be():
         assert markers.near(speckled(picture), Spot(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
 
 
+@pytest.mark.parametrize("light", [0.2, 0.5, 1.0])
+def test_markers_are_found_in_dim_light(light):
+    markers = Markers(ROBOT_IDS)
+    for i in range(5):
+        corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
+        picture = speckled(light * lids([(3, corners)], SIZE, ground=150.0), noise=1.5)
+        assert markers.near(picture, Spot(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
+        assert len(markers.glance(picture, 37.0)) == 1
+
+
 def test_corners_are_exact_to_a_tenth_of_a_pixel():
     markers = Markers(ROBOT_IDS)
     misses = []
