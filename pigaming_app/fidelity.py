@@ -8,6 +8,7 @@ run again in the simulator.
 import json
 from argparse import Namespace
 from dataclasses import asdict
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -101,20 +102,27 @@ def identify(arguments: Namespace) -> dict[str, Any]:
     for one in verdicts:
         before, after = (" ".join(f"{mm:7.1f}" for mm in errors.mm) for errors in (one.before, one.after))
         said.append(f"robot {one.robot + 1}  nominal {before}   identified {after}")
+    left_out = sorted(run.courses.keys() - {one.robot for one in verdicts})
+    said += [f"robot {robot + 1}  is left out: it hardly moved, or what was found makes no sense" for robot in left_out]
     said.append(f"kept in {out}")
     if arguments.plots:
         said += _draw(run, verdicts, arguments.plots)
     robots = {
         str(one.robot + 1): {
-            "before_mm": one.before.mm,
-            "after_mm": one.after.mm,
-            "before_deg": one.before.degrees,
-            "after_deg": one.after.degrees,
+            "before_mm": _known(one.before.mm),
+            "after_mm": _known(one.after.mm),
+            "before_deg": _known(one.before.degrees),
+            "after_deg": _known(one.after.degrees),
             **asdict(one.drivetrain),
         }
         for one in verdicts
     }
     return {"horizons": HORIZONS, "robots": robots, "out": str(out), "said": said}
+
+
+def _known(figures: tuple[float, ...]) -> list[float | None]:
+    """Figures as JSON has them: None where too little was seen to tell."""
+    return [figure if isfinite(figure) else None for figure in figures]
 
 
 def replay(arguments: Namespace) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """The jobs `robots` and `fidelity`, without hardware and on the emulated arena."""
 
 import json
+from math import cos, sin
 
 import pytest
 
@@ -85,12 +86,17 @@ def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypat
 
 def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_path, capsys):
     run = tmp_path / "run.jsonl"
-    lines = [{"kind": "head", "format": "pigaming-run-1", "mm": 1.3, "emulated": True}]
-    for i in range(60):
-        lines.append({"kind": "sent", "time": i, "seq": i, "wheels": [[0.1, 0.1], None, None, None]})
-        lines.append({"kind": "seen", "captured": i, "time": i, "fixes": [[0, 10.0 * i, 50.0, 0.0]]})
-    run.write_text("".join(json.dumps(line) + "\n" for line in lines))
-    assert told(capsys, "fidelity", "identify", str(run))["out"].endswith("robots-emulated.toml")
+    head = {"kind": "head", "format": "pigaming-run-1", "mm": 1.3, "emulated": True}
+    sent = {"kind": "sent", "time": 0.0, "seq": 1, "wheels": [[0.3, 0.2], None, None, None]}
+    seen = []
+    for i in range(600):  # wheels 62 px apart at 0.3 and 0.2 of 758 px/s: 189 px/s and 1.22 rad/s
+        turn = 1.22 * 0.05 * i
+        at = [0, 800.0 + 155.0 * sin(turn), 450.0 - 155.0 * cos(turn), turn]
+        seen.append({"kind": "seen", "captured": 0.5 + 0.05 * i, "time": 0.6 + 0.05 * i, "fixes": [at]})
+    run.write_text("".join(json.dumps(line) + "\n" for line in [head, sent, *seen]))
+    found = told(capsys, "fidelity", "identify", str(run))
+    assert found["out"].endswith("robots-emulated.toml")
+    assert found["robots"]["1"]["after_mm"][2] < 20.0
 
 
 @pytest.mark.parametrize(

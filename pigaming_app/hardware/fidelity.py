@@ -22,6 +22,8 @@ EVERY = 0.5  # s between predictions
 HELD_OUT = 0.35  # share of a run, its end, that is not used to identify
 FEWEST = 6  # fixes in the half second before
 SHORTEST = 20.0  # s
+WAY, TURN = 1500.0, 3.0  # px and rad that a robot must have driven and turned
+ODD = 2.0  # times a number may differ from the nominal one
 
 
 class TooShort(ValueError):
@@ -53,17 +55,37 @@ class Prediction(NamedTuple):
 
 
 def measure(run: Run, nominal: Drivetrain = NOMINAL) -> list[Verdict]:
-    """Identify every robot of a run, and say how good the model was and is. Raises TooShort."""
+    """Identify every robot of a run that drove about, and say how good the model was and is. Raises TooShort.
+
+    Robots that hardly moved, or whose numbers make no sense, are left out.
+    """
     verdicts = []
     for robot, course in run.courses.items():
         begin, end = course.seen_at[0], course.seen_at[-1]
         if end - begin < SHORTEST:
             raise TooShort(f"Robot {robot + 1} was watched for {end - begin:.0f} s; {SHORTEST:.0f} s are needed.")
         cut = end - HELD_OUT * (end - begin)
-        found = identify(course.between(begin, cut), nominal)
+        found = identify(course.between(begin, cut), nominal) if drove(course) else None
+        if found is None or not sensible(found, nominal):
+            continue
         rest = course.between(cut, end + 1.0)
         verdicts.append(Verdict(robot, found, errors(rest, nominal, run.mm), errors(rest, found, run.mm)))
+    if not verdicts:
+        raise TooShort("No robot of this run drove about enough to tell anything about it.")
     return verdicts
+
+
+def drove(course: Course) -> bool:
+    """Whether a robot went and turned so much that its wheels can be known from it."""
+    way = np.hypot(*np.diff(course.poses[::10, :2], axis=0).T).sum()
+    return bool(way > WAY and np.ptp(course.poses[:, 2]) > TURN)
+
+
+def sensible(found: Drivetrain, nominal: Drivetrain) -> bool:
+    """Whether a robot can be like that."""
+    ratios = (found.left.speed / nominal.left.speed, found.right.speed / nominal.right.speed, found.base / nominal.base)
+    bands = max(found.left.deadband, found.right.deadband)
+    return all(1.0 / ODD < ratio < ODD for ratio in ratios) and bands < 0.3
 
 
 def errors(course: Course, drivetrain: Drivetrain, mm: float) -> Errors:

@@ -100,6 +100,15 @@ def test_a_run_of_a_few_seconds_is_too_short():
         measure(danced(5.0))
 
 
+def test_a_robot_that_stood_still_is_left_out():
+    run = danced(22.0)
+    still = run.courses[0]
+    still.poses[:] = still.poses[0]
+    assert [one.robot for one in measure(Run(run.mm, {0: still, 1: run.courses[1]}))] == [1]
+    with pytest.raises(TooShort, match="No robot"):
+        measure(Run(run.mm, {0: still}))
+
+
 def test_a_run_played_again_in_the_simulator_stays_near_for_a_while_and_nearer_when_it_knows_the_robots(run):
     def miss(drivetrains):
         again = replay(Run(run.mm, {0: run.courses[0].between(0.0, 8.0)}), drivetrains)[0]
