@@ -8,7 +8,10 @@ from pigaming_app.hardware.emulator.optics import CANVAS
 
 
 class Projector:
-    """Hangs over an arena. `see` takes the window's pixels, (height, width, 4) with blue first, of any size."""
+    """Hangs over an arena. `see` takes the window's pixels, (height, width, 4) with blue first, of any size.
+
+    It has the canvas's shape: of a window of another shape it shows the middle, without the bars.
+    """
 
     def __init__(self, arena: EmulatedArena) -> None:
         self.arena = arena
@@ -17,6 +20,10 @@ class Projector:
         """Show a picture."""
         import cv2
 
+        height, width = pixels.shape[:2]
+        scale = min(width / CANVAS[0], height / CANVAS[1])
+        left, top = round(width - scale * CANVAS[0]) // 2, round(height - scale * CANVAS[1]) // 2
+        pixels = pixels[top : height - top, left : width - left]
         grey = cv2.cvtColor(pixels, cv2.COLOR_BGRA2GRAY)
         if (grey.shape[1], grey.shape[0]) != CANVAS:
             grey = cv2.resize(grey, CANVAS, interpolation=cv2.INTER_AREA)

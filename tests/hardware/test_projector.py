@@ -1,0 +1,23 @@
+"""What the window shows falls on the emulated mat, whatever shape the window has."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.projector import Projector
+
+
+@pytest.mark.parametrize(("size", "bars"), [((1080, 1920), 0), ((540, 960), 0), ((1024, 1280), 152), ((2160, 3840), 0)])
+def test_the_picture_fills_the_projector_and_the_bars_are_left_out(size: tuple[int, int], bars: int) -> None:
+    arena = EmulatedArena(1)
+    window = np.zeros((*size, 4), np.uint8)
+    window[bars : size[0] - bars] = 200
+    window[bars : bars + 20, :40] = 90  # its upper left corner
+    Projector(arena).see(window)
+    arena.advance(0.1)
+    shown = arena._shown
+    assert shown.shape == (1080, 1920)
+    assert shown[1070, 1910] == 200
+    assert shown[2, 2] == pytest.approx(90, abs=2)
