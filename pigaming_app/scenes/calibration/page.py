@@ -209,8 +209,7 @@ class CalibrationPage:
                 count = len(canvas.displays())
                 wanted = (canvas.display + by) % count if around else min(count - 1, max(0, canvas.display + by))
                 if wanted != canvas.display:
-                    canvas.show(wanted, canvas.fullscreen)
-                    self._state_of = (0, 0)
+                    self._show(wanted, canvas.fullscreen)
             case "camera":
                 self._next_camera(by)
             case "by":
@@ -229,6 +228,13 @@ class CalibrationPage:
         values = {"width": self.measures.width, "lid": self.measures.lid, "height": self.measures.height}
         values[name] = min(high, max(low, round(values[name] / step + by) * step))
         self.measures = Measures(values["width"], values["height"], values["lid"])
+
+    def _show(self, display: int, fullscreen: bool) -> None:
+        """Move the picture; a calibration belongs to where it is."""
+        canvas, settings = self.house.canvas, self.house.settings
+        canvas.show(display, fullscreen)
+        settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+        self._state_of = (0, 0)
 
     def _next_camera(self, by: int) -> None:
         self.known = self.site.cameras()
@@ -256,7 +262,7 @@ class CalibrationPage:
         self.left()
         canvas = self.house.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
-            canvas.show(canvas.display, True)
+            self._show(canvas.display, True)
         self._keep()
         return Push(BoardsPage(self.house, self.site, self.number, self.measures))
 
@@ -268,8 +274,7 @@ class CalibrationPage:
 
     def _keep(self) -> None:
         """Remember what is chosen; an emulated arena is not worth it."""
-        settings, canvas, measures = self.house.settings, self.house.canvas, self.measures
-        settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+        settings, measures = self.house.settings, self.measures
         if self.site.name != "real":
             return
         settings.camera = self.number
