@@ -153,7 +153,8 @@ def test_the_same_seed_is_the_same_run():
 def test_it_shares_no_code_with_what_it_proves():
     from tests.test_layers import PACKAGE, imported
 
-    proven = "air boards dialect drift follower ground lens line link markers packets place solver tracker".split()
+    proven = ["air", "boards", "dialect", "drift", "follower", "ground", "lens", "line", "link", "markers", "packets"]
+    proven += ["place", "solver", "tracker"]
     for path in (PACKAGE / "hardware" / "emulator").glob("*.py"):
         for module, _ in imported(path):
             assert module not in {f"pigaming_app.hardware.{name}" for name in proven}, f"{path.name}: {module}"

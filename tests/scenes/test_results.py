@@ -11,7 +11,7 @@ from pigaming_app.scenes.ballot import PATIENCE
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.initials import Initials
-from pigaming_app.scenes.match import MatchScene, again
+from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.plot import Curve, LapPlot, moments, scale, spread, team_curve
 from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.results import IDLE, Results
@@ -42,7 +42,7 @@ def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, 
 def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, teams=(0, 1, 2, 3)) -> Results:
     match = setup(brains, 1.0, teams)
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
-    results = Results(arcade.house, ended, match, devices, again, finished)
+    results = Results(arcade.house, ended, match, devices, MatchScene(arcade.house, match, devices).again, finished)
     arcade.open(results)
     return results
 
@@ -238,7 +238,8 @@ def race(arcade: Arcade, lap: int, whole: int) -> Results:
         Row(1, 1, 2, 2, facts, {"lap": lap + 500, "race": 0}, (12.5, 13.0)),
     ]
     ended = Outcome(tuple(rows), (0,), (((0.0, 0), (30.0, 3)), ((0.0, 0), (30.0, 2)), ((0.0, 0),), ((0.0, 0),)), 60.0)
-    results = Results(arcade.house, ended, match, [KEYS[0], None, None, None], again, True)
+    devices = [KEYS[0], None, None, None]
+    results = Results(arcade.house, ended, match, devices, MatchScene(arcade.house, match, devices).again, True)
     arcade.open(results)
     return results
 
