@@ -1,7 +1,10 @@
 """Every test of the scenes runs without a screen and without a sound card."""
 
 import os
+import threading
+import time
 from collections.abc import Iterator
+from pathlib import Path
 
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["SDL_AUDIODRIVER"] = "dummy"
@@ -20,3 +23,18 @@ def controls() -> Iterator[Controls]:
     pygame.event.clear()
     yield Controls()
     pygame.event.clear()
+
+
+@pytest.fixture
+def _home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+
+
+@pytest.fixture
+def _no_threads_stay() -> Iterator[None]:
+    before = set(threading.enumerate())
+    yield
+    end = time.monotonic() + 3.0
+    while left := set(threading.enumerate()) - before:
+        assert time.monotonic() < end, f"still there: {left}"
+        time.sleep(0.01)

@@ -1,0 +1,58 @@
+"""An arcade whose window shines on a mat with a camera over it, and an operator: for tests of the calibration."""
+
+from typing import Any
+
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.scenes.calibration.boards import BoardsPage
+from pigaming_app.scenes.calibration.page import CalibrationPage
+from pigaming_app.scenes.canvas import Canvas
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.pixels import pixels_of
+from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.stack import Scene
+from pigaming_app.settings import Settings
+from tests.scenes.arcade import Arcade
+
+
+class Operated(Arcade):
+    """An arcade whose window shines on an emulated mat, and an operator."""
+
+    def __init__(self, controls: Controls, site: Any) -> None:
+        super().__init__(controls)
+        self.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+        self.site = site
+        if isinstance(site, EmulatedSite):
+            self.house.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
+
+    def picture(self, covered: bool = False) -> None:
+        """One picture, on the mat too; `covered`: somebody stands in the light of its right half."""
+        self.frame()
+        screen = self.house.canvas.screen
+        self.stack.top.draw(screen)
+        if covered:
+            screen.fill((20, 20, 20), (700, 0, 1220, 1080))
+        self.house.canvas.flip()
+
+    def pictures(self, kind: type[Scene], most: int = 400, covered: bool = False) -> Any:
+        """Pictures until a scene of this kind is on top."""
+        for _ in range(most):
+            if isinstance(self.stack.top, kind):
+                return self.stack.top
+            self.picture(covered)
+        raise AssertionError(f"{type(self.stack.top).__name__} is on top")
+
+    def go(self, row: str) -> CalibrationPage:
+        """Put the focus on a row of the first page."""
+        top = self.shown(CalibrationPage)
+        while top.focus.name != row:
+            self.press(Act.DOWN)
+        return top
+
+    def begin(self) -> None:
+        self.go("begin")
+        self.press(Act.FIRE)
+        self.shown(BoardsPage)
