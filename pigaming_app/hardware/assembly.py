@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from pigaming_app.hardware.air import Air, Mode
 from pigaming_app.hardware.camera import Camera
+from pigaming_app.hardware.fitting import Fitting
 from pigaming_app.hardware.ground import Ground, NoGround, read
 from pigaming_app.hardware.line import ports, serial_port
 from pigaming_app.hardware.link import Link
@@ -39,7 +40,8 @@ def connect(wiring: Wiring, ground: Ground, drivetrains: Sequence[Drivetrain] = 
     """Camera, tracker and link, at work in their threads until close(). Raises NoVision where OpenCV is missing."""
     clock = time.monotonic
     tracker = Tracker(ground, clock, drivetrains)
-    return Rig(Camera(wiring.camera), tracker, linked(wiring), clock, drivetrains).start()
+    eye = Fitting(Camera(wiring.camera), ground)
+    return Rig(eye, tracker, linked(wiring), clock, drivetrains).start()
 
 
 def linked(wiring: Wiring) -> Link:

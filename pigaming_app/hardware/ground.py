@@ -143,10 +143,15 @@ def read(text: str, display: str, camera: tuple[int, int]) -> Ground:
         sentence = f"The calibration was made on display {ground.display}, not {display}: calibrate again."
         raise NoGround(Said(sentence, "other_display"))
     if ground.lens.size != camera:
-        theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
-        sentence = f"The calibration was made with a camera of {theirs} px, not {ours}: calibrate again."
-        raise NoGround(Said(sentence, "other_camera", theirs=theirs, ours=ours))
+        raise NoGround(misfit(ground, camera))
     return ground
+
+
+def misfit(ground: Ground, camera: tuple[int, int]) -> Said:
+    """Why pictures of this size cannot be used with a calibration."""
+    theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
+    sentence = f"The calibration was made with a camera of {theirs} px, not {ours}: calibrate again."
+    return Said(sentence, "other_camera", theirs=theirs, ours=ours)
 
 
 def measured(ground: Ground, foot: tuple[float, float], height: float) -> Ground:

@@ -238,6 +238,7 @@ def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedMat | 
         return RealMat(settings, canvas)
     mat = EmulatedMat(canvas, options.emulate, live=options.step is None)
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
+    settings.real = settings.real or [1, 2, 3, 4]
     try:
         mat.open()  # now, while nobody waits for a picture; it is closed until somebody plays
         mat.close()

@@ -216,10 +216,22 @@ def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(ar
     assert match.gathering is None
 
 
+def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> None:
+    match = begun(arcade)
+    match.restart()
+    play(arcade, 0.1)
+    again = arcade.shown(RealMatch)
+    assert again is not match
+    assert again.real == {0, 1}
+    play(arcade, 1.0)
+    arcade.press(Act.FIRE)
+    play(arcade, 4.8)
+    assert again.match.seconds > 0.5
+    assert mat.open() is again.plant.rig
+
+
 def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
-    play(arcade, 1.0)
-    arcade.stack.turn(None)
     match.stop()
     until(arcade, Results)
     mat.arena.advance(0.3)

@@ -68,6 +68,7 @@ class Gathering:
             told = words("mat.there", there=there, all=len(places))
             text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
         self.prompts.draw(screen)
+        text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
         if faults:
             exact = self.mat.trouble if faults[0].name in ("camera", "radio") else None

@@ -51,6 +51,7 @@ class RealMatch(MatchScene):
         self.discs = Discs(rig)
         self.watch = DriftWatch(rig)
         self.gathering: Gathering | None = Gathering(house, mat, plant)
+        self.gone = False  # it has let go of the mat
         self.waiting = Pace()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
         self._dressed()
@@ -69,8 +70,10 @@ class RealMatch(MatchScene):
             self.begun = True
 
     def left(self) -> None:
-        """Stop the robots; let go of camera and radio."""
-        self.mat.close()
+        """Stop the robots; let go of camera and radio, unless the next match has them already."""
+        if not self.gone:
+            self.gone = True
+            self.mat.close()
 
     def on(self, press: Press) -> Turn:
         """As in every match. STOP stops all robots. While places are taken, FIRE begins as they stand, EXTRA
@@ -150,7 +153,7 @@ class RealMatch(MatchScene):
         """The same match with other luck and the same robots."""
         from pigaming_app.scenes.robots.begin import match_of
 
-        self.mat.close()
+        self.left()
         return match_of(house, replace(setup, seed=new_seed()), devices, self.real)
 
     # ---- inside
