@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from pigaming_app import ASSETS
 
-IN_A_HAND = ("size", "tilted")  # how a marker that is not down on the mat is seen
+IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker is not believed to be on a robot on the mat
 CALM = 0.5  # s for which a sign must be good before its fault is gone
 
 
@@ -62,11 +62,12 @@ RULES = (
     Rule("drift", lambda s: s.drift > 15.0, Does.STOP, everyone=True, pauses=True),
     Rule("twice", lambda s: s.doubled, Does.STOP, pauses=True),
     Rule("held", lambda s: s.unseen > 1.000 and s.refused in IN_A_HAND, Does.STOP, pauses=True),
-    Rule("lost", lambda s: s.unseen > 1.000 and s.refused not in IN_A_HAND, Does.STOP, pauses=True),
+    Rule("lost", lambda s: s.unseen > 1.000 and s.refused not in (*IN_A_HAND, BEYOND), Does.STOP, pauses=True),
     Rule("unseen", lambda s: s.unseen > 0.250, Does.STOP),
     Rule("unseen", lambda s: s.unseen > 0.100, Does.HALF),
     Rule("empty", lambda s: s.battery < 4.0, Does.OFF, pauses=True),
     Rule("silent", lambda s: s.silence > 1.0, Does.OFF, pauses=True),
+    Rule("outside", lambda s: s.unseen > 1.000 and s.refused == BEYOND, Does.STOP, pauses=True),
     Rule("outside", lambda s: s.outside > 3.0, Does.INWARD, pauses=True),
     Rule("outside", lambda s: s.outside > 0.0, Does.INWARD),
     Rule("low", lambda s: s.battery < 4.4, Does.WARN),

@@ -32,6 +32,12 @@ def judged(sign, others=GOOD, now=1.0):
             Does.WARN,
             [("held", 0, True), ("unseen", 0, False)],
         ),
+        (
+            GOOD._replace(unseen=1.001, refused="outside"),
+            Does.STOP,
+            Does.WARN,
+            [("unseen", 0, False), ("outside", 0, True)],
+        ),
         (GOOD._replace(doubled=True), Does.STOP, Does.WARN, [("twice", 0, True)]),
         (GOOD._replace(outside=0.02), Does.INWARD, Does.WARN, [("outside", 0, False)]),
         (GOOD._replace(outside=3.1), Does.INWARD, Does.WARN, [("outside", 0, True)]),
