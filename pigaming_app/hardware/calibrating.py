@@ -92,7 +92,8 @@ class Calibration(Looking):
             self.give_up(trouble or NO_PICTURE)
 
     def give_up(self, trouble: str) -> None:
-        self.trouble, self.stage, self.board = trouble, Stage.FAILED, None
+        super().give_up(trouble)
+        self.stage, self.board = Stage.FAILED, None
 
     def _solve(self, look: Look) -> None:
         measures = self.measures

@@ -15,7 +15,7 @@ from pigaming_app.hardware.markers import ROBOT_IDS, Markers, NoVision, opencv
 from pigaming_app.hardware.said import Said, said
 from pigaming_app.hardware.signals import Frame, Image
 from pigaming_app.hardware.site import Sees, Site
-from pigaming_app.hardware.worker import Worker
+from pigaming_app.hardware.worker import Worker, log
 
 BLIND = 6.0  # s without a picture after which it is given up
 SMALL = (520, 292)  # px of the picture that shows what the camera sees
@@ -73,7 +73,9 @@ class Looking(Worker):
         """No new picture for so long."""
 
     def give_up(self, trouble: str) -> None:
-        """End with this sentence."""
+        """Say this sentence, and write it into the log once."""
+        if trouble != self.trouble and getattr(trouble, "key", "") != "yet":
+            log.warning("camera %d: %s", self.number, trouble)
         self.trouble = trouble
 
     def failed(self, error: Exception) -> None:
@@ -107,7 +109,7 @@ class Preview(Looking):
 
     def idle(self, seconds: float, trouble: str | None) -> None:
         if seconds > 1.0:
-            self.trouble = trouble or NO_PICTURE
+            self.give_up(trouble or NO_PICTURE)
 
 
 class Checking(Looking):

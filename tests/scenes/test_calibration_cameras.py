@@ -90,7 +90,9 @@ def test_the_camera_of_the_settings_is_gone_so_the_one_that_is_there_is_shown(co
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
 @pytest.mark.parametrize("language", ["en", "pt"])
-def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(controls: Controls, language: str) -> None:
+def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
+    controls: Controls, language: str, caplog: pytest.LogCaptureFixture
+) -> None:
     driver = Driver(opens=False)
     arcade = real(controls, driver)
     arcade.house.words.switch(language)
@@ -98,6 +100,8 @@ def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(cont
     assert first.preview is not None
     until(arcade, lambda: isinstance(first.preview.trouble, Said) and first.preview.trouble.key != "yet")
     assert "3" in tell(arcade.house.words, first.preview.trouble or "")
+    (line,) = [record.getMessage() for record in caplog.records if "camera 3" in record.getMessage()]
+    assert str(first.preview.trouble) in line, "the log says it too, once, in English"
     driver.opens = True
     until(arcade, lambda: first.preview.trouble is None and first.preview.small is not None)
     driver.sends = False

@@ -164,6 +164,7 @@ class CalibrationPage:
             ground = kept.load(self.house.canvas.projection, self.site, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
         except NoGround as trouble:
+            log.warning("%s", trouble)
             self.state = tell(words, said(trouble))
 
     # ---- what the rows are

@@ -69,9 +69,7 @@ class ResultPage:
 
     def entered(self) -> None:
         """It is what it is."""
-        if self.finding.trouble:
-            log.warning("calibration: %s", self.finding.trouble)
-        elif self.finding.residuals:
+        if self.finding.residuals and not self.finding.trouble:
             log.info("calibration: %s", self.finding.residuals.verdict)
 
     def on(self, press: Press) -> Turn:
