@@ -2,7 +2,8 @@
 
 It stands outside what was learned, and is off in training and in measuring. It drives towards the opponent, round the
 walls; if that was no help the last time, it backs out with some turn. Who only stands there and sees nobody for long is
-sent off too, but not by the `classic` rules (no turbo): waiting is part of what was published and measured there.
+sent off too. By the `classic` rules (those without turbo) robots are to play on a seat as they were measured: there it
+only takes them off the wall by a hand's breadth after some seconds, and nobody who waits is sent anywhere.
 """
 
 from typing import Any
@@ -21,6 +22,7 @@ SOMEWHERE = 20.0  # px that count as having got somewhere
 PATIENCE = round(1.5 * HZ)  # ticks of pushing without getting there
 WAITING = 5 * HZ  # ticks of standing there and seeing nobody
 LETTING_GO = HZ  # ticks
+LONG, SHORTLY = round(2.5 * HZ), 10  # the same two by the classic rules
 TOUCH = 2.0 * RADIUS + 6.0  # px between the middles of robots that push each other
 
 
@@ -48,15 +50,16 @@ def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
         return 0
     robot, action = match.robots[seat], match.actions[seat]
     feel(match, robot, opponent, reflex, action, period)
-    if reflex.held_up >= PATIENCE or reflex.waited >= WAITING:
-        reflex.left, reflex.held_up, reflex.waited = LETTING_GO, 0, 0
+    classic = not match.rules.turbo
+    if reflex.held_up >= (LONG if classic else PATIENCE) or reflex.waited >= WAITING:
+        reflex.left, reflex.held_up, reflex.waited = SHORTLY if classic else LETTING_GO, 0, 0
         reflex.tries += 1
         reflex.stick = -1.0 if action.linear > 0.0 else 1.0
-        reflex.turn = 2.0 * chance(mind) - 1.0
+        reflex.turn = 0.0 if classic else 2.0 * chance(mind) - 1.0
     if reflex.left <= 0:
         return 0
     reflex.left -= period
-    if reflex.tries % 2:
+    if reflex.tries % 2 and not classic:
         errand, other = reflex.errand, match.robots[opponent]
         errand.wanted, errand.goal_x, errand.goal_y = 1, other.x, other.y
         follow(match, seat, errand, period)

@@ -1,5 +1,7 @@
 """Nobody who plays by a table is stuck on a seat, and the reflex that sees to that is off where it would falsify."""
 
+from dataclasses import replace
+
 import pytest
 
 from pigaming_app.ai import BRAINS, training
@@ -23,9 +25,9 @@ def single_minded(move: Move, reflex: bool) -> Kind:
     return player("single", Learned(table), reflex)
 
 
-def driven(reflex: bool) -> list[tuple[float, float]]:
+def driven(reflex: bool, variant: str = "classic") -> list[tuple[float, float]]:
     """Where it has been at the end of each second of half a minute, with the opponent standing still far away."""
-    match = Match(training.setting(1, minutes=0.5))
+    match = Match(replace(training.setting(1, minutes=0.5), variant=variant))
     match.sit(0, Thinker(single_minded(AHEAD, reflex), 1))
     places = []
     while not match.over:
@@ -41,7 +43,7 @@ def test_without_the_reflex_a_headstrong_robot_pushes_against_a_wall_for_ever():
 
 
 def test_with_the_reflex_it_gets_about():
-    places = driven(reflex=True)
+    places = driven(reflex=True, variant="plain")
     assert max(x for x, _ in places) - min(x for x, _ in places) > 300.0
     held = [a for a, b, c in zip(places, places[1:], places[2:], strict=False) if a == b == c]
     assert len(held) <= len(places) // 3
@@ -56,6 +58,11 @@ def test_whoever_waits_for_nobody_goes_out_in_the_end_but_not_by_the_rules_of_th
     while not match.over:
         match.tick()
     assert (abs(match.state.robots[0].x - before) > 20.0) == leaves
+
+
+def test_by_the_rules_of_the_measured_results_it_only_comes_off_the_wall_now_and_then():
+    ends = [x for x, _ in driven(reflex=True)[10:]]
+    assert 10.0 < max(ends) - min(ends) < 60.0
 
 
 def test_whoever_gets_on_never_feels_it():
