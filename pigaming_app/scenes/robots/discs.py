@@ -11,7 +11,7 @@ from functools import cache
 import pygame
 
 from pigaming_app.hardware.rig import Rig
-from pigaming_app.scenes.ink import GREY, LINE, PLAYERS, THIN, Ink, badge, regular
+from pigaming_app.scenes.ink import BLACK, GREY, LINE, PLAYERS, THIN, Color, Ink, badge, regular
 from pigaming_app.scenes.mat import LIGHT_AFTER
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.scenes.views.ground import LEFT, TOP
@@ -45,9 +45,9 @@ class Discs:
             ):
                 place = round(x + dx + sprite.dx), round(y + dy + sprite.dy)
                 screen.blit(sprite.image, place, special_flags=pygame.BLEND_PREMULTIPLIED)
-        for _, at in there:
-            image = disc()
-            screen.blit(image, (round(LEFT + at.x) - MOAT, round(TOP + at.y) - MOAT))
+        for r, color in ((MOAT, BLACK), (DISC, GREY)):  # all moats first: none may cut into the disc of a neighbour
+            for _, at in there:
+                screen.blit(disc(r, color), (round(LEFT + at.x) - r, round(TOP + at.y) - r))
 
 
 def _behind(at: Sighting) -> tuple[float, float]:
@@ -60,11 +60,10 @@ def _behind(at: Sighting) -> tuple[float, float]:
 
 
 @cache
-def disc() -> pygame.Surface:
-    """The grey disc in its black moat; nothing shines through."""
-    out = pygame.Surface((2 * MOAT, 2 * MOAT), pygame.SRCALPHA)
-    pygame.draw.circle(out, (0, 0, 0, 255), (MOAT, MOAT), MOAT)
-    pygame.draw.circle(out, (*GREY, 255), (MOAT, MOAT), DISC)
+def disc(r: int, color: Color) -> pygame.Surface:
+    """A disc of one colour, of `r` px; nothing shines through."""
+    out = pygame.Surface((2 * r, 2 * r), pygame.SRCALPHA)
+    pygame.draw.circle(out, (*color, 255), (r, r), r)
     return out
 
 
