@@ -46,6 +46,8 @@ def look(arguments: Namespace) -> dict[str, Any]:
     try:
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
     except (ValueError, ImportError, NoVision) as trouble:
+        if arguments.emulate is not None:
+            raise NotThere(str(trouble)) from None
         if arguments.pair or arguments.latency:
             raise NotThere(f"Robots can only be moved where they are seen. {trouble}") from None
         return {**told, **_heard(arguments), "eyes": str(trouble)}

@@ -47,9 +47,12 @@ class RealWorkshop:
 
 
 class EmulatedWorkshop:
-    """The emulated arena, calibrated. Its time passes as fast as this machine can."""
+    """The emulated arena, calibrated. Its time passes as fast as this machine can. Raises NoVision."""
 
     def __init__(self, seed: int) -> None:
+        from pigaming_app.hardware.markers import opencv
+
+        opencv()
         from pigaming_app.hardware.testbed import Bed
 
         self.bed = Bed(seed, 30.0)

@@ -1,6 +1,7 @@
 """The jobs `robots` and `fidelity`, without hardware and on the emulated arena."""
 
 import json
+import sys
 from math import cos, sin
 
 import pytest
@@ -40,6 +41,15 @@ def test_robots_that_nobody_sees_are_not_moved(capsys, wish):
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert "calibrat" in said or "opencv" in said.lower()
+
+
+@pytest.mark.parametrize("job", [["robots"], ["fidelity", "record", "run.jsonl"]])
+def test_without_opencv_there_is_no_emulated_arena_and_one_sentence(capsys, monkeypatch, job):
+    monkeypatch.setitem(sys.modules, "cv2", None)
+    assert main([*job, "--emulate"]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "opencv" in said.lower()
 
 
 def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
