@@ -39,6 +39,8 @@ class Calibration(Looking):
     A calibration that is done may still be too bad to be accepted: `residuals` says so.
     """
 
+    fresh = True  # in the light of the boards, which is about the brightest that there will be
+
     def __init__(self, site: Site, number: int, measures: Measures, display: str) -> None:
         super().__init__(site, number)
         self.measures, self.display = measures, display

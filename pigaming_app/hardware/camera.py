@@ -45,9 +45,11 @@ class Camera:
         clock: Clock = time.monotonic,
         open_capture: Callable[[int], Any] | None = None,
         settle: float = SETTLE,
+        fresh: bool = False,
     ) -> None:
         self._cv = opencv()
         self.number, self.wanted, self.clock, self.settle = number, wanted or Wanted(), clock, settle
+        self.fresh = fresh  # whether exposure and the like are found anew; else they stay as a calibration locked them
         self.trouble: str | None = Said(f"Camera {number} has not shown a picture yet.", "yet", number=number)
         self.loose: Sequence[str] = ()  # what it goes on correcting by itself
         self._open_capture = open_capture or self._cv.VideoCapture
@@ -105,7 +107,8 @@ class Camera:
 
     def _ask(self, capture: Any) -> None:
         cv, wanted = self._cv, self.wanted
-        free(cv, capture)
+        if self.fresh:
+            free(cv, capture)
         capture.set(cv.CAP_PROP_FOURCC, cv.VideoWriter_fourcc(*"MJPG"))  # raw 1080p does not fit through USB 2
         capture.set(cv.CAP_PROP_FRAME_WIDTH, wanted.width)
         capture.set(cv.CAP_PROP_FRAME_HEIGHT, wanted.height)

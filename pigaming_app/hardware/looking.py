@@ -33,6 +33,7 @@ class Looking(Worker):
     users: ClassVar[dict[tuple[str, int], Worker]] = {}  # the last user of each camera, by the site's name and number
 
     locks = True  # whether the camera locks its exposure: to measure, but not just to look
+    fresh = False  # whether it finds it anew; else it stays as the calibration has left it, which is what matches need
 
     def __init__(self, site: Site, number: int) -> None:
         super().__init__()
@@ -54,7 +55,7 @@ class Looking(Worker):
         if self._eye is None:
             self._since = self._newest = now
             try:
-                self._eye = self.site.open(self.number, self.locks)
+                self._eye = self.site.open(self.number, self.locks, self.fresh)
             except NoVision as missing:
                 self.give_up(said(missing))
                 return

@@ -50,8 +50,8 @@ class Site(Protocol):
 
     def cameras(self) -> list[Known]: ...
 
-    def open(self, number: int, locks: bool = True) -> Sees:
-        """Use a camera; `locks`: it locks its exposure when it has settled. Raises NoVision."""
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Sees:
+        """Use a camera that locks its exposure when it has settled; `fresh`: having found it anew. Raises NoVision."""
 
     def advance(self, seconds: float) -> None: ...
 
@@ -78,9 +78,9 @@ class RealSite:
         """The cameras that are plugged in."""
         return cameras()
 
-    def open(self, number: int, locks: bool = True) -> Sees:
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Sees:
         """Use a camera. Raises NoVision."""
-        return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf)
+        return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh)
 
     def advance(self, seconds: float) -> None:
         """Time passes by itself."""

@@ -57,7 +57,7 @@ class EmulatedSite:
         """The one that there is."""
         return [Known(0, "emulated")]
 
-    def open(self, number: int, locks: bool = True) -> EmulatedEye:
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> EmulatedEye:
         """Use the camera."""
         return EmulatedEye(self.arena)
 
