@@ -63,7 +63,8 @@ def run(options: Options) -> int:
     scores, more = Scores.load(where.data)
     for name, value in options.chosen.items():
         settings.choose(name, value)
-    canvas = Canvas.open(settings, options.display, False if options.headless else None, options.headless)
+    windowed = options.headless or options.emulate is not None  # beside the window of the emulated camera
+    canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
     crash_file = _keep_log(where.data)
     pygame.font.init()
     house = House(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)

@@ -23,6 +23,7 @@ class CameraWindow:
         try:
             self.window = pygame.Window("PiGaming: what the camera sees", SIZE, position=(24, 24), resizable=True)
             self.window.get_surface()
+            pygame.Window.from_display_module().focus()  # the keys belong to the arcade
         except pygame.error as reason:
             sentence = f"There is no second window for the camera's view: {reason}."
             log.warning("%s", sentence)

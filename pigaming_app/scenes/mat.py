@@ -246,7 +246,8 @@ class EmulatedMat:
             from pigaming_app.hardware.emulator.projector import Projector
             from pigaming_app.scenes.pixels import pixels_of
 
-            Projector(self._arena).see(pixels_of(window))
+            picture = self.canvas.screen if self.canvas and not self.canvas.corners else window  # bars are no picture
+            Projector(self._arena).see(pixels_of(picture))
 
     def _ground(self) -> "Ground":
         """The calibration of the wizard, or else the one that was made when the arena was."""

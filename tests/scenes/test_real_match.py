@@ -216,6 +216,19 @@ def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(ar
     assert match.gathering is None
 
 
+def test_a_battery_that_runs_low_is_only_said(
+    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture
+) -> None:
+    match = begun(arcade)
+    before, mat.arena.robots[1].battery = mat.arena.robots[1].battery, 4.2
+    ticks = match.match.state.tick
+    play(arcade, 1.5)
+    mat.arena.robots[1].battery = before
+    assert arcade.shown(RealMatch) is match
+    assert match.match.state.tick > ticks + 50
+    assert "The battery of robot 2 will soon be empty." in caplog.text
+
+
 def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
     match.restart()
