@@ -155,3 +155,37 @@ def test_without_it_they_are_the_platforms_own(monkeypatch):
     where = folders()
     assert len({where.config, where.cache}) == 2
     assert all("pigaming" in str(folder) for folder in (where.config, where.data, where.cache))
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ("real = [1, 5]", "not a list of different numbers from 1 to 4"),
+        ("real = [2, 2]", "not a list of different numbers from 1 to 4"),
+        ("real = 3", "not a list of different numbers from 1 to 4"),
+        ("radios = [1, 2]", "not all of 1, 2, 3, 4"),
+        ("baud = 7", "not between 1200 and 921600"),
+        ('radio = "morse"', "none of api2"),
+        ("mat = 1", "neither true nor false"),
+    ],
+)
+def test_what_is_wrong_about_camera_and_radio_is_named(tmp_path, line, reason):
+    (tmp_path / FILE).write_text(line + "\n")
+    settings, said = Settings.load(tmp_path)
+    assert settings == Settings()
+    assert len(said) == 1
+    assert reason in said[0]
+
+
+def test_the_robots_and_their_radios_are_kept(tmp_path):
+    chosen = Settings(mat=True, real=[3, 1], radios=[2, 1, 3, 4], port="/dev/ttyUSB1", radio="stock", camera=2)
+    chosen.save(tmp_path)
+    assert Settings.load(tmp_path) == (chosen, [])
+
+
+def test_choosing_what_does_not_fit_says_why_and_changes_nothing():
+    settings = Settings()
+    with pytest.raises(ValueError, match="baud = 7 is not between 1200 and 921600"):
+        settings.choose("baud", 7)
+    settings.choose("baud", 115200)
+    assert settings == Settings(baud=115200)

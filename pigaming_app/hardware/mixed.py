@@ -46,6 +46,7 @@ class MixedPlant(RealPlant):
             self.real.discard(robot)
             self.arriving.discard(robot)
             goals.pop(robot, None)
+            self.safety.forget(robot, not self.real | self.arriving)
         elif robot not in self.real:
             self.arriving.add(robot)
             record = self.world.robots[robot]

@@ -112,6 +112,11 @@ class Safety:
         """Somebody has looked and lets the robots go on."""
         self.stopped = False
 
+    def forget(self, robot: int, last: bool) -> None:
+        """This robot is no real one any more, and so nothing is wrong with it; `last`: there are no others."""
+        self._bad = {key: times for key, times in self._bad.items() if key[1] != robot and not last}
+        self.faults = [fault for fault in self.faults if fault.robot != robot and not last]
+
     @property
     def pauses(self) -> bool:
         """Whether the match must wait."""

@@ -199,7 +199,7 @@ class EmulatedMat:
             arena, trains = self.arena, [UNMEASURED] * ROBOTS
             arena.cleared = False
             self._now = arena.clock()
-            link = Link(arena.radio.open, arena.clock, name="the emulated radio")
+            link = Link(arena.radio.open, arena.clock, name="EMU0")
             tracker = Tracker(self._ground(), arena.clock, trains)
             self._rig = Rig(EmulatedEye(arena), tracker, link, arena.clock, trains)
             if self._time is not None:

@@ -119,3 +119,16 @@ def test_a_fault_is_a_plain_sentence():
         "The battery of robot 2 is empty. Please change it.",
         "The battery of robot 2 will soon be empty.",
     ]
+
+
+def test_a_robot_that_is_no_real_one_any_more_takes_its_faults_along():
+    safety = Safety()
+    safety.judge([Signs(unseen=2.0), Signs(battery=3.0), None, None], 0.0)
+    assert {fault.name for fault in safety.faults if fault.pauses} == {"lost", "empty"}
+    safety.forget(0, last=False)
+    assert {fault.name for fault in safety.faults if fault.pauses} == {"empty"}
+    safety.judge([None, Signs(), None, None], 0.1)
+    assert {fault.robot for fault in safety.faults} == {1}
+    safety.forget(1, last=True)
+    safety.judge([None] * 4, 0.2)
+    assert not safety.pauses

@@ -13,12 +13,15 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.hardware.ground import nominal, written
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.canvas import Canvas
+from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import EmulatedMat, NoMat, RealMat
-from pigaming_app.scenes.press import Press
+from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.robots.begin import match_of
 from pigaming_app.scenes.robots.match import RealMatch
 from pigaming_app.scenes.stack import Turn
 from pigaming_app.settings import Settings, folders
+from tests.scenes.arcade import Arcade
 
 pytest.importorskip("cv2")
 HERE = "1: 1920 × 1080"
@@ -122,6 +125,32 @@ def test_a_computer_without_pyserial_says_so_and_without_a_camera_too(
         mat.close()
         mat.open()
         assert soon(lambda: "camera 63" in str(mat.trouble))
+    finally:
+        mat.end()
+    assert soon(lambda: not threads(), 3.0)
+
+
+def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_robots(
+    home: Path, controls: Controls, caplog: pytest.LogCaptureFixture
+) -> None:
+    calibrate(HERE)
+    arcade = Arcade(controls, "pt")
+    arcade.house.mat = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
+    seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
+    match = match_of(arcade.house, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
+    assert isinstance(match, RealMatch)
+    arcade.open(match)
+
+    def told() -> bool:
+        arcade.frame(0.05, draw=True)
+        return "radio" in [fault.name for fault in match.plant.faults]
+
+    try:
+        assert soon(told)
+        assert "/dev/nowhere" in caplog.text or "camera 63" in caplog.text
+        arcade.press(Act.EXTRA)
+        arcade.wait(6.0)
+        assert match.match.seconds > 1.0
     finally:
         mat.end()
     assert soon(lambda: not threads(), 3.0)

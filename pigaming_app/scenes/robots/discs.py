@@ -16,6 +16,7 @@ from pigaming_app.scenes.mat import LIGHT_AFTER
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.sim.plant import Sighting
+from pigaming_app.sim.world import HEIGHT, WIDTH
 
 DISC = 72  # px: 95 mm
 MOAT = 77  # px of black round it
@@ -23,6 +24,7 @@ RING = 83  # px
 BARREL, TIP = (92, 112), 132  # px: from where to where, and the end of the arrow
 ARM = 110  # px to the middle of both
 TAG = 122  # px from a robot to the badge that trails it
+TAG_OUT = 10  # px that it may be outside of the arena: in the corners of the picture are markers
 KNOWN = 1.0  # s after which nobody knows where an unseen robot is
 
 
@@ -51,10 +53,10 @@ class Discs:
 
 
 def _behind(at: Sighting) -> tuple[float, float]:
-    """Where the tag is, from the robot: behind it, or beside it where that would be off the canvas."""
+    """Where the tag is, from the robot: behind it, or beside it where that would be off the arena and its rim."""
     for turn in (math.pi, 0.75 * math.pi, 1.25 * math.pi, 0.5 * math.pi, 1.5 * math.pi):
         dx, dy = TAG * math.cos(at.heading + turn), TAG * math.sin(at.heading + turn)
-        if 40 < LEFT + at.x + dx < 1880 and 40 < TOP + at.y + dy < 1040:
+        if -TAG_OUT < at.x + dx < WIDTH + TAG_OUT and -TAG_OUT < at.y + dy < HEIGHT + TAG_OUT:
             break
     return dx, dy
 
