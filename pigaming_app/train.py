@@ -53,6 +53,7 @@ def train(arguments: argparse.Namespace) -> int:
         print("compiling the training, once", file=sys.stderr)
     course.warm()
     with _interrupts() as stopped:
+        print("Ctrl-C ends it after the match that is being played, and keeps what has been learned", file=sys.stderr)
         seconds = _train(course, arguments, points, stopped)
         try:
             course.save(arguments.out, arguments.out.stem)
@@ -146,9 +147,10 @@ def _note(course: training.Training, points: list[Point]) -> None:
 def _show(course: training.Training, matches: int, last: Point) -> None:
     """One line of progress; on a screen it replaces the one before it."""
     done = BAR * course.matches // matches
+    score = f"FSM {last.wins}-{last.ties}-{last.losses}" if last.matches else "FSM not met yet"
     line = (
         f"[{'#' * done}{'.' * (BAR - done)}] {course.matches}/{matches} matches  {course.experiences:,} experiences  "
-        f"T {course.temperature:.3f}  {course.visited:,} states  FSM {last.wins}-{last.ties}-{last.losses}"
+        f"T {course.temperature:.3f}  {course.visited:,} states  {score}"
     )
     if sys.stderr.isatty():
         print(f"\r{line}", end="", file=sys.stderr, flush=True)
@@ -221,7 +223,8 @@ def _tell(
         print(json.dumps(told))
         return
     how = "compiled" if course.fast else "plain"
+    score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against the FSM" if last.matches else ""
     print(f"{course.matches} matches, {course.experiences:,} experiences, {course.visited:,} states: {arguments.out}")
-    print(f"trained in {seconds:.1f} s ({how}); {last.wins}-{last.ties}-{last.losses} of {MEASURED} against the FSM")
+    print(f"trained in {seconds:.1f} s ({how}){score}")
     if stopped:
         print("stopped before the end; go on with --resume")
