@@ -243,6 +243,26 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> No
     assert mat.open() is again.plant.rig
 
 
+def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedMat) -> None:
+    mat.arena.faults.switch("marker_covered", True, 1)
+    mat.arena.faults.switch("robot_off", True, 2)
+    match = match_of(arcade.house, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
+    assert isinstance(match, RealMatch)
+    arcade.open(match)
+    play(arcade, 2.5, lit=True)
+    arcade.press(Act.EXTRA)
+    assert match.real == {0}
+    assert match.gathering is not None
+    for _ in range(60):
+        play(arcade, 0.5)
+        if match.gathering is None:
+            break
+    play(arcade, 5.0)
+    assert match.match.seconds > 0.5
+    x, y, _ = mat.arena.poses()[0]
+    assert hypot(x - match.match.state.robots[0].x, y - match.match.state.robots[0].y) < 30.0
+
+
 def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
     match.stop()

@@ -90,9 +90,8 @@ class RealMatch(MatchScene):
             self.plant.accept_places()
             self._begin()
         elif press.act is Act.EXTRA:
-            for place in self.plant.places:
-                if not place.there:
-                    self.swap(place.robot, False)
+            for seat in self._missing():
+                self.swap(seat, False)
             self.house.sounds.play("accept")
         elif press.act is Act.BACK:
             self.house.sounds.play("back")
@@ -137,7 +136,8 @@ class RealMatch(MatchScene):
 
     def shine(self, screen: pygame.Surface) -> None:
         """The corner markers and the discs, over everything."""
-        self.watch.draw(screen)
+        if self.real:
+            self.watch.draw(screen)
         self.discs.draw(screen, self.real)
 
     def swap(self, seat: int, real: bool) -> None:
@@ -173,6 +173,12 @@ class RealMatch(MatchScene):
         if self.plant.safety.stopped:
             return Push(Trouble(self))
         return Home() if self.house.idle > IDLE else None
+
+    def _missing(self) -> list[int]:
+        """The robots that will not get to their places by themselves."""
+        troubled = {fault.robot for fault in self.plant.faults if fault.pauses}
+        late = [place for place in self.plant.places if not place.there]
+        return [place.robot for place in late if not place.moving or {None, place.robot} & troubled]
 
     def _begin(self) -> None:
         """All are where they begin, or may begin where they are."""
