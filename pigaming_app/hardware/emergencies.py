@@ -87,7 +87,7 @@ class Stopped(NamedTuple):
 def stop(trail: Trail, name: str, robot: int = 1) -> Stopped:
     """Let it happen to moving robots, and end again; they must drive as before."""
     emergency, arena = EMERGENCIES[name], trail.bed.arena
-    _settle(trail)
+    settle(trail)
     began = arena.clock() + emergency.allowed
     emergency.begin(trail, robot)
     said = False
@@ -101,7 +101,7 @@ def stop(trail: Trail, name: str, robot: int = 1) -> Stopped:
     return Stopped(max(0.0, last - began), said)
 
 
-def _settle(trail: Trail) -> None:
+def settle(trail: Trail) -> None:
     """Drive until nothing is wrong and all have moved for half a second. Raises RuntimeError after 20 s."""
     calm = 0
     for _ in range(20 * HZ):
@@ -116,7 +116,7 @@ def _settle(trail: Trail) -> None:
 
 def hang(trail: Trail) -> float:
     """The game hangs, and only the link's thread is left: seconds until the last motor stands."""
-    _settle(trail)
+    settle(trail)
     began = trail.bed.arena.clock()
     for _ in range(HZ):
         trail.bed.link.pump()
@@ -126,7 +126,7 @@ def hang(trail: Trail) -> float:
 
 def leave(trail: Trail) -> float:
     """The program ends, by itself or by an exception that closes its rig: seconds until the last motor stands."""
-    _settle(trail)
+    settle(trail)
     began = trail.bed.arena.clock()
     trail.bed.rig.close()
     trail.bed.arena.advance(1.0)

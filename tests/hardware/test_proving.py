@@ -10,7 +10,7 @@ from pigaming_app import bench_robots
 from pigaming_app.bench_robots import TARGETS, Job, jobs, on_mat, reached
 from pigaming_app.cli import main
 from pigaming_app.games import GAMES
-from pigaming_app.hardware.emergencies import EMERGENCIES, hang, leave, stop
+from pigaming_app.hardware.emergencies import EMERGENCIES, hang, leave, settle, stop
 from pigaming_app.hardware.proving import Trail, entered, follow
 from pigaming_app.hardware.testbed import Bed
 from pigaming_app.sim.world import World
@@ -92,6 +92,7 @@ def test_figures_are_compared_with_what_they_must_reach():
 
 @pytest.mark.parametrize("name", ["garbage", "radio_lossy", "exposure_step"])
 def test_robots_drive_on_through_what_is_no_fault(name, trail):
+    settle(trail)
     trail.bed.arena.faults.switch(name, True)
     for _ in range(50):
         trail.tick()
@@ -101,6 +102,7 @@ def test_robots_drive_on_through_what_is_no_fault(name, trail):
 
 
 def test_a_robot_that_was_carried_is_followed_where_it_was_put_down(trail):
+    settle(trail)
     for on in (True, False):
         trail.bed.arena.faults.switch("carried", on, 2)
         for _ in range(50):
