@@ -128,6 +128,7 @@ def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: 
     [
         ("camera_frozen", "camera"),
         ("marker_covered", "lost"),
+        ("marker_held", "held"),
         ("marker_twice", "twice"),
         ("radio_unplugged", "radio"),
         ("robot_off", "silent"),
