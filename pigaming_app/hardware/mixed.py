@@ -5,14 +5,18 @@ where the simulated one stands, or is carried there (`take_places`).
 """
 
 from collections.abc import Iterable, Sequence
+from math import hypot
 from typing import Any
 
 from pigaming_app.hardware.plant import RealPlant
 from pigaming_app.hardware.rig import Rig
 from pigaming_app.sim.contact import ROUNDS, keep_out, part, settle
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robots import roll
-from pigaming_app.sim.world import World
+from pigaming_app.sim.robots import RADIUS, roll
+from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.world import HEIGHT, WIDTH, World
+
+BERTH = 7.0  # px by which a real robot that takes over keeps clear of walls
 
 
 class MixedPlant(RealPlant):
@@ -50,7 +54,7 @@ class MixedPlant(RealPlant):
         elif robot not in self.real:
             self.arriving.add(robot)
             record = self.world.robots[robot]
-            goals[robot] = (record.x, record.y, record.heading)
+            goals[robot] = (*clear_of_walls(self.world, record.x, record.y), record.heading)
         self.summon(goals)
 
     def take_places(self) -> bool:
@@ -65,6 +69,20 @@ class MixedPlant(RealPlant):
         super().accept_places()
         self.real |= self.arriving
         self.arriving.clear()
+
+
+def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:
+    """The nearest place to which a real robot can drive: simulated ones stand as close to walls as they like."""
+    for _ in range(ROUNDS):
+        x = min(max(x, RADIUS + BERTH), WIDTH - RADIUS - BERTH)
+        y = min(max(y, RADIUS + BERTH), HEIGHT - RADIUS - BERTH)
+        for i in range(world.wall_count):
+            wall = world.walls[i]
+            dx, dy = off_wall(wall, x, y)
+            off, room = hypot(dx, dy), wall.half + RADIUS + BERTH
+            if wall.health and 0.0 < off < room:
+                x, y = x + dx * (room / off - 1.0), y + dy * (room / off - 1.0)
+    return x, y
 
 
 def drive_among(world: Any, simulated: Sequence[int]) -> None:

@@ -245,6 +245,22 @@ def test_a_robot_is_swapped_for_a_simulated_one_and_back_in_the_middle_of_a_matc
     assert plant.sense()[0].x == pytest.approx(plant.world.robots[0].x, abs=15.0)
 
 
+def test_a_real_robot_takes_over_from_a_simulated_one_that_leans_on_a_wall():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat, [(875.0, 372.0, 1030.0, 530.0)], real={1, 2, 3}, kind=MixedPlant)
+    leaning = plant.world.robots[0]
+    leaning.x, leaning.y, leaning.heading = 1064.0, 546.0, 6.09
+    plant.swap(0, True)
+    (goal,) = plant.goals.values()
+    assert 2.0 < hypot(goal[0] - leaning.x, goal[1] - leaning.y) < 25.0
+    taken = 0
+    while not plant.take_places() and taken < 1500:
+        mat.pass_time()
+        taken += 1
+    assert taken < 1000
+    assert hypot(mat.robots[0].x - goal[0], mat.robots[0].y - goal[1]) < 15.0
+
+
 def test_twenty_seconds_of_mashing_by_four_robots_among_walls_enter_nothing():
     mat = Mat()
     plant = on_floor(mat, [(800.0, 200.0, 800.0, 700.0), (400.0, 500.0, 600.0, 400.0)])
