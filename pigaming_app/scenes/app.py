@@ -20,8 +20,9 @@ from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.emulated_mat import EmulatedMat
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.mat import EmulatedMat, NoMat, RealMat
+from pigaming_app.scenes.mat import NoMat, RealMat
 from pigaming_app.scenes.notices import Gauge, Notices
 from pigaming_app.scenes.press import Act
 from pigaming_app.scenes.sounds import Sounds

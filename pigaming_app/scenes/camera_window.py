@@ -5,7 +5,7 @@ import sys
 
 import pygame
 
-from pigaming_app.scenes.mat import EmulatedMat
+from pigaming_app.scenes.emulated_mat import EmulatedMat
 
 SIZE = (960, 540)
 EVERY = 1.0 / 15.0  # s between two pictures

@@ -9,7 +9,7 @@ pytest.importorskip("cv2")
 
 from pigaming_app.hardware.drift import PAUSE, WARN
 from pigaming_app.scenes.calibration.drift_watch import DriftWatch, tiles
-from pigaming_app.scenes.mat import EmulatedMat
+from pigaming_app.scenes.emulated_mat import EmulatedMat
 from pigaming_app.scenes.stage import LEFT
 from pigaming_app.sim.world import WIDTH
 

@@ -8,9 +8,9 @@ import pytest
 from pigaming_app.scenes import lobby
 from pigaming_app.scenes.card import TEAM_Y
 from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.emulated_mat import EmulatedMat
 from pigaming_app.scenes.lobby import Lobby
 from pigaming_app.scenes.lobby_page import card_rect
-from pigaming_app.scenes.mat import EmulatedMat
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.seats import AI, EMPTY, HUMAN
 from pigaming_app.scenes.setup import SetupPage

@@ -10,8 +10,9 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.emulated_mat import EmulatedMat
 from pigaming_app.scenes.ink import GREY
-from pigaming_app.scenes.mat import EmulatedMat, NoMat
+from pigaming_app.scenes.mat import NoMat
 from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.pause import Pause
 from pigaming_app.scenes.press import Act
@@ -84,7 +85,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
-    arcade.press(Act.FIRE)
+    arcade.press(Act.START)
     play(arcade, 5.0)
     assert match.match.seconds > 0.5
     return match
@@ -118,7 +119,7 @@ def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: 
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
-    arcade.press(Act.FIRE)
+    arcade.press(Act.START)
     until(arcade, Results, 25.0)
     assert match.match.over
 
@@ -211,7 +212,7 @@ def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(ar
     arcade.press(Act.BACK)
     assert arcade.shown(RealMatch).gathering is not None
     play(arcade, 1.0)
-    arcade.press(Act.FIRE)
+    arcade.press(Act.START)
     assert match.plant.real == {0, 1}
     play(arcade, 4.5)
     assert match.gathering is None
@@ -238,7 +239,7 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> No
     assert again is not match
     assert again.real == {0, 1}
     play(arcade, 1.0)
-    arcade.press(Act.FIRE)
+    arcade.press(Act.START)
     play(arcade, 4.8)
     assert again.match.seconds > 0.5
     assert mat.open() is again.plant.rig

@@ -8,7 +8,8 @@ import pytest
 
 from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.mat import EmulatedMat, RealMat
+from pigaming_app.scenes.emulated_mat import EmulatedMat
+from pigaming_app.scenes.mat import RealMat
 from pigaming_app.scenes.press import Act
 from pigaming_app.scenes.robots.page import RobotsPage
 from pigaming_app.settings import Settings, folders

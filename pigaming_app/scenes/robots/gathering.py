@@ -13,7 +13,7 @@ from pigaming_app.hardware.mixed import MixedPlant
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
-from pigaming_app.scenes.mat import Mat
+from pigaming_app.scenes.mat import exact
 from pigaming_app.scenes.page import stamp, text
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.plate import plate
@@ -38,11 +38,11 @@ class Gathering:
 
     DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
 
-    def __init__(self, house: House, mat: Mat, plant: MixedPlant) -> None:
-        self.house, self.mat, self.plant = house, mat, plant
+    def __init__(self, house: House, plant: MixedPlant) -> None:
+        self.house, self.plant = house, plant
         self.clock = 0.0
         self.prompts = Prompts(
-            house, [(Act.FIRE, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
+            house, [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
             HINTS_Y, 1560,
         )  # fmt: skip
 
@@ -71,8 +71,8 @@ class Gathering:
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
         if faults:
-            exact = self.mat.trouble if faults[0].name in ("camera", "radio") else None
-            sentence = tell(words, exact) if exact else named(faults[0], words, "")
+            detail = exact(self.plant.rig, faults[0].name)
+            sentence = tell(words, detail) if detail else named(faults[0], words, "")
             shown(sentence, ALARM).draw(screen, 960, 206)
 
     def _outline(self, screen: pygame.Surface, place: Place) -> None:

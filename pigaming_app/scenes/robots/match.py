@@ -15,10 +15,9 @@ from pigaming_app.scenes.calibration.drift_watch import DriftWatch
 from pigaming_app.scenes.countdown import Countdown
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM
-from pigaming_app.scenes.mat import Mat
+from pigaming_app.scenes.mat import Mat, exact
 from pigaming_app.scenes.match import LEAD, NOTICE, MatchScene, new_seed
 from pigaming_app.scenes.pace import Pace
-from pigaming_app.scenes.pause import Pause
 from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.reconnect import Reconnect
@@ -50,7 +49,7 @@ class RealMatch(MatchScene):
         self.plant = plant
         self.discs = Discs(rig)
         self.watch = DriftWatch(rig)
-        self.gathering: Gathering | None = Gathering(house, mat, plant)
+        self.gathering: Gathering | None = Gathering(house, plant)
         self.gone = False  # it has let go of the mat
         self.waiting = Pace()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
@@ -76,7 +75,7 @@ class RealMatch(MatchScene):
             self.mat.close()
 
     def on(self, press: Press) -> Turn:
-        """As in every match. STOP stops all robots. While places are taken, FIRE begins as they stand, EXTRA
+        """As in every match. STOP stops all robots. While places are taken, START begins as they stand, EXTRA
         lets simulated robots begin where real ones are missing, and BACK leaves.
         """
         if press.act is Act.STOP and not self.match.over:
@@ -86,7 +85,7 @@ class RealMatch(MatchScene):
         if self.gathering is None:
             return super().on(press)
         press = self.gathering.prompts.meant(press)
-        if press.act is Act.FIRE and self.gathering.clock > self.gathering.DEAF:
+        if press.act is Act.START and self.gathering.clock > self.gathering.DEAF:
             self.plant.accept_places()
             self._begin()
         elif press.act is Act.EXTRA:
@@ -96,8 +95,6 @@ class RealMatch(MatchScene):
         elif press.act is Act.BACK:
             self.house.sounds.play("back")
             return Pop()
-        elif press.act is Act.START:
-            return Push(Pause(self, press.device))
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -146,7 +143,7 @@ class RealMatch(MatchScene):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
-            self.gathering = Gathering(self.house, self.mat, self.plant)
+            self.gathering = Gathering(self.house, self.plant)
         self._dressed()
 
     def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
@@ -203,7 +200,8 @@ class RealMatch(MatchScene):
         """Write what is newly wrong into the log; what is only said, over the match."""
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
         for key in now.keys() - self.logged:
-            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), self.mat.trouble))))
+            detail = exact(self.plant.rig, now[key].name)
+            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), detail))))
             if now[key].name in TOLD:
                 said = named(now[key], self.house.words, "")
                 self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE

@@ -11,6 +11,7 @@ from pigaming_app.hardware.safety import Fault
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.effects import timer_ring
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
+from pigaming_app.scenes.mat import exact
 from pigaming_app.scenes.overlay import FOOT, HEAD, PROMPTS, W, X, overlay
 from pigaming_app.scenes.pane import Pane, fitted, lines_of
 from pigaming_app.scenes.pause import Pause, title
@@ -18,12 +19,13 @@ from pigaming_app.scenes.plate import Plate, plate
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.robots.signs import sign
-from pigaming_app.scenes.stack import Pop, Swap, Turn
+from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
 from pigaming_app.scenes.words import Words
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.robots.match import RealMatch
 
+IDLE = 600.0  # seconds without a press until the title
 HOLD = 1.0  # s for which FIRE is held to let go of the all-stop
 ICON = X + 150, HEAD + 112
 TEXT_X, ROOM = X + 280, W - 280 - 64
@@ -71,6 +73,8 @@ class Trouble:
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
             self.faults, self.picture = now, None
+        if self.house.idle > IDLE:
+            return Home()
         return None if now or safety.stopped else Pop()
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -110,7 +114,7 @@ class Trouble:
             words("mat.goes_on"), TEXT_X, FOOT - 40, MIST, "l", fitted(words("mat.goes_on"), 36, ROOM, "body")
         )
         y = write(pane, named(first, words, words.printed(self.house.controls.label(None, Act.FIRE))), HEAD + 56, ICE)
-        detail = self.match.mat.trouble if first.name in ("camera", "radio") else None
+        detail = exact(self.match.plant.rig, first.name)
         if detail:
             y = write(pane, tell(words, detail), y + 8, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
