@@ -2,6 +2,7 @@
 
 import logging
 import sys
+import warnings
 
 import pygame
 
@@ -23,7 +24,9 @@ class CameraWindow:
         try:
             self.window = pygame.Window("PiGaming: what the camera sees", SIZE, position=(24, 24), resizable=True)
             self.window.get_surface()
-            pygame.Window.from_display_module().focus()  # the keys belong to the arcade
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", DeprecationWarning)  # there is no other way to name the first window
+                pygame.Window.from_display_module().focus()  # the keys belong to the arcade
         except pygame.error as reason:
             sentence = f"There is no second window for the camera's view: {reason}."
             log.warning("%s", sentence)

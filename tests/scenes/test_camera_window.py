@@ -1,0 +1,45 @@
+"""The second window, which shows what the camera over the emulated mat sees."""
+
+import pygame
+import pytest
+
+from pigaming_app.scenes.camera_window import SIZE, CameraWindow
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.emulated_mat import EmulatedMat
+
+pytest.importorskip("cv2")
+
+
+def test_it_shows_the_newest_picture_and_can_be_closed_alone(controls: Controls) -> None:
+    mat = EmulatedMat(live=False)
+    window = CameraWindow(mat)
+    try:
+        window.update(0.1)
+        assert window.window is not None
+        assert window.window.get_surface().get_at((SIZE[0] // 2, SIZE[1] // 2))[:3] == (0, 0, 0)
+        mat.open()
+        mat.advance(0.3)
+        window.update(0.1)
+        seen = [window.window.get_surface().get_at((x, SIZE[1] // 2))[0] for x in range(0, SIZE[0], 40)]
+        assert max(seen) > 20  # the room's light on the mat
+        other = pygame.Event(pygame.WINDOWCLOSE, window=None)
+        assert not window.asked(other)
+        assert window.asked(pygame.Event(pygame.WINDOWCLOSE, window=window.window))
+        assert window.window is None
+        window.update(0.1)
+    finally:
+        window.close()
+        mat.end()
+
+
+def test_without_a_second_window_a_sentence_is_said_and_the_arcade_goes_on(
+    controls: Controls, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise pygame.error("windows are sold out")
+
+    monkeypatch.setattr(pygame, "Window", refuse)
+    window = CameraWindow(EmulatedMat(live=False))
+    window.update(1.0)
+    assert "no second window" in capsys.readouterr().err
+    assert window.window is None
