@@ -9,6 +9,7 @@ import csv
 import json
 import signal
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
@@ -55,14 +56,14 @@ def train(arguments: argparse.Namespace) -> int:
     with _interrupts() as stopped:
         print("Ctrl-C ends it after the match that is being played, and keeps what has been learned", file=sys.stderr)
         seconds = _train(course, arguments, points, stopped)
-        try:
+        with _blamed(arguments.out):
             course.save(arguments.out, arguments.out.stem)
-            if arguments.csv:
+        if arguments.csv:
+            with _blamed(arguments.csv):
                 _write_csv(points, arguments.csv)
-            if arguments.curve:
+        if arguments.curve:
+            with _blamed(arguments.curve):
                 _draw_curve(points, arguments)
-        except OSError as error:
-            raise ChoiceError(f"{error.filename or arguments.out}: cannot be written ({error.strerror})") from None
     _tell(course, arguments, points, seconds, bool(stopped))
     return 130 if stopped else 0
 
@@ -74,14 +75,33 @@ def _check(arguments: argparse.Namespace) -> None:
     if not LEAST_MINUTES <= arguments.minutes <= MOST_MINUTES:
         raise ChoiceError(f"--minutes: {arguments.minutes:g}; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
     load_arena(training.GAME, arguments.arena)
-    for option in ("out", "csv", "curve"):
-        path = getattr(arguments, option)
-        if path is not None and (path.is_dir() or not path.absolute().parent.is_dir()):
-            raise ChoiceError(f"--{option}: {path}: there is no such folder, or it is one itself")
     if arguments.out.suffix != ".npz":
         raise ChoiceError(f"--out: {arguments.out}: the name of a table ends in .npz")
+    if arguments.curve and arguments.curve.suffix.lower() != ".png":
+        raise ChoiceError(f"--curve: {arguments.curve}: the name of a picture ends in .png")
+    taken: set[Path] = set()
+    for option in ("out", "csv", "curve"):
+        path = getattr(arguments, option)
+        if path is None:
+            continue
+        if path.is_dir() or not path.absolute().parent.is_dir():
+            raise ChoiceError(f"--{option}: {path}: there is no such folder, or it is one itself")
+        if path.resolve() in taken:
+            raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
+        taken.add(path.resolve())
+        with _blamed(path), tempfile.TemporaryFile(dir=path.absolute().parent):
+            pass  # something can be written there
     if arguments.curve and find_spec("matplotlib") is None:
         raise ChoiceError("--curve: matplotlib is missing; `pip install matplotlib`, or use --csv")
+
+
+@contextmanager
+def _blamed(path: Path) -> Iterator[None]:
+    """Whatever goes wrong with a file meanwhile is said in one line with its name. Raises ChoiceError."""
+    try:
+        yield
+    except OSError as error:
+        raise ChoiceError(f"{path}: cannot be written ({error.strerror})") from None
 
 
 def _recipe(arguments: argparse.Namespace) -> Recipe:

@@ -21,6 +21,7 @@ from pigaming_app.games.game import PAIRS, Setup
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
+MOST_MATCHES = 100_000  # of a duel; all lie in memory at once
 WORTH_COMPILING = 300_000  # ticks, below which compiling takes longer than plain play
 
 
@@ -193,6 +194,8 @@ def _setups(
 ) -> list[Setup]:
     """The matches of a duel, two of each seed. Raises ChoiceError."""
     one_of("game", game, list(GAMES))
+    if not 1 <= matches <= MOST_MATCHES:
+        raise ChoiceError(f"--matches: {matches}; possible are 1 to {MOST_MATCHES}")
     brains = [left, right, left, right] if GAMES[game].sides == PAIRS else [left, right]
     kinds = list(BRAINS[game])
     return [choose(game, brains, arena, minutes, seed + i // 2, variant, None, kinds, goal) for i in range(matches)]

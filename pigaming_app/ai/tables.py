@@ -24,7 +24,7 @@ from pigaming_app.ai.sectors import STATES
 from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import dtype
 
-FORMAT = "pigaming-table-1"
+FORMAT, RULE = "pigaming-table-1", "pitanks classic"
 MOST_BYTES = 4_000_000  # of a file; one of a whole training has about 60,000
 COUNTS = ("experiences", "pairs", "states", "matches", "random")
 PARTS = {"head": 100_000, "q": 8 * PAIRS + 1000, "n": 8 * PAIRS + 1000}  # bytes that each may have unpacked
@@ -60,7 +60,7 @@ def save(trained: Trained, path: Path) -> None:
     table = trained.rows[0]
     head: dict[str, Any] = {
         "format": FORMAT,
-        "rule": "pitanks classic",
+        "rule": RULE,
         **{key: value for key, value in vars(trained).items() if key not in ("rows", "recipe")},
         "recipe": asdict(trained.recipe),
         **{key: int(table[key]) for key in COUNTS},
@@ -115,7 +115,7 @@ def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:
     try:
         with zipfile.ZipFile(BytesIO(raw)) as archive:
             sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
-            if sizes.keys() != {f"{part}.npy" for part in PARTS}:
+            if len(archive.infolist()) != len(PARTS) or sizes.keys() != {f"{part}.npy" for part in PARTS}:
                 raise TableError("not a trained table")
             if any(sizes[f"{part}.npy"] > most for part, most in PARTS.items()):
                 raise TableError("not a trained table: a part of it is too big")
@@ -123,13 +123,16 @@ def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:
                 raise TableError("truncated or damaged")
         with np.load(BytesIO(raw), allow_pickle=False) as file:
             head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
+        form = q.dtype.str, q.shape, n.dtype.str, n.shape  # NumPy hands out bytes for a part that is no array
     except TableError:
         raise
     except Exception:  # a damaged file makes zipfile and NumPy raise nearly anything
         raise TableError("truncated or damaged") from None
     if not isinstance(head, dict) or head.get("format") != FORMAT:
         raise TableError("not a trained table of this version")
-    if (q.dtype.str, q.shape, n.dtype.str, n.shape) != ("<f8", (PAIRS,), "<i4", (PAIRS,)):
+    if head.get("rule") != RULE:
+        raise TableError("trained by the rules of another game")
+    if form != ("<f8", (PAIRS,), "<i4", (PAIRS,)):
         raise TableError("the table has another shape")
     return head, q, n
 
@@ -152,7 +155,7 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
             rows[key] = int(head[key])
         for key, value in asdict(recipe).items():
             rows["knobs"][key] = value
-        return Trained(
+        trained = Trained(
             name=str(head["name"]),
             reward=int(head["reward"]),
             recipe=recipe,
@@ -162,6 +165,11 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
             rows=rows,
             engine=str(head["engine"]),
         )
+        if trained.matches < 0 or not trained.minutes > 0.0:
+            raise TableError("the table contradicts itself")
+        return trained
+    except TableError:
+        raise
     except (KeyError, TypeError, ValueError, OverflowError):
         raise TableError("its head is not complete") from None
 

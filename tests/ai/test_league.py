@@ -141,3 +141,9 @@ def test_a_league_puts_who_plays_before_who_stands_still(game, minutes):
 def test_what_is_no_league_is_refused(brains, said):
     with pytest.raises(ChoiceError, match=said):
         league.league("pitanks", brains, matches=2, seed=1)
+
+
+@pytest.mark.parametrize("matches", [0, -3, 10**9])
+def test_more_matches_than_fit_into_memory_and_none_at_all_are_refused(matches):
+    with pytest.raises(ChoiceError, match="--matches"):
+        league.duel("pitanks", "idle", "idle", matches=matches, seed=1)

@@ -12,6 +12,7 @@ from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from time import sleep
+from warnings import catch_warnings
 
 import numpy as np
 import pytest
@@ -174,6 +175,7 @@ def raised(q):
         ({"head": edited_head(seed=2)}, "changed after it was saved"),
         ({"head": edited_head(reward=1)}, "changed after it was saved"),
         ({"head": edited_head(format="pigaming-table-2")}, "not a trained table of this version"),
+        ({"head": edited_head(rule="factory classic")}, "rules of another game"),
         ({"head": lambda head: np.array("[]")}, "not a trained table of this version"),
         ({"head": lambda head: np.array("{")}, "truncated or damaged"),
         ({"q": lambda q: q[:-1]}, "another shape"),
@@ -224,6 +226,13 @@ def test_foreign_files_are_refused(kept):
         kept.write_bytes(raw)
         with pytest.raises(TableError, match=r"mine\.npz: "):
             tables.load(kept)
+    for parts in (("head", "q", "n"), ("head", "q", "n", "q")):  # no arrays; and one part twice
+        zipped = BytesIO()
+        with zipfile.ZipFile(zipped, "w") as archive, catch_warnings(action="ignore"):
+            for part in parts:
+                archive.writestr(f"{part}.npy", "{}")
+        kept.write_bytes(zipped.getvalue())
+        refused(kept, "")
     kept.unlink()
     refused(kept, "cannot be read")
     kept.mkdir()
@@ -308,6 +317,8 @@ def test_what_cannot_be_gone_on_with_is_said_in_one_line(tmp_path, capsys):
         (["--out", "/nowhere/a.npz"], "--out"),
         (["--out", "a.txt"], ".npz"),
         (["--csv", "/nowhere/a.csv"], "--csv"),
+        (["--csv", "./same.npz", "--out", "same.npz"], "another file"),
+        (["--curve", "a.xyz"], ".png"),
     ],
 )
 def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, capsys, more, word):
@@ -316,6 +327,23 @@ def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, capsys, more, word
     assert (said.out, said.err.count("\n")) == ("", 1)
     assert word in said.err
     assert not (tmp_path / "a.npz").exists()
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_the_training(tmp_path, capsys, monkeypatch):
+    def refuse(dir):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("pigaming_app.train.tempfile.TemporaryFile", refuse)
+    assert train(tmp_path / "a.npz") == 2
+    assert capsys.readouterr().err == f"PiGaming: {tmp_path / 'a.npz'}: cannot be written (Permission denied)\n"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no such device here")
+def test_a_full_disk_is_said_with_the_name_of_the_file(tmp_path, capsys):
+    (tmp_path / "a.csv").symlink_to("/dev/full")
+    assert train(tmp_path / "a.npz", "--csv", str(tmp_path / "a.csv")) == 2
+    assert f"{tmp_path / 'a.csv'}: cannot be written" in capsys.readouterr().err
+    assert tables.load(tmp_path / "a.npz").matches == 4
 
 
 def test_a_curve_without_matplotlib_is_refused_before_the_training(tmp_path, capsys, monkeypatch):

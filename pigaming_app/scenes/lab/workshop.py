@@ -173,7 +173,7 @@ class Workshop:
             compile_all()
             with self._lock:
                 old = self.training
-                self.training = Training(self.recipe, old.seed, fast=True, table=old.table)
+                self.training = Training(self.recipe, old.seed, old.arena, True, old.table, old.minutes)
                 self.progress.go_on(self.training)
             return True
         finally:
