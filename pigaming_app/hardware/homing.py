@@ -5,7 +5,7 @@ others. When nobody can move, one that is in the way makes room first. Whoever s
 """
 
 from collections.abc import Mapping
-from math import atan2, cos, pi
+from math import atan2, cos, pi, sqrt
 from typing import Any, NamedTuple
 
 from pigaming_app.hardware.walls import GAMMA, limits
@@ -21,7 +21,7 @@ SLOWEST_TURN, FASTEST_TURN = 0.7, 2.2  # rad/s
 CORNER = 30.0  # px from a point of the way at which the next is made for
 MARGIN = 14.0  # px between robots that pass each other
 BERTHS = (18.0, 4.0)  # px between a robot on its way and a wall, which slows it down; the second where it is narrow
-HELD = 4.0 * GAMMA  # px/s: where a wall allows less, the robot first drives away from it
+HELD = 4.0 * GAMMA  # px/s: where a wall allows less, the robot drives along it, and out of it where it allows nothing
 AGAIN = 20  # ticks after which a way is found anew
 MOVED = 0.03  # rad, or tens of px: less than that is no motion
 PATIENCE = 10  # ticks without motion after which the slowest speeds grow, each tick by PUSH
@@ -109,10 +109,14 @@ class Homing:
                 return
 
     def _make_room(self, poses: Mapping[int, Pose]) -> None:
-        """Send one robot that cannot get to its place to a free spot from where the others are not held up."""
-        for robot in sorted(self.goals, key=lambda one: (one in self._aside, one)):
-            if robot in self._home or robot not in poses:
-                continue
+        """Send one robot that cannot get to its place to a free spot from where the others are not held up.
+
+        The last one to arrive waits: nobody would be helped by its driving about.
+        """
+        under_way = [robot for robot in self.goals if robot in poses and robot not in self._home]
+        if len(under_way) < 2:
+            return
+        for robot in sorted(under_way, key=lambda one: (one in self._aside, one)):
             self._aside.add(robot)
             floor = self._among(self._floors[0], robot, poses)
             taken = [pose[:2] for other, pose in poses.items() if other != robot]
@@ -142,9 +146,9 @@ class Homing:
             return 0.0, _on_the_spot(turn_to(goal[2] - heading), push)
         self._arrived.discard(robot)
         dx, dy = way[0][0] - x, way[0][1] - y
-        out_x, out_y = _out(self.world, x, y)
-        held = dx * out_x + dy * out_y < 0.0
-        bearing = turn_to((atan2(out_y, out_x) if held else atan2(dy, dx)) - heading)
+        along = _along(self.world, (x, y), (dx, dy))
+        held = along != (dx, dy)
+        bearing = turn_to(atan2(along[1], along[0]) - heading)
         back = (held or left < 2.0 * RADIUS) and abs(bearing) > 0.5 * pi
         bearing = turn_to(bearing + pi) if back else bearing
         if abs(bearing) > 0.9:
@@ -169,7 +173,18 @@ def _on_the_spot(angle: float, push: float) -> float:
     return rate if angle > 0.0 else -rate
 
 
-def _out(world: Any, x: float, y: float) -> Point:
-    """Straight away from the walls that hold a robot there; (0, 0) where none does."""
-    held = [limit for limit in limits(world, x, y) if limit.speed < HELD]
-    return -sum(limit.nx for limit in held), -sum(limit.ny for limit in held)
+def _along(world: Any, at: Point, aim: Point) -> Point:
+    """The direction of `aim`, but along a wall that holds a robot there, and the more away from it the nearer it is.
+
+    Straight away from the wall would be a trap: at the end of a wall a robot would go out, on, out, and get nowhere.
+    """
+    held = [limit for limit in limits(world, *at) if limit.speed < HELD]
+    out_x, out_y = -sum(limit.nx for limit in held), -sum(limit.ny for limit in held)
+    length = sqrt(out_x * out_x + out_y * out_y)
+    inward = -(aim[0] * out_x + aim[1] * out_y)
+    if length < 1e-6 or inward <= 0.0:
+        return aim
+    out_x, out_y, inward = out_x / length, out_y / length, inward / length
+    near = 1.0 - min(limit.speed for limit in held) / HELD
+    off = near * sqrt(aim[0] * aim[0] + aim[1] * aim[1]) + (1.0 - near) * inward
+    return (1.0 - near) * aim[0] + off * out_x, (1.0 - near) * aim[1] + off * out_y

@@ -10,6 +10,7 @@ from pigaming_app.sim.robots import RADIUS
 from tests.floor import floor
 from tests.hardware.mat import STARTS, Mat
 
+YARD = ((540.0, 250.0, 700.0, 250.0), (900.0, 250.0, 1060.0, 250.0))  # two walls of the arena Courtyard
 GANG = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # two walls 110 px apart: half more than a robot
 
 
@@ -62,10 +63,16 @@ def test_a_robot_that_stands_in_a_wall_gets_out_first():
     assert at(mat, 0, goals[0])
 
 
+def test_a_robot_gets_round_the_end_of_a_wall_that_holds_it():
+    mat = Mat([(833.0, 204.6, 2.26), (1370.0, 840.0, 4.88), (142.4, 778.8, 2.88), (1304.4, 188.2, 0.93)])
+    assert gathered(mat, {0: (1414.0, 276.3, 0.27)}, YARD, seconds=20.0) is not None
+
+
 def test_a_robot_whose_place_is_taken_waits():
     mat = Mat([(400.0, 450.0, 0.0), (1000.0, 450.0, pi), *STARTS[2:]])
     assert gathered(mat, {0: (1000.0, 450.0, 0.0)}, seconds=12.0) is None
     assert mat.robots[1].x == 1000.0
+    assert hypot(mat.robots[0].x - 400.0, mat.robots[0].y - 450.0) < 1.0, "it does not drive about"
 
 
 def test_a_robot_in_its_place_stays_when_it_is_nudged_and_comes_back_when_it_is_carried_off():
