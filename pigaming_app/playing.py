@@ -18,6 +18,7 @@ from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS
 
+HELD_UP = 4.0  # s after which a picture is taken of what holds up real robots
 FASTEST = 64.0  # times real time that a window shows
 WATCHED = 150  # ticks before a picture in which shots, sparks and treads of it begin
 
@@ -145,9 +146,12 @@ def _on_screen(
     from pigaming_app.scenes.stack import Scene
 
     made: list[MatchScene] = []
+    began = perf_counter()
 
     def scene(house: House) -> Scene:
         """People take the pads that are there, then the key clusters."""
+        nonlocal began
+        began = perf_counter()
         free = [*house.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
         people = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         devices = dict(zip(people, free, strict=False))
@@ -157,8 +161,14 @@ def _on_screen(
             made.append(shown)
         return shown
 
+    def due() -> bool:
+        """The time of the picture has come, or will not come because real robots are missing."""
+        if made and not made[0].stuck:
+            return bool(made[0].match.over or made[0].match.seconds >= arguments.at)
+        return bool(perf_counter() - began > arguments.at + HELD_UP)
+
     def over() -> bool:
-        return arguments.headless and (not made or made[0].match.over)
+        return bool(arguments.headless and (not made or made[0].match.over))
 
     code = show(
         Options(
@@ -166,7 +176,7 @@ def _on_screen(
             kiosk=arguments.kiosk,
             display=None if arguments.display is None else arguments.display - 1,
             shot=arguments.screenshot,
-            shot_due=lambda: bool(made) and (made[0].match.over or made[0].match.seconds >= arguments.at),
+            shot_due=due,
             headless=arguments.headless,
             step=DT if arguments.headless else None,
             over=over,
@@ -178,7 +188,7 @@ def _on_screen(
         _tell(made[0].match, arguments.json, made[0].match.seconds)
     if made and arguments.record:
         _record(made[0].match, arguments.record, OSError)
-    return code
+    return code if made or not arguments.headless else 2  # no match: why not has been said
 
 
 def _camera(match: Match) -> Any:

@@ -176,6 +176,11 @@ class MatchScene:
         """What else the pause offers: by its name, a page."""
         return {}
 
+    @property
+    def stuck(self) -> bool:
+        """Whether it waits for something that may never come."""
+        return False
+
     def hold(self, seconds: float) -> None:
         """Let time pass under a page."""
 

@@ -70,10 +70,10 @@ class Gathering:
         self.prompts.draw(screen)
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
-        if faults:
-            detail = exact(self.plant.rig, faults[0].name)
-            sentence = tell(words, detail) if detail else named(faults[0], words, "")
-            shown(sentence, ALARM).draw(screen, 960, 206)
+        for i, fault in enumerate(faults[:2]):
+            detail = exact(self.plant.rig, fault.name)
+            sentence = tell(words, detail) if detail else named(fault, words, "")
+            shown(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
 
     def _outline(self, screen: pygame.Surface, place: Place) -> None:
         x, y, heading = place.pose

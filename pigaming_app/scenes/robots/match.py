@@ -127,6 +127,11 @@ class RealMatch(MatchScene):
         """Which robots are real can be changed in a pause."""
         return {"robots": lambda: SwapPage(self)}
 
+    @property
+    def stuck(self) -> bool:
+        """Whether something is wrong with a robot."""
+        return self.plant.safety.pauses
+
     def hold(self, seconds: float) -> None:
         """Let time pass under a page: all robots stand, and faults come and go."""
         self._rest(self.mat.advance(seconds))

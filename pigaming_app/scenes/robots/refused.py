@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import ALARM, ICE
+from pigaming_app.scenes.ink import ALARM, ICE, MIST
 from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.overlay import HEAD, PROMPTS, W, overlay
 from pigaming_app.scenes.pane import Pane, backdrop
@@ -18,6 +18,7 @@ from pigaming_app.scenes.robots.signs import sign
 from pigaming_app.scenes.robots.trouble import ICON, write
 from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
 
+UNCALIBRATED = ("none", "damaged", "version", "other_display")  # sentences after which one must calibrate
 IDLE = 90.0  # seconds without a press until the title
 
 
@@ -76,4 +77,5 @@ class Refused:
         title(pane, None, words("mat.refused"), ICE)
         sign(pane.hot, "robot", *ICON, 76, ALARM)
         y = write(pane, tell(words, self.sentence), HEAD + 56, ICE)
-        write(pane, words("mat.anyway"), y + 16, ICE)
+        lost = getattr(self.sentence, "key", "") in UNCALIBRATED
+        write(pane, words("mat.calibrate" if lost else "mat.anyway"), y + 16, MIST)
