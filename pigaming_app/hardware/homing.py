@@ -149,7 +149,7 @@ class Homing:
         along = _along(self.world, (x, y), (dx, dy))
         held = along != (dx, dy)
         bearing = turn_to(atan2(along[1], along[0]) - heading)
-        back = (held or left < 2.0 * RADIUS) and abs(bearing) > 0.5 * pi
+        back = left < 2.0 * RADIUS and abs(bearing) > 0.5 * pi
         bearing = turn_to(bearing + pi) if back else bearing
         if abs(bearing) > 0.9:
             return 0.0, _on_the_spot(bearing, push)

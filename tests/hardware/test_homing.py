@@ -4,13 +4,14 @@ from math import hypot, pi
 
 import pytest
 
+from pigaming_app.games.arenas import load
 from pigaming_app.hardware.plant import RealPlant
 from pigaming_app.hardware.ways import apart, floor_with, way_to
 from pigaming_app.sim.robots import RADIUS
 from tests.floor import floor
 from tests.hardware.mat import STARTS, Mat
 
-YARD = ((540.0, 250.0, 700.0, 250.0), (900.0, 250.0, 1060.0, 250.0))  # two walls of the arena Courtyard
+YARD = [(wall.ax, wall.ay, wall.bx, wall.by) for wall in load("pitanks", "courtyard").walls]
 GANG = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # two walls 110 px apart: half more than a robot
 
 
@@ -66,6 +67,11 @@ def test_a_robot_that_stands_in_a_wall_gets_out_first():
 def test_a_robot_gets_round_the_end_of_a_wall_that_holds_it():
     mat = Mat([(833.0, 204.6, 2.26), (1370.0, 840.0, 4.88), (142.4, 778.8, 2.88), (1304.4, 188.2, 0.93)])
     assert gathered(mat, {0: (1414.0, 276.3, 0.27)}, YARD, seconds=20.0) is not None
+
+
+def test_a_robot_beside_a_wall_sets_out_across_its_heading():
+    mat = Mat([(700.1, 192.0, 1.28), (1191.3, 565.6, 1.87), (1546.4, 220.5, 3.58), (281.7, 744.1, 5.46)])
+    assert gathered(mat, {0: (448.6, 653.8, 5.17)}, YARD, seconds=20.0) is not None
 
 
 def test_a_robot_whose_place_is_taken_waits():
