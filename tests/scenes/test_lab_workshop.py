@@ -129,3 +129,20 @@ def test_where_compiling_fails_plain_training_goes_on(
     before = shop.training.experiences
     feed(shop, lambda: shop.training.experiences > before)
     assert not shop.fast
+
+
+@needs_numba
+def test_where_compiled_training_breaks_plain_training_goes_on_with_the_same_table(
+    shop: Workshop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(self: Workshop) -> None:
+        raise MemoryError("no more")
+
+    shop._hand_over(fast=True)
+    table = shop.training.experiences
+    monkeypatch.setattr(Workshop, "_run", broken)
+    shop.may_compile = True
+    feed(shop, lambda: not shop.may_compile)
+    assert shop.join(10.0)
+    assert not shop.fast
+    feed(shop, lambda: shop.training.experiences > table)

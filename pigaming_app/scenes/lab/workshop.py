@@ -155,6 +155,7 @@ class Workshop:
         except Exception:
             log.exception("the Lab goes on without compiled training")
             self.may_compile = False
+            self._hand_over(fast=False)
         finally:
             sys.setswitchinterval(before)
 
@@ -171,13 +172,18 @@ class Workshop:
             if code:
                 raise RuntimeError(f"compiling ended with exit code {code}")
             compile_all()
-            with self._lock:
-                old = self.training
-                self.training = Training(self.recipe, old.seed, old.arena, True, old.table, old.minutes)
-                self.progress.go_on(self.training)
+            self._hand_over(fast=True)
             return True
         finally:
             self.compiling = False
+
+    def _hand_over(self, fast: bool) -> None:
+        """Go on with the same table in the other body."""
+        with self._lock:
+            old = self.training
+            if old.fast != fast:
+                self.training = Training(self.recipe, old.seed, old.arena, fast, old.table, old.minutes)
+                self.progress.go_on(self.training)
 
     def _run(self) -> None:
         last = perf_counter()
