@@ -56,7 +56,7 @@ def parser() -> argparse.ArgumentParser:
     fidelity = jobs.add_parser("fidelity", help="measure real robots, and let the simulator know")
     fidelity.add_argument("what", choices=["record", "identify", "replay"])
     fidelity.add_argument("file", type=Path, help="of the run (JSONL)")
-    fidelity.add_argument("--seconds", type=float, default=60.0, help="to record")
+    fidelity.add_argument("--seconds", type=number, default=60, help="to record")
     fidelity.add_argument("--out", type=Path, help="the file of the robots; left out: the arcade's own")
     fidelity.add_argument("--plots", type=Path, metavar="FOLDER", help="draw how good it is (needs matplotlib)")
     fidelity.add_argument("--robots", type=Path, metavar="FILE", help="the robots to replay with")

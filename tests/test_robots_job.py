@@ -116,6 +116,8 @@ def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_pa
         ["fidelity", "replay", "nowhere.jsonl"],
         ["fidelity", "dance", "run.jsonl"],
         ["fidelity", "record", "run.jsonl"],
+        ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "-3"],
+        ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "nan"],
     ],
 )
 def test_what_cannot_be_done_is_one_line(arguments, capsys):
