@@ -12,11 +12,19 @@ class NotCalibrated(Exception):
     """What was asked for cannot be done; the text is one sentence."""
 
 
+def seed(text: str) -> int:
+    """The seed of an emulated arena: a whole number from 0 on."""
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} is less than 0")
+    return value
+
+
 def options(job: argparse.ArgumentParser) -> None:
     """What may be asked for."""
     job.add_argument("--camera", type=int, help="its number, other than in the settings")
     job.add_argument("--display", type=int, help="which display, from 1 on")
-    job.add_argument("--emulate", type=int, nargs="?", const=1, metavar="SEED", help="an emulated arena, no hardware")
+    job.add_argument("--emulate", type=seed, nargs="?", const=1, metavar="SEED", help="an emulated arena, no hardware")
     job.add_argument("--headless", action="store_true", help="with --emulate: nobody looks on, the errors are printed")
     job.add_argument("--robot", action="store_true", help="with --headless: a robot tells the camera's height")
     job.add_argument("--json", action="store_true", help="as --headless, and print one JSON object")

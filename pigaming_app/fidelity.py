@@ -43,8 +43,9 @@ def record(arguments: Namespace) -> dict[str, Any]:
     except (ValueError, ImportError, NoVision) as trouble:
         raise NotDone(str(trouble)) from None
     try:
+        present = _present(shop)
         shop.rig.recorder = recorder = Recorder(arguments.file, shop.mm, arguments.emulate is not None)
-        present = _danced(shop, arguments.seconds)
+        _dance(shop, present, arguments.seconds)
         shop.rig.recorder = None
         recorder.close()
     except OSError as trouble:
@@ -56,19 +57,24 @@ def record(arguments: Namespace) -> dict[str, Any]:
     return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": said}
 
 
-def _danced(shop: Any, seconds: float) -> list[int]:
-    """The robots that took part."""
-    from pigaming_app.hardware.dance import Dance
-    from pigaming_app.hardware.plant import RealPlant
-    from pigaming_app.sim.world import DT, World
-
-    world: Any = World()
+def _present(shop: Any) -> list[int]:
+    """The robots that are seen and heard. Raises NotDone, before any run kept earlier is written over."""
     for _ in range(HZ):
         shop.tick()
         shop.rig.pump()
     present = [i for i, seen in enumerate(shop.rig.sense()) if seen.age < 1.0 and shop.rig.telemetry(i)]
     if not present:
         raise NotDone("No robot is both seen and heard: look at them with the job robots.")
+    return present
+
+
+def _dance(shop: Any, present: list[int], seconds: float) -> None:
+    """Let them drive for a while. Raises NotDone."""
+    from pigaming_app.hardware.dance import Dance
+    from pigaming_app.hardware.plant import RealPlant
+    from pigaming_app.sim.world import DT, World
+
+    world: Any = World()
     for i in present:
         world.robots[i].present = 1
     plant, dance, begun, stuck = RealPlant(world, shop.rig, present), Dance(), shop.rig.clock(), 0
@@ -78,7 +84,6 @@ def _danced(shop: Any, seconds: float) -> list[int]:
         stuck = stuck + 1 if plant.safety.pauses else 0
         if stuck > LOST * HZ:
             raise NotDone(f"The robots cannot drive. {plant.faults[0]}")
-    return present
 
 
 def identify(arguments: Namespace) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from pigaming_app.calibrate import options as calibrate_options
+from pigaming_app.calibrate import seed
 
 JOBS = "play, replay, duel, league, train, bench, calibrate, robots, fidelity, doctor, test"
 
@@ -68,7 +69,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _arena_options(job: argparse.ArgumentParser) -> None:
-    job.add_argument("--emulate", type=int, nargs="?", const=1, metavar="SEED", help="an emulated arena, no hardware")
+    job.add_argument("--emulate", type=seed, nargs="?", const=1, metavar="SEED", help="an emulated arena, no hardware")
     job.add_argument("--camera", type=int, help="its number, other than in the settings")
     job.add_argument("--port", help="of the radio, other than in the settings")
     job.add_argument("--json", action="store_true", help="print one JSON object")
@@ -114,7 +115,7 @@ def _play_options(play: argparse.ArgumentParser) -> None:
 
 def _mat_options(job: argparse.ArgumentParser) -> None:
     told = "real robots in an emulated arena; a second window shows what its camera sees"
-    job.add_argument("--emulate", type=int, nargs="?", const=1, metavar="SEED", help=told)
+    job.add_argument("--emulate", type=seed, nargs="?", const=1, metavar="SEED", help=told)
     job.add_argument("--camera", type=int, metavar="NUMBER", help="over the mat; this and what follows is kept")
     job.add_argument("--port", help="of the radio; empty: the first there is")
     job.add_argument("--baud", type=int, help="of the radio")

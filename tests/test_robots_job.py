@@ -94,6 +94,20 @@ def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypat
     assert all(one["5"] < 40.0 for one in again["robots"].values())
 
 
+def test_a_run_kept_earlier_stays_where_nobody_can_dance(tmp_path, capsys, monkeypatch):
+    class Nobody(Shop):
+        def __init__(self, *_):
+            super().__init__()
+            monkeypatch.setattr(self.rig, "telemetry", lambda robot: None)
+
+    monkeypatch.setattr(fidelity, "open_workshop", Nobody)
+    run = tmp_path / "run.jsonl"
+    run.write_text("kept")
+    assert main(["fidelity", "record", str(run)]) == 2
+    assert "seen and heard" in capsys.readouterr().err
+    assert run.read_text() == "kept"
+
+
 def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_path, capsys):
     run = tmp_path / "run.jsonl"
     head = {"kind": "head", "format": "pigaming-run-1", "mm": 1.3, "emulated": True}
@@ -116,6 +130,8 @@ def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_pa
         ["fidelity", "replay", "nowhere.jsonl"],
         ["fidelity", "dance", "run.jsonl"],
         ["fidelity", "record", "run.jsonl"],
+        ["robots", "--emulate", "-1"],
+        ["calibrate", "--emulate", "-1", "--json"],
         ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "-3"],
         ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "nan"],
     ],
