@@ -9,6 +9,8 @@ from typing import Any
 
 from pigaming_app.usage import Wrong, parser
 
+OF_ROBOTS = ("robots", "calibrate", "fidelity")
+
 
 def main(argv: list[str]) -> int:
     """Do what the arguments say; the exit code."""
@@ -27,6 +29,11 @@ def main(argv: list[str]) -> int:
         return int(JOB[arguments.job or "arcade"](arguments))
     except (Wrong, ChoiceError, ArenaError, ReplayError, TableError) as wrong:
         print(f"PiGaming: {wrong}", file=sys.stderr)
+        if argv and argv[0] in OF_ROBOTS:
+            from pigaming_app.logbook import note
+            from pigaming_app.settings import folders
+
+            note(folders().data, str(wrong))
         return 2
     except BrokenPipeError:
         return 1
@@ -38,7 +45,7 @@ def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:
     """The settings of camera and radio that were given. Raises Wrong for a value that does not fit."""
     from pigaming_app.settings import Settings
 
-    given = {name: getattr(arguments, name) for name in ("camera", "port", "baud", "radio")}
+    given = {name: getattr(arguments, name, None) for name in ("camera", "port", "baud", "radio")}
     given = {name: value for name, value in given.items() if value is not None}
     for name, value in given.items():
         try:
@@ -179,6 +186,7 @@ def calibrate(arguments: argparse.Namespace) -> int:
     """Bring picture, mat and camera together."""
     from pigaming_app.calibrate import NotCalibrated, run
 
+    mat_settings(arguments)
     try:
         return run(arguments, _open)
     except NotCalibrated as trouble:
@@ -189,6 +197,7 @@ def robots(arguments: argparse.Namespace) -> int:
     """What is there of real robots."""
     from pigaming_app.robots import NotThere, run
 
+    mat_settings(arguments)
     try:
         return run(arguments)
     except NotThere as missing:
@@ -199,6 +208,7 @@ def fidelity(arguments: argparse.Namespace) -> int:
     """Record real robots, identify them, replay a run."""
     from pigaming_app.fidelity import NotDone, run
 
+    mat_settings(arguments)
     try:
         return run(arguments)
     except NotDone as trouble:

@@ -133,6 +133,8 @@ def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_pa
         ["robots", "--emulate", "-1"],
         ["calibrate", "--emulate", "-1", "--json"],
         ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "-3"],
+        ["robots", "--camera", "-5"],
+        ["calibrate", "--camera", "99", "--json"],
         ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "nan"],
     ],
 )

@@ -17,6 +17,7 @@ from typing import IO, Any
 import pygame
 
 from pigaming_app.keeping import NotSaved
+from pigaming_app.logbook import log_file
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
@@ -265,12 +266,7 @@ def _keep(settings: Settings, folder: Path) -> None:
 def _keep_log(data: Path) -> "IO[Any] | None":
     """Write a log into the data folder, and where the interpreter itself crashes, where it was; none if that fails."""
     try:
-        data.mkdir(parents=True, exist_ok=True)
-        from logging.handlers import RotatingFileHandler
-
-        handler = RotatingFileHandler(data / "pigaming.log", maxBytes=500_000, backupCount=1, encoding="utf-8")
-        handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
-        log.handlers[:] = [handler]
+        log.handlers[:] = [log_file(data)]
         log.propagate = False
         crash_file = (data / "crash.log").open("a", encoding="utf-8")
     except OSError:

@@ -65,6 +65,7 @@ def until(arcade: Operated, true: Any) -> None:
     end = time.monotonic() + LONG
     while not true():
         arcade.picture()
+        time.sleep(0.005)  # as the arcade does between two pictures; else the camera's thread may starve
         assert time.monotonic() < end, "it did not happen"
 
 
