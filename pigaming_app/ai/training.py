@@ -244,7 +244,3 @@ def contest(
             batch.play(round(minutes * 60 * HZ))
             leads += [sign * (scores[0] - scores[1]) for scores in batch.scores()]
     return sum(lead > 0 for lead in leads), sum(lead == 0 for lead in leads), sum(lead < 0 for lead in leads)
-
-
-if __name__ == "__main__":  # only compiles, so that a training that begins later need not wait
-    Training(Recipe(), 1, fast=True).warm()
