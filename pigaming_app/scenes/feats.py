@@ -1,7 +1,7 @@
 """Which table of scores a feat belongs to, which matches count, and how values are written.
 
-A table compares feats of one arena under the same rules, over the same minutes, laps or pallets, with the same number of
-people. A match counts for a seat only if every opponent is a person or an AI that is no weaker than `normal`.
+A table compares feats of one arena under the same rules, over the same minutes, laps or pallets, and with the same
+number of people. A match counts for a seat only if every opponent is a person or an AI that is no weaker than `normal`.
 """
 
 from dataclasses import dataclass, replace

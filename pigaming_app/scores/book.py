@@ -118,7 +118,7 @@ class Scores:
         return said
 
     def _write(self, folder: Path) -> None:
-        """Write the file if there is something to write, the backups of what was carried over first. Raises NotSaved."""
+        """Write the file if it changes; the backups of what was carried over come first. Raises NotSaved."""
         carried = self._content.migrated[len(self._seen.migrated) :]
         if not (self._cleared or self._added or carried):
             return
