@@ -11,7 +11,8 @@ from pathlib import Path
 
 from pigaming_app.keeping import NotSaved, keep, recall
 from pigaming_app.locking import locked
-from pigaming_app.scores.older import back_up, carry_over
+from pigaming_app.parsing import read_text
+from pigaming_app.scores.older import back_up, carry_over, pending
 from pigaming_app.scores.table import LENGTH, Score, Table, are_initials, day, local, worth_keeping
 from pigaming_app.scores.text import Content, Faults, Migrated, parse, text_of
 
@@ -53,11 +54,6 @@ class Scores:
     def unsaved(self) -> bool:
         """Whether `save` has something to write."""
         return self._cleared or bool(self._added)
-
-    @property
-    def migrated(self) -> list[Migrated]:
-        """The files of version 1.3.0 that were carried over."""
-        return self._content.migrated
 
     def save(self, folder: Path) -> None:
         """Merge the own changes into the file. Raises NotSaved; then the file is intact and the changes are kept."""
@@ -135,6 +131,15 @@ class Scores:
         for table, row in rows:
             tables = self._content.tables
             tables[table] = worth_keeping(table, [*tables.get(table, []), row], today)
+
+
+def migrations(folder: Path) -> tuple[list[Migrated], bool]:
+    """The files of version 1.3.0 carried over so far, and whether one waits for the next start. It changes nothing."""
+    try:
+        content, _ = parse(read_text(folder / FILE, LARGEST))
+    except (OSError, ValueError):
+        content = Content()
+    return content.migrated, pending(folder, content)
 
 
 def _merged(before: Content, now: Content) -> list[str]:

@@ -69,7 +69,7 @@ def local(when: datetime | None) -> datetime:
 
 def day(row: Score) -> date:
     """The local day of a row."""
-    return row.when.astimezone().date()
+    return row.when.date()
 
 
 def worth_keeping(table: Table, rows: Iterable[Score], today: date) -> list[Score]:

@@ -21,7 +21,12 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
-    arcade.house.scores.add(Table("pitanks", "classic", "points", rules="plain", length=2, people=1), "ABC", 7)
+    for table in (
+        Table("pitanks", "classic", "points", False, "plain", 2, 1),
+        Table("factory", "hall", "time", True, "standard", 4, 2),
+        Table("race", "classic", "lap", True, "standard", 3, 1),
+    ):
+        arcade.house.scores.add(table, "ABC", 7)
     attract = Attract(arcade.house)
     arcade.open(attract)
     assert isinstance(attract.show, Demonstration)
