@@ -18,9 +18,9 @@ MAY = {
     "scores": {"keeping", "parsing"},
     "keeping": {"parsing"},
     "parsing": set(),
-    "logbook": set(),
+    "logbook": {"parsing"},
     "start": {"install", "cli"},
-    "install": {"start"},
+    "install": {"start", "keeping"},
     "doctor": {"settings", "start", "games", "sim", "ai"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
