@@ -75,7 +75,7 @@ def _sweep() -> None:
 
 
 def _named(trouble: OSError) -> str:
-    return f"{trouble.filename or 'the output'}: {reason(trouble)}"
+    return f"{trouble.filename or 'the output cannot be written'}: {reason(trouble)}"
 
 
 def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:

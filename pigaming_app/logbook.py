@@ -7,29 +7,21 @@ import sys
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
-from pigaming_app.parsing import reason
-
 FILE = "pigaming.log"
 LONGEST = 65_536  # bytes at the end of the log in which a torn line is looked for
 
 
 class LogFile(RotatingFileHandler):
-    """Appends whole lines to a file. A full disk costs lines and one sentence on standard error, nothing else."""
+    """Appends whole lines to a file. A full disk costs lines, nothing else."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(path, maxBytes=500_000, backupCount=1, encoding="utf-8", errors="backslashreplace")
-        self._reported = False
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802
-        error = sys.exc_info()[1]
-        if not isinstance(error, OSError):
+        if isinstance(sys.exc_info()[1], OSError):
+            self._abandon()
+        else:
             super().handleError(record)
-            return
-        self._abandon()
-        if not self._reported:
-            self._reported = True
-            with contextlib.suppress(OSError):
-                print(f"PiGaming: {self.baseFilename} cannot be written: {reason(error)}.", file=sys.stderr)
 
     def close(self) -> None:
         with contextlib.suppress(OSError):

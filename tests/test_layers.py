@@ -18,7 +18,7 @@ MAY = {
     "scores": {"keeping", "parsing"},
     "keeping": {"parsing"},
     "parsing": set(),
-    "logbook": {"parsing"},
+    "logbook": set(),
     "start": {"install", "cli"},
     "install": {"start", "keeping"},
     "doctor": {"settings", "start", "games", "sim", "ai"},

@@ -273,6 +273,7 @@ def _keep(settings: Settings, folder: Path) -> None:
         settings.save(folder)
     except NotSaved as trouble:
         log.warning("%s", trouble)
+        print(f"PiGaming: {trouble}", file=sys.stderr)
 
 
 def _keep_log(data: Path) -> "IO[Any] | None":
