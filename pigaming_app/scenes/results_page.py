@@ -231,7 +231,7 @@ class ResultsPage:
             icon(pane.hot, "ai", x + 225, y, 15, MIST, 3)
         rights = RIGHTS[len(self.columns)]
         for name, before, right in zip(self.columns, (ROW_FROM, *rights), rights, strict=False):
-            text, room = cell(name, row), right - before - 24
+            text, room = self.house.words.decimal(cell(name, row)), right - before - 24
             if name == self.columns[0]:
                 size = fitted(text, SUB, room - (48 if brain != "human" else 0), "hero")
                 pane.page.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
@@ -254,7 +254,9 @@ class ResultsPage:
             pane.page.body(heading, left + 64, y - 32, MIST, "l", fitted(heading, BODY, 330, "body"))
             if rows:
                 pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
-                pane.page.text(told(rows[0].score, board.feat), LABEL, left + 370, y + 32, ICE, "hero", "r")
+                pane.page.text(
+                    words.decimal(told(rows[0].score, board.feat)), LABEL, left + 370, y + 32, ICE, "hero", "r"
+                )
         return pane.done()
 
     def _plot(self, x: int, w: int) -> Plot:

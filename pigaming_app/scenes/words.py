@@ -45,7 +45,8 @@ class Words:
 
     def _written(self, value: object) -> object:
         """What is put into a text: a number as this language writes it, anything else as it is."""
-        return self.decimal(value) if isinstance(value, str) and DECIMAL.fullmatch(value) else value
+        number = isinstance(value, float) or (isinstance(value, str) and DECIMAL.fullmatch(value))
+        return self.decimal(str(value)) if number else value
 
 
 def texts(language: str) -> dict[str, str]:
