@@ -93,5 +93,5 @@ class Best:
         pane.page.text(row.initials, SUB, x + 150, y, color, "hero")
         if row in self.fresh:
             icon(pane.hot, "left", x + 420, y, 20, FOCUS, LINE)
-        pane.page.text(told(row.score, feat), SUB, x + w - 48, y, color, "hero", "r")
+        pane.page.text(self.house.words.decimal(told(row.score, feat)), SUB, x + w - 48, y, color, "hero", "r")
         return pane.done()

@@ -214,8 +214,8 @@ def grid() -> pygame.Surface:
 @lru_cache(maxsize=4)
 def handle(corner: int) -> Lit:
     """The corner that is moved: a bright angle, and an arrow out to it."""
-    across, down = (1, 1, -1, -1)[corner], (1, -1)[corner > 1]
     x, y = CORNERS[corner]
+    across, down = (-1 if x else 1), (-1 if y else 1)  # from the corner into the picture
     pane = Pane(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)
     ink: Ink = pane.hot
     for width, reach in ((THIN, 20), (14, 8)):
