@@ -10,7 +10,7 @@ import pygame
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
-from pigaming_app.scenes.feats import boards, clock, told
+from pigaming_app.scenes.feats import boards, clock, contest, told
 from pigaming_app.scenes.finale import Finale
 from pigaming_app.scenes.headline import headline, winning_color
 from pigaming_app.scenes.house import House
@@ -253,8 +253,7 @@ class ResultsPage:
     def _records(self) -> Lit | None:
         """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
         scores, setup, words = self.house.scores, self.setup, self.house.words
-        there = boards(setup.game, setup.arena, setup.goal)
-        tables = [(board, scores.best(setup.game, board.table, board.days)) for board in there]
+        tables = [(board, scores.best(board.table, board.days)) for board in boards(contest(setup))]
         if not any(rows for _, rows in tables):
             return None
         x, w = span(0, 6)
@@ -266,9 +265,8 @@ class ResultsPage:
             pane.page.body(heading, left + 64, y - 32, MIST, "l", fitted(heading, BODY, 330, "body"))
             if rows:
                 pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
-                pane.page.text(
-                    words.decimal(told(rows[0].score, board.feat)), LABEL, left + 370, y + 32, ICE, "hero", "r"
-                )
+                best = words.decimal(told(rows[0].score, board.table))
+                pane.page.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
         return pane.done()
 
     def _plot(self, x: int, w: int) -> Plot:

@@ -4,13 +4,14 @@ The clock counts up; once somebody has finished it counts down what the others h
 """
 
 from collections.abc import Iterator, Sequence
-from functools import cache, partial
+from functools import partial
 
 import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, Ink
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import glyph, number_width
 from pigaming_app.scenes.views import race_cards
 from pigaming_app.scenes.views.ground import HUD_HEIGHT, Ground
@@ -134,7 +135,7 @@ def signed(ticks: float) -> str:
     return f"{'−' if hundredths < 0 else '+'}{abs(hundredths) / 100:.2f}"
 
 
-@cache
+@cached
 def small_flag() -> pygame.Surface:
     """The flag beside the clock once somebody has finished."""
     ink = Ink(120, 120)
