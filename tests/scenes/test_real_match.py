@@ -231,6 +231,38 @@ def test_a_battery_that_runs_low_is_only_said(
     assert "The battery of robot 2 will soon be empty." in caplog.text
 
 
+def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
+    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture
+) -> None:
+    begun(arcade)
+    body = mat.arena.robots[1]
+    before, body.battery = body.battery, 3.95
+    until(arcade, Trouble, 3.0)
+    body.battery = 4.2  # cells recover at rest; the robot still refuses its motors
+    play(arcade, 3.0)
+    assert [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults] == [("empty", 1)]
+    body.battery = 4.45
+    until(arcade, RealMatch, 2.0)
+    body.battery = before
+    assert caplog.text.count("the motors stay off below 4.4 V") == 1
+
+
+def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
+    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It still reports, but hears nothing: as with a receiver whose antenna is loose."""
+    match = begun(arcade)
+    monkeypatch.setattr(mat.arena.firmwares[1], "_obey", lambda packet, now: None)
+    play(arcade, 0.6)
+    assert match.notice is not None
+    until(arcade, Trouble, 2.0)
+    play(arcade, 1.0)
+    assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
+    assert caplog.text.count("Robot 2 has stopped by itself") == 1
+    monkeypatch.undo()
+    until(arcade, RealMatch, 2.0)
+
+
 def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
     match.restart()

@@ -29,7 +29,7 @@ from pigaming_app.scenes.stack import Home, Pop, Push, Scene, Turn
 from pigaming_app.scenes.words import Words
 
 IDLE = 180.0  # seconds without a press while robots take their places, until the title
-TOLD = ("low", "drifts")  # what is only said
+TOLD = ("low", "drifts", "deadman")  # what is only said
 
 log = logging.getLogger("pigaming")
 
