@@ -12,7 +12,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.workshop import kept_robots, open_workshop
+from pigaming_app.workshop import kept_robots, open_workshop, wiring
 
 HZ = 50
 LOST = 5.0  # s of robots that cannot drive after which a recording is given up
@@ -37,7 +37,10 @@ def record(arguments: Namespace) -> dict[str, Any]:
     """Let the robots dance for a while on an empty mat, and write the run."""
     from pigaming_app.hardware.markers import NoVision
     from pigaming_app.hardware.runs import Recorder
+    from pigaming_app.hardware.stock import NO_DEADMAN
 
+    if arguments.emulate is None and wiring().radio == "stock":
+        raise NotDone(NO_DEADMAN)
     try:
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
     except (ValueError, ImportError, NoVision) as trouble:

@@ -306,6 +306,27 @@ def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedMat)
     assert mat.trouble is None
 
 
+@pytest.mark.parametrize("again", [False, True])
+def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedMat, again: bool) -> None:
+    """Nor is one begun again, where the radio was changed meanwhile."""
+    if again:
+        match = begun(arcade)
+        arcade.house.settings.radio = "stock"
+        match.restart()
+        play(arcade, 0.1)
+    else:
+        arcade.house.settings.radio = "stock"
+        arcade.open(match_of(arcade.house, match_for("race", "normal easy off off", 0.1), [], (0,)))
+    page = arcade.shown(Refused)
+    assert "no deadman" in page.sentence
+    arcade.frame(draw=True)
+    arcade.press(Act.EXTRA)
+    assert "no deadman" in arcade.shown(Refused).sentence
+    assert mat._rig is None
+    mat.arena.advance(0.3)
+    assert mat.arena.clock() - max(mat.arena.ran) > 0.2
+
+
 def test_what_cannot_be_used_is_said_and_simulated_robots_play(
     arcade: Arcade, mat: EmulatedMat, monkeypatch: pytest.MonkeyPatch
 ) -> None:
