@@ -25,7 +25,7 @@ STALE = 86_400.0  # s after which a temporary file is left over, on disks that k
 _TEMPORARY = re.compile(r"\.(pigaming|.+\.(toml|bak|json|npz))-\w{8}(\.tmp)?")  # up to 1.3.0 named after the file
 
 
-class NotSaved(Exception):
+class NotSaved(OSError):
     """A file was not written; the one before it is intact. The text is one sentence for the operator."""
 
 
@@ -81,14 +81,15 @@ class Draft:
 
 
 def write(path: Path, raw: bytes) -> None:
-    """Write a file, whole or not at all; its folder must exist. Raises NotSaved."""
+    """Write a file, whole or not at all; missing folders are made. Raises NotSaved."""
     with _blamed(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
         _replace(path, raw)
 
 
 def check_target(path: Path) -> None:
     """Raises NotSaved if a file at `path` cannot be written; deletes what killed processes left beside it."""
-    with _blamed(path):
+    with _blamed(path, "cannot be written"):
         Draft(path).discard()
         sweep(path.absolute().parent)
 
@@ -130,12 +131,14 @@ def sweep(*folders: Path) -> None:
 
 
 @contextlib.contextmanager
-def _blamed(path: Path) -> Iterator[None]:
+def _blamed(path: Path, what: str = "was not saved") -> Iterator[None]:
     """Turn what goes wrong with a file meanwhile into NotSaved with its name."""
     try:
         yield
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
-        raise NotSaved(one_line(f"{path} was not saved: {reason(error)}.")) from error
+        refused = NotSaved(one_line(f"{path} {what}: {reason(error)}."))
+        refused.errno = getattr(error, "errno", None)
+        raise refused from error
 
 
 def _replace(path: Path, raw: bytes) -> None:

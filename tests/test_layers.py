@@ -21,7 +21,7 @@ MAY = {
     "parsing": set(),
     "logbook": set(),
     "start": {"install", "cli"},
-    "install": {"start"},
+    "install": {"start", "keeping"},
     "doctor": {"settings", "scores", "parsing", "start", "games", "sim", "ai"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}

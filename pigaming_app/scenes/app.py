@@ -18,6 +18,7 @@ import pygame
 
 from pigaming_app.keeping import NotSaved
 from pigaming_app.logbook import log_file
+from pigaming_app.parsing import reason
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
@@ -106,6 +107,7 @@ class App:
         self._pin()
         self.frames, self.seconds = 0, 0.0
         self.failures, self.failed_at = 0, -QUIET
+        self.code = 0
         self.stack = self._begin()
 
     def loop(self) -> int:
@@ -129,7 +131,7 @@ class App:
             if self.options.step is None:
                 clock.tick(FRAMES)
                 self.gauge.fps = clock.get_fps()
-        return 0
+        return self.code
 
     def _begin(self) -> Stack:
         if self.options.first and self.options.alone:
@@ -166,7 +168,7 @@ class App:
         self._say(screen, seconds)
         self.gauge.note(seconds, played - began, perf_counter() - played)
         if self.options.shot and self.options.shot_due():
-            self.house.canvas.screenshot(self.options.shot)
+            self.code = self._shoot(self.options.shot)
             self.stack.clear()
             return
         self.house.canvas.flip()
@@ -174,6 +176,16 @@ class App:
             self.window.update(seconds)
         if self.options.over():
             self.stack.clear()
+
+    def _shoot(self, path: Path) -> int:
+        """Save the picture that was asked for; the exit code."""
+        try:
+            self.house.canvas.screenshot(path)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            print(f"PiGaming: {trouble}", file=sys.stderr)
+            return 2
+        return 0
 
     def _closes(self, event: pygame.Event) -> bool:
         """Whether an event closes the arcade: with a second window, closing the first one no longer says QUIT."""
@@ -222,7 +234,7 @@ class App:
             try:
                 house.canvas.screenshot(path)
                 self.notices.say(f"{house.words('app.picture')}: {path.name}")
-            except OSError as trouble:
+            except NotSaved as trouble:
                 log.warning("%s", trouble)
                 self.notices.say(house.words("app.unsaved"))
 
@@ -263,6 +275,7 @@ def _keep(kept: Settings | Scores, folder: Path) -> None:
         kept.save(folder)
     except NotSaved as trouble:
         log.warning("%s", trouble)
+        print(f"PiGaming: {trouble}", file=sys.stderr)
 
 
 def _keep_log(data: Path) -> "IO[Any] | None":
@@ -271,7 +284,8 @@ def _keep_log(data: Path) -> "IO[Any] | None":
         log.handlers[:] = [log_file(data)]
         log.propagate = False
         crash_file = (data / "crash.log").open("a", encoding="utf-8")
-    except OSError:
+    except OSError as trouble:
+        print(f"PiGaming: {data} cannot be written: {reason(trouble)}. There is no log.", file=sys.stderr)
         return None
     faulthandler.enable(crash_file)
     return crash_file

@@ -151,7 +151,8 @@ class Best:
         screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
-        text(told(row.score, board.table), SUB, color, "hero", "r").draw(screen, x + w - 48, y)
+        value = self.house.words.decimal(told(row.score, board.table))
+        text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
         if row in self.fresh:
             sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
         screen.set_clip(before)

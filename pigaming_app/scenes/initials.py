@@ -187,7 +187,7 @@ class Initials:
         text = words("results.high_score")
         size = fitted(text, TITLE, RIGHT - LEFT - 330 - 300 * (len(self.claim.feats) - 1))
         pane.page.text(text, size, LEFT + 132, 112, PLAYERS[seat])
-        told_all = "   ".join(told(value, board.table) for board, value in self.claim.feats)
+        told_all = "   ".join(words.decimal(told(value, board.table)) for board, value in self.claim.feats)
         pane.page.text(told_all, TITLE, RIGHT, 112, ICE, "hero", "r")
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line(
             [(LEFT, 176), (LEFT + 218, 176)], PLAYERS[seat], LINE

@@ -42,7 +42,8 @@ class Results:
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human"]
         self.ballot = Ballot(house, seats, humans, devices)
-        self.page = ResultsPage(house, outcome, setup, finished)
+        absent = [seat for seat in humans if devices[seat] is None]
+        self.page = ResultsPage(house, outcome, setup, finished, absent)
         self.claims = claims(house, outcome, setup, devices) if finished else []
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = 0.0

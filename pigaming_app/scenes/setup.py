@@ -190,7 +190,7 @@ class SetupPage:
             best = self.house.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.house.words(f"setup.best_{feat.name}")
-                lines.append((name, told(best[0].score, feat), best[0].initials))
+                lines.append((name, self.house.words.decimal(told(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
