@@ -1,9 +1,15 @@
 """Scores files that somebody spoilt: the arcade starts, one sentence says so, and the good rows are there."""
 
 import os
+from dataclasses import asdict, replace
+from datetime import UTC, datetime, timedelta, timezone
 
 import pytest
+import tomli_w
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from pigaming_app.scenes.feats import contests
 from pigaming_app.scores import FILE, Scores, Table
 
 GOOD = '{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }'
@@ -157,3 +163,33 @@ def test_thousands_of_tables_and_rows_are_read_and_bounded(tmp_path):
     assert len(scores.tables()) == 2002
     assert [row.score for row in scores.best(OLDER)] == [*range(1999, 1989, -1)]
     assert (tmp_path / FILE).stat().st_size < 1_000_000
+
+
+STRANGE = st.one_of(
+    st.booleans(),
+    st.integers(-(10**400), 10**400),
+    st.floats(),
+    st.text(st.characters(exclude_categories=["Cs"]), max_size=8),
+    st.datetimes(),
+    st.datetimes(timezones=st.sampled_from([UTC, timezone(timedelta(hours=-23))])),
+    st.dates(),
+    st.lists(st.integers(), max_size=3),
+    st.dictionaries(st.sampled_from(["", "a.b", "rows", "when"]), st.integers(), max_size=2),
+)
+KEYS = st.sampled_from([*asdict(TABLE), "initials", "score", "ms", "when", "rows"])
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.dictionaries(KEYS, STRANGE, max_size=2), max_size=4), st.lists(STRANGE, max_size=2))
+def test_whatever_a_file_holds_it_is_read_and_written_again(tmp_path_factory, changes, strangers):
+    folder = tmp_path_factory.mktemp("strange")
+    row = {"initials": "ABC", "score": 4, "when": datetime(2026, 11, 21, tzinfo=UTC)}
+    table, rows = asdict(TABLE), [{**row, **one} for one in changes]
+    new = {"format": 2, "table": [{**table, "rows": rows}, *({**table, "rows": [row], **one} for one in changes)]}
+    old = {"pitanks": {"classic": [*rows, *strangers], "islands": [row]}}
+    (folder / FILE).write_text(tomli_w.dumps(new), encoding="utf-8")
+    (folder / "scores.toml").write_text(tomli_w.dumps(old), encoding="utf-8")
+    scores, said = loaded(folder)
+    assert len(said) <= 2
+    assert [one.score for one in scores.best(replace(OLDER, arena="islands"))] == [4]
+    assert all(contests(scores)), "the page can sort what there is"
