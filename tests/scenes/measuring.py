@@ -136,9 +136,9 @@ def marks_of(ink: Any) -> list[Mark]:
     return found
 
 
-def faults(screen: Screen) -> list[str]:
+def faults(screen: Screen, safe: pygame.Rect = SAFE) -> list[str]:
     """What touches what, crosses an outline or leaves the picture."""
-    found = [f"{mark.text!r} leaves the picture" for mark in screen.texts if not SAFE.contains(_rect(mark))]
+    found = [f"{mark.text!r} leaves the picture" for mark in screen.texts if not safe.contains(_rect(mark))]
     for one, other in combinations(screen.texts, 2):
         if _shared(one, other) and one.text != other.text:
             found.append(f"{one.text!r} touches {other.text!r}")
