@@ -97,13 +97,17 @@ def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
 
 
 @pytest.mark.parametrize(
-    ("usb", "plain", "label"),
-    [((0x045E, 0x028E), False, "Y"), (PLAYSTATION, False, "Triangle"), (NINTENDO, False, "Y"), ((1, 1), True, "4")],
+    ("kind", "usb", "label"),
+    [
+        ("Xbox", (0x045E, 0x028E), "Y"),
+        ("PlayStation", PLAYSTATION, "Triangle"),
+        ("Nintendo", NINTENDO, "Y"),
+        ("Joystick", (1, 1), "4"),
+    ],
 )
-def test_a_pause_names_the_pads_own_button_for_it(
-    arcade: Arcade, usb: tuple[int, int], plain: bool, label: str
-) -> None:
-    with VirtualPad("Joystick pad" if plain else "pad", usb, plain=plain) as pad:
+def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb: tuple[int, int], label: str) -> None:
+    plain = kind == "Joystick"
+    with VirtualPad(f"{kind} pad", usb, plain=plain) as pad:
         arcade.frame()
         match = MatchScene(arcade.house, setup("human easy off off", 1.0), [Device("pad", pad.number)])
         arcade.open(match)
