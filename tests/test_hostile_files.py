@@ -7,6 +7,7 @@ import tomllib
 import zipfile
 import zlib
 from dataclasses import asdict
+from functools import partial
 from io import BytesIO
 
 import numpy as np
@@ -33,7 +34,8 @@ from tests.hostile import HUGE, mutated, toml
 
 BYTES = (
     b"", b"\0" * 1000, b"\xff\xfe\x00", b"\xef\xbb\xbf", b"[" * 5000, b'{"a":' * 5000, b"a." * 5000 + b"a = 1",
-    b"a = " + b"9" * 5000, b'{"a": ' + b"9" * 5000 + b"}", b"1" * 400, b"null", b"\n" * 1000, b"PK\x03\x04" + b"\0" * 50,
+    b"a = " + b"9" * 5000, b'{"a": ' + b"9" * 5000 + b"}", b"1" * 400, b"null", b"\n" * 1000,
+    b"PK\x03\x04" + b"\0" * 50,
 )  # fmt: skip
 
 
@@ -42,10 +44,12 @@ def refused_or_used(read, errors):
     try:
         read()
     except errors as error:
-        assert str(error).isprintable()
-        assert 0 < len(str(error)) <= 2 * LINE
-        return False
-    return True
+        line = str(error)
+    else:
+        return True
+    assert line.isprintable()
+    assert 0 < len(line) <= 2 * LINE
+    return False
 
 
 def arena_files():
@@ -57,7 +61,7 @@ def test_arenas(game, tmp_path):
     name = arenas.arenas(game)[0]
     tree = tomllib.loads((ASSETS / "arenas" / game / f"{name}.toml").read_text(encoding="utf-8"))
     some = random.Random(1).sample(list(mutated(tree)), 300)
-    used = [refused_or_used(lambda text=toml(one): arenas.parse(game, text, "a.toml"), ArenaError) for one in some]
+    used = [refused_or_used(partial(arenas.parse, game, toml(one), "a.toml"), ArenaError) for one in some]
     assert any(used)
     assert used.count(False) > len(used) / 2
 
@@ -68,7 +72,7 @@ def robots_tree():
 
 def test_robots():
     for one in mutated(robots_tree()):
-        refused_or_used(lambda text=toml(one): parse(text, "robots.toml"), DrivetrainError)
+        refused_or_used(partial(parse, toml(one), "robots.toml"), DrivetrainError)
 
 
 @pytest.mark.filterwarnings("error")
@@ -85,11 +89,11 @@ def test_calibrations(tmp_path):
     assert used > 50
 
 
-def run_lines():
-    """A run of 25 s in which one robot drives about."""
+def run_lines(count):
+    """A run in which one robot is told and seen so many times."""
     lines = [{"kind": "head", "format": runs.FORMAT, "mm": 1.3, "emulated": True}]
     chance = random.Random(3)
-    for i in range(400):
+    for i in range(count):
         wheels = [chance.uniform(-0.3, 0.3), chance.uniform(-0.3, 0.3)]
         lines.append({"kind": "sent", "time": 0.0625 * i, "seq": i + 1, "wheels": [wheels, None, None, None]})
         fixes = [[0, 300.0 + i % 200, 200.0 + i % 50, 0.01 * i]]
@@ -99,15 +103,15 @@ def run_lines():
 
 
 def test_runs(tmp_path):
-    lines, path = run_lines(), tmp_path / "run.jsonl"
+    lines, path = run_lines(50), tmp_path / "run.jsonl"
     packed = [json.dumps(line) for line in lines]
     used = 0
     for number in (0, 1, 2, 3):
-        for one in mutated(lines[number]):
+        for one in random.Random(number).sample(list(mutated(lines[number])), 80):
             changed = [*packed[:number], json.dumps(one), *packed[number + 1 :]]
             path.write_text("\n".join(changed))
             used += refused_or_used(lambda: runs.load(path), RunError)
-    assert used > 100
+    assert used > 20
 
 
 @pytest.mark.parametrize(
@@ -125,14 +129,14 @@ def test_runs(tmp_path):
 )
 def test_a_run_with_a_line_that_no_robot_drives_is_refused(tmp_path, line):
     path = tmp_path / "run.jsonl"
-    path.write_text("\n".join(json.dumps(one) for one in (*run_lines(), line, run_lines()[1])))
+    path.write_text("\n".join(json.dumps(one) for one in (*run_lines(50), line, run_lines(1)[1])))
     with pytest.raises(RunError):
         runs.load(path)
 
 
 def test_what_is_accepted_as_a_run_is_measured_and_replayed(tmp_path):
     path, chance = tmp_path / "run.jsonl", random.Random(5)
-    lines = run_lines()
+    lines = run_lines(400)
     extremes = ([0, -1e5, 1e5, 1e5], [0, 1e5, -1e5, -1e5], [3, 0, 0, 0])
     for _ in range(3):
         for number in chance.sample(range(len(lines)), 30):
@@ -222,10 +226,10 @@ def test_tables(tmp_path):
         head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
     used = 0
     values = [None, True, -1, HUGE, 2**63, 1e308, float("nan"), "", "\n" * 300, [], {}]
-    for one in mutated(head, values):
+    for one in random.Random(2).sample(list(mutated(head, values)), 60):
         path.write_bytes(forged_table(json.loads(json.dumps(one)), q, n))
         used += refused_or_used(lambda: tables.load(path), TableError)
-    assert 10 < used < 150
+    assert 1 < used < 30
     for wrong in (q * np.nan, q[:5], q.astype("<f4"), q.reshape(2, -1), q.astype(object)):
         packed = BytesIO()
         np.savez_compressed(packed, head=np.array(json.dumps(head)), q=wrong, n=n)

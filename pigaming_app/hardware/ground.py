@@ -181,8 +181,8 @@ def _ground(table: Table) -> Ground:
     display = table.entries.get("display")
     if not isinstance(display, str):
         raise table.wrong("display", "a text is missing")
-    lid, height = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
-    if lid >= height:
+    lid, above = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
+    if lid >= above:
         raise table.wrong("lid", "as high as the camera")
     return Ground(
         display,
@@ -190,7 +190,7 @@ def _ground(table: Table) -> Ground:
         plane,
         table.number("width_mm", None, 100.0, 20000.0, " mm"),
         (foot[0], foot[1]),
-        height,
+        above,
         lid,
         table.number("marker", None, 5.0, 500.0, " mm"),
         table.number("mean_mm", None, 0.0),

@@ -27,6 +27,8 @@ LATEST = 1e10  # s of a clock
 LONGEST = 7200.0  # s of a run
 FARTHEST = 100_000.0  # px from the corner of the arena, or rad
 Floats = NDArray[np.float64]
+Told = tuple[float, list[list[float]]]  # s, the shares of both wheels of every robot
+Sight = tuple[float, float, float, float]  # s, px, px, rad
 
 
 class RunError(ValueError):
@@ -122,8 +124,8 @@ class _Lines:
 
     def __init__(self) -> None:
         self.mm, self.emulated = 0.0, False
-        self.told: list[tuple[float, list[list[float]]]] = []
-        self.seen: list[list[tuple[float, float, float, float]]] = [[] for _ in range(ROBOTS)]
+        self.told: list[Told] = []
+        self.seen: list[list[Sight]] = [[] for _ in range(ROBOTS)]
 
     def take_in(self, entry: Any) -> None:
         """Take in one line. Raises ValueError, KeyError, TypeError."""
@@ -166,9 +168,7 @@ def _number(value: Any, low: float, high: float) -> float:
     return float(value)
 
 
-def _course(
-    robot: int, told: list[tuple[float, list[list[float]]]], fixes: list[tuple[float, float, float, float]]
-) -> Course:
+def _course(robot: int, told: list[Told], fixes: list[Sight]) -> Course:
     seen = np.array(sorted(fixes))
     seen = seen[np.concatenate(([True], np.diff(seen[:, 0]) > 0.0))]
     poses = np.column_stack([seen[:, 1], seen[:, 2], np.unwrap(seen[:, 3])])
