@@ -1,5 +1,6 @@
 """The job `doctor`: what is there, what is missing, and what to do about it. It changes nothing and never hangs."""
 
+import contextlib
 import json
 import os
 import platform
@@ -12,6 +13,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from pigaming_app import ASSETS
+from pigaming_app.parsing import one_line
 from pigaming_app.settings import folders
 from pigaming_app.start import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
 
@@ -49,7 +51,8 @@ def run(as_json: bool) -> int:
         print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
         return int(not well)
     for line in lines:
-        print(f"{line.state:8} {line.what:24} {line.found}{'  ->  ' + line.advice if line.advice else ''}")
+        advice = f"  ->  {line.advice}" if line.advice else ""
+        print(one_line(f"{line.state:8} {line.what:24} {line.found}{advice}"))
     print("All is well." if well else "Something prevents playing: see the lines that begin with problem.")
     return int(not well)
 
@@ -91,7 +94,7 @@ def _packages() -> Iterator[Line]:
 def _folders() -> Iterator[Line]:
     where = folders()
     for what, folder in (("settings", where.config), ("scores", where.data), ("cache", where.cache)):
-        there = next(place for place in (folder, *folder.parents) if place.exists())
+        there = _nearest(folder)
         try:
             tempfile.TemporaryFile(dir=there).close()
         except OSError as error:
@@ -100,6 +103,15 @@ def _folders() -> Iterator[Line]:
         room = shutil.disk_usage(there).free
         full = f"only {room // 1_000_000} MB are free: make room, or nothing will be kept" if room < ROOM else ""
         yield Line(what, "note" if full else "ok", str(folder), full)
+
+
+def _nearest(folder: Path) -> Path:
+    """The folder, or the first one above it that is there."""
+    for place in (folder, *folder.parents):
+        with contextlib.suppress(OSError):  # a name that is too long
+            if place.exists():
+                return place
+    return Path()
 
 
 def _assets() -> Iterator[Line]:

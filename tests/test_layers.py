@@ -21,7 +21,7 @@ MAY = {
     "logbook": set(),
     "start": {"install", "cli"},
     "install": {"start", "keeping"},
-    "doctor": {"settings", "start", "games", "sim", "ai"},
+    "doctor": {"parsing", "settings", "start", "games", "sim", "ai"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))
