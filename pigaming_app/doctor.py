@@ -1,5 +1,6 @@
 """The job `doctor`: what is there, what is missing, and what to do about it. It changes nothing and never hangs."""
 
+import contextlib
 import json
 import os
 import platform
@@ -51,7 +52,8 @@ def run(as_json: bool) -> int:
         print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
         return int(not well)
     for line in lines:
-        print(f"{line.state:8} {line.what:24} {line.found}{'  ->  ' + line.advice if line.advice else ''}")
+        advice = f"  ->  {line.advice}" if line.advice else ""
+        print(one_line(f"{line.state:8} {line.what:24} {line.found}{advice}"))
     print("All is well." if well else "Something prevents playing: see the lines that begin with problem.")
     return int(not well)
 
@@ -93,7 +95,7 @@ def _packages() -> Iterator[Line]:
 def _folders() -> Iterator[Line]:
     where = folders()
     for what, folder in (("settings", where.config), ("scores", where.data), ("cache", where.cache)):
-        there = next(place for place in (folder, *folder.parents) if place.exists())
+        there = _nearest(folder)
         try:
             tempfile.TemporaryFile(dir=there).close()
         except OSError as error:
@@ -116,6 +118,15 @@ def _older_scores() -> Iterator[Line]:
         yield Line("older scores", "note" if lost else "ok", found, lost)
     if waits:
         yield Line("older scores", "note", "those of version 1.3.0 wait to be carried over", "start the arcade once")
+
+
+def _nearest(folder: Path) -> Path:
+    """The folder, or the first one above it that is there."""
+    for place in (folder, *folder.parents):
+        with contextlib.suppress(OSError):  # a name that is too long
+            if place.exists():
+                return place
+    return Path()
 
 
 def _assets() -> Iterator[Line]:
