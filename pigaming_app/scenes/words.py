@@ -10,6 +10,7 @@ from typing import Any
 from pigaming_app import ASSETS
 
 LANGUAGES = ("en", "pt")
+NAMES = {"en": "English", "pt": "Português"}
 
 
 class Words:
