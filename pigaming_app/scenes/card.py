@@ -95,7 +95,7 @@ def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
     """Buttons in rows not wider than a card, as few as possible: each goes where it still fits, the widest first."""
     rows: list[list[str]] = []
     for label in sorted(labels, key=button_width, reverse=True):
-        room = W - 48 - button_width(label) - GAP
+        room = W - 36 - button_width(label) - GAP
         row = next((row for row in rows if sum(button_width(one) + GAP for one in row) <= room + GAP), None)
         if row is None:
             rows.append([label])

@@ -34,11 +34,15 @@ _log = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Claim:
-    """What somebody did that belongs into a table: boards (one for each feat) and values."""
+    """What somebody did that belongs into a table: boards (one for each feat) and values.
+
+    `places`: for each feat the places that it has, with the headings of their tables.
+    """
 
     seat: int
     device: Device
     feats: tuple[tuple[Board, int], ...]
+    places: tuple[tuple[tuple[str, int], ...], ...]
 
 
 def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
@@ -48,29 +52,28 @@ def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Devic
     out = []
     for row in people:
         feats = [(there[name], value) for name, value in row.feats.items() if value > 0]
-        kept = tuple((board, value) for board, value in feats if places(house, setup, board, value, people, row))
+        found = [(feat, places(house, setup, *feat, [one for one in people if one is not row])) for feat in feats]
+        kept = [(feat, here) for feat, here in found if here]
         device = devices[row.seat]
         if kept and device:
-            out.append(Claim(row.seat, device, kept))
+            out.append(Claim(row.seat, device, tuple(feat for feat, _ in kept), tuple(here for _, here in kept)))
     return out
 
 
-def places(
-    house: House, setup: Setup, board: Board, value: int, people: Sequence[Row] = (), own: Row | None = None
-) -> list[tuple[str, int]]:
+def places(house: House, setup: Setup, board: Board, value: int, others: Sequence[Row]) -> tuple[tuple[str, int], ...]:
     """The places of a value among today's best and the best ever, by heading, as far as they are in the top eight.
 
-    `people`: the rows of all people in the match, of whom those better than the row `own` stand ahead of it.
+    `others`: the rows of the other people in the match; those who were better stand ahead.
     """
-    name, timed = board.feat.name, board.feat.timed
-    others = [row.feats.get(name, 0) for row in people if row is not own]
-    ahead = sum(0 < other < value if timed else other > value for other in others)
+    timed = board.feat.timed
+    rivals = [row.feats.get(board.feat.name, 0) for row in others]
+    ahead = sum(0 < rival < value if timed else rival > value for rival in rivals)
     found = []
     for title, days in SPANS.items():
         place = house.scores.place(setup.game, board.table, value, days, timed=timed)
         if place and place + ahead <= TOP:
             found.append((title, place + ahead))
-    return found
+    return tuple(found)
 
 
 class Initials:
@@ -130,18 +133,20 @@ class Initials:
         if spelling.done:
             page.ready(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
             return
-        key = "another" if spelling.refused else "done" if spelling.slot == 2 else "next_letter"
+        if spelling.refused:
+            page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
+            return
+        key = "done" if spelling.slot == 2 else "next_letter"
         label = words.printed(self.house.controls.label(claim.device, Act.FIRE))
         page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
     def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
         """What the panel says about a claim: each feat with its value, and the places that it has."""
-        words, goal = self.house.words, self.setup.goal
+        words = self.house.words
         lines = []
-        for board, value in claim.feats:
-            found = places(self.house, self.setup, board, value)
+        for (board, value), found in zip(claim.feats, claim.places, strict=True):
             shown = found if len(claim.feats) == 1 else found[-1:]
-            lines.append((words(f"results.best_{board.feat.name}", goal=goal), told(value, board.feat)))
+            lines.append((words(f"setup.best_{board.feat.name}"), told(value, board.feat)))
             lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
         return tuple(lines)
 

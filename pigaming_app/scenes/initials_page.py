@@ -5,10 +5,11 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.scenes.card import MIDDLE, H, W, asked, ready
+from pigaming_app.scenes.card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
 from pigaming_app.scenes.effects import timer_ring
 from pigaming_app.scenes.ink import (
     ADD,
+    ALARM,
     BODY,
     FOCUS,
     ICE,
@@ -30,7 +31,7 @@ from pigaming_app.scenes.pane import RIGHT, Lit, Pane, fitted, word
 from pigaming_app.scenes.spelling import ROLL, Spelling
 from pigaming_app.scores import LETTERS
 
-__all__ = ["asked", "clock", "corners", "frame", "letters", "panel_at", "ready"]
+__all__ = ["asked", "clock", "corners", "frame", "letters", "panel_at", "ready", "refused"]
 
 TOP_Y, FOOT_Y = 226, 916
 PITCH = W + 24
@@ -83,6 +84,14 @@ def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> No
         word(LETTERS[letter], TITLE, color).draw(screen, *at)
     if not spelling.done:
         chosen().draw(screen, x + slot_x(spelling.slot), TOP_Y + LETTERS_Y)
+
+
+@lru_cache(maxsize=2)
+def refused(said: str) -> Lit:
+    """What stands in the place of the button while refused letters shake."""
+    pane = Pane(*BAR)
+    pane.page.body(said, MIDDLE, BAR_Y, ALARM, "c", fitted(said, BODY, W - 48, "body"))
+    return pane.done()
 
 
 def slot_x(slot: int) -> float:

@@ -146,7 +146,10 @@ class Pause:
         else:
             word(self.house.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
         self._draw_owned(screen)
-        self.prompts.draw(screen)
+        if self.waits > 0.0:
+            plate(self._why(), FOCUS).draw(screen, 960, PROMPTS)
+        else:
+            self.prompts.draw(screen)
         self.match.shine(screen)
 
     # ---- inside
@@ -156,16 +159,18 @@ class Pause:
         return self.house.words.printed(self.house.controls.label(self.access.voice, Act.FIRE))
 
     def _draw_owned(self, screen: pygame.Surface) -> None:
-        """For how long the pause belongs to whoever asked for it, and why another press did not count."""
+        """For how long the pause belongs to whoever asked for it."""
         if not self.access.owned or len(self.access.seated) < 2:
             return
         image, dx, dy = timer_ring(FOCUS, math.ceil(12 * self.access.left / OWNED) * 4, 46, LINE)
         screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         word(str(math.ceil(self.access.left)), LABEL, FOCUS, "head").draw(screen, *RING)
-        if self.waits > 0.0:
-            key = "pause.wait" if self.player is None else "pause.wait_for"
-            said = self.house.words(key, player=0 if self.player is None else self.player + 1)
-            plate(said, FOCUS).draw(screen, 960, FOOT)
+
+    def _why(self) -> str:
+        """Why a press did not count."""
+        if self.player is None or not self.access.owned:
+            return self.house.words("pause.wait")
+        return self.house.words("pause.wait_for", player=self.player + 1)
 
     def _do(self, name: str) -> Turn:
         self.house.sounds.play("back" if name == "continue" else "accept")

@@ -27,7 +27,6 @@ from pigaming_app.scenes.stack import Home, Push, Scene, Swap, Turn
 DEAF = 2.5  # seconds in which presses are ignored
 LATE, LEAVE = 5.0, 0.5  # seconds in which BACK is ignored, and for which it then has to be held
 SAID = 3.0  # seconds for which a sentence stays
-MESSAGE_Y = 800
 CLAIMS = 2.6  # seconds before initials are asked for
 IDLE = 60.0  # seconds without a press until the title
 
@@ -131,9 +130,10 @@ class Results:
         self.page.draw(screen, self.age)
         if self.age >= self.page.ready_at:
             self.ballot.draw(screen, self.joining.shares.values())
-            self.prompts.draw(screen)
             if self.told > 0.0:
-                plate(self.house.words("match.hold"), sign="ai").draw(screen, 960, MESSAGE_Y)
+                plate(self.house.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
+            else:
+                self.prompts.draw(screen)
             if self.leaving.share:
                 filled(screen, self.leaving.share)
 
