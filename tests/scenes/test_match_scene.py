@@ -99,7 +99,7 @@ def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: A
     assert arcade.shown(Pause).player == 1
     before = match.match.state.tick
     arcade.wait(5.0)
-    arcade.press(act, KEYS[0])
+    arcade.press(act, KEYS[1])
     assert arcade.shown(MatchScene) is match
     arcade.wait(1.3, draw=True)
     assert match.match.state.tick == before
@@ -126,6 +126,8 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     arcade.press(Act.BACK)
     arcade.press(Act.UP)
     arcade.press(Act.FIRE)
+    arcade.shown(Pause)
+    arcade.press(Act.FIRE)
     arcade.frame()
     fresh = arcade.shown(MatchScene)
     assert fresh is not match
@@ -134,6 +136,7 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     assert fresh.devices[0] == KEYS[0]
     arcade.press(Act.START)
     arcade.press(Act.UP)
+    arcade.press(Act.FIRE)
     arcade.shown(Pause)
     arcade.press(Act.FIRE)
     arcade.until(lambda: isinstance(arcade.stack.top, Results))

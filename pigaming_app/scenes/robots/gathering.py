@@ -4,6 +4,7 @@ The mat stays dark but for outlines, arrows and discs, so that markers are found
 """
 
 import math
+from collections.abc import Callable
 
 import pygame
 
@@ -16,7 +17,7 @@ from pigaming_app.scenes.mat import exact
 from pigaming_app.scenes.page import stamp, text
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.plate import plate
-from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.robots.discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.robots.trouble import named, shown
@@ -38,12 +39,12 @@ class Gathering:
 
     DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
 
-    def __init__(self, house: House, plant: MixedPlant) -> None:
+    def __init__(self, house: House, plant: MixedPlant, voice: Callable[[], Device]) -> None:
         self.house, self.plant = house, plant
         self.clock = 0.0
         self.prompts = Prompts(
             house, [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
-            HINTS_Y, 1560,
+            HINTS_Y, 1560, voice=voice,
         )  # fmt: skip
 
     def update(self, seconds: float) -> None:
