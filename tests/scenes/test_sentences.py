@@ -87,7 +87,7 @@ def test_the_race_says_how_many_laps_it_has(
     for scene in (Title(arcade.house), MatchScene(arcade.house, setup, KEYS)):
         with measuring(monkeypatch) as screen:
             scene.draw(screen)
-            assert "7 laps. Go!" in [mark.text for mark in screen.texts]
+            assert "7 laps. Go!" in " ".join(mark.text for mark in screen.texts)
 
 
 def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
