@@ -14,6 +14,7 @@ from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.parsing import json_of, one_line
+from pigaming_app.scores import migrations
 from pigaming_app.settings import folders
 from pigaming_app.start import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
 
@@ -59,7 +60,7 @@ def run(as_json: bool) -> int:
 
 def report() -> list[Line]:
     """Everything worth looking at. It never raises: what fails becomes a line."""
-    return [*_system(), *_packages(), *_folders(), *_assets(), *_devices(), _engine()]
+    return [*_system(), *_packages(), *_folders(), *_older_scores(), *_assets(), *_devices(), _engine()]
 
 
 def _system() -> Iterator[Line]:
@@ -103,6 +104,20 @@ def _folders() -> Iterator[Line]:
         room = shutil.disk_usage(there).free
         full = f"only {room // 1_000_000} MB are free: make room, or nothing will be kept" if room < ROOM else ""
         yield Line(what, "note" if full else "ok", str(folder), full)
+
+
+def _older_scores() -> Iterator[Line]:
+    """What was carried over from version 1.3.0, when, and where its backup lies."""
+    data = folders().data
+    done, waits = migrations(data)
+    for one in done:
+        games = ", ".join(f"{one_line(game, 20)} {rows}" for game, rows in one.rows.items()) or "none"
+        day, backup = f"{one.when:%Y-%m-%d %H:%M}", data / one.backup
+        found = f"rows of version 1.3.0 carried over on {day}: {games}; shown as older, backup {backup}"
+        lost = "" if backup.is_file() else f"the backup has gone: keep a copy of {data / one.file}"
+        yield Line("older scores", "note" if lost else "ok", found, lost)
+    if waits:
+        yield Line("older scores", "note", "those of version 1.3.0 wait to be carried over", "start the arcade once")
 
 
 def _nearest(folder: Path) -> Path:

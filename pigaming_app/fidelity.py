@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.parsing import reason
-from pigaming_app.workshop import kept_robots, open_workshop
+from pigaming_app.workshop import kept_robots, open_workshop, wiring
 
 HZ = 50
 LOST = 5.0  # s of robots that cannot drive after which a recording is given up
@@ -38,8 +38,11 @@ def record(arguments: Namespace) -> dict[str, Any]:
     """Let the robots dance for a while on an empty mat, and write the run."""
     from pigaming_app.hardware.markers import NoVision
     from pigaming_app.hardware.runs import Recorder
+    from pigaming_app.hardware.stock import NO_DEADMAN
     from pigaming_app.keeping import check_target
 
+    if arguments.emulate is None and wiring().radio == "stock":
+        raise NotDone(NO_DEADMAN)
     check_target(arguments.file)
     try:
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)

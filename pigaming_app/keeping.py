@@ -17,7 +17,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import IO, TypeVar
 
-from pigaming_app.parsing import one_line, read, read_text, reason
+from pigaming_app.parsing import LIMIT, one_line, read, read_text, reason
 
 T = TypeVar("T")
 LARGEST = 16_000_000  # bytes of a file that gets a `.bak`
@@ -103,17 +103,17 @@ def keep(path: Path, text: str) -> None:
         _replace(path, text.encode())
 
 
-def recall(path: Path, parse: Callable[[str], T]) -> tuple[T | None, list[str]]:
+def recall(path: Path, parse: Callable[[str], T], limit: int = LIMIT) -> tuple[T | None, list[str]]:
     """What `parse` (which raises ValueError) makes of the file, and what to tell the operator. No file: None."""
     try:
-        return parse(read_text(path)), []
+        return parse(read_text(path, limit)), []
     except FileNotFoundError:
         return None, []
     except (OSError, ValueError) as error:
         said = f"{path} cannot be read ({reason(error)}); {_put_aside(path)}"
     backup = _backup(path)
     try:
-        restored = parse(read_text(backup))
+        restored = parse(read_text(backup, limit))
     except (OSError, ValueError):
         return None, [f"{said}; starting afresh."]
     with contextlib.suppress(OSError):

@@ -16,6 +16,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.replay import save
 from pigaming_app.keeping import NotSaved, check_target
 from pigaming_app.parsing import ParseError, read_text, reason, shown
+from pigaming_app.settings import Settings, folders
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS
@@ -49,6 +50,8 @@ def play(
     setup = choose(arguments.game, seats, arena, minutes, seed, variant, teams, names, goal)
     speed = _speed(arguments.speed, wrong)
     real = _real(arguments, setup, speed, wrong)
+    if real:
+        _check_radio(chosen, wrong)
     plant = _plant(arguments, real, wrong)
     _check_targets(arguments.record, arguments.screenshot, wrong)
     if arguments.headless and not real:
@@ -99,6 +102,16 @@ def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type
     if seats and arguments.headless and arguments.emulate is None:
         raise wrong("--headless: real robots need the picture on their mat; add --emulate for emulated ones")
     return seats
+
+
+def _check_radio(chosen: dict[str, Any], wrong: type[Exception]) -> None:
+    """Refuse robots whose motors would not stop by themselves, whether the command line or the settings name them."""
+    from pigaming_app.scenes.mat import unfit
+
+    settings, _ = Settings.load(folders().config)
+    settings.radio = chosen.get("radio", settings.radio)
+    if reason := unfit(settings):
+        raise wrong(f"--radio: {reason}")
 
 
 def _speed(text: str, wrong: type[Exception]) -> float:

@@ -14,14 +14,15 @@ MAY = {
     "ai": {"ai", "games", "sim", "keeping", "parsing"},
     "hardware": {"hardware", "sim", "keeping", "parsing"},
     "scenes": {"scenes", "games", "ai", "hardware", "sim", "settings", "scores", "keeping", "logbook", "parsing"},
-    "settings": {"keeping", "parsing"},
-    "scores": {"keeping", "parsing"},
+    "settings": {"keeping", "locking", "parsing"},
+    "scores": {"scores", "keeping", "locking", "parsing"},
+    "locking": {"keeping"},
     "keeping": {"parsing"},
     "parsing": set(),
     "logbook": set(),
     "start": {"install", "cli"},
     "install": {"start", "keeping"},
-    "doctor": {"parsing", "settings", "start", "games", "sim", "ai"},
+    "doctor": {"settings", "scores", "parsing", "start", "games", "sim", "ai"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))

@@ -15,16 +15,18 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
-from pigaming_app.scenes.feats import table_of, told
+from pigaming_app.scenes.feats import contest, table_of, told
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
+from pigaming_app.scenes.limits import numbers
 from pigaming_app.scenes.page import blacked, heading
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, backdrop, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.seats import EMPTY, Seats
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.words import Words
 from pigaming_app.settings import Choice, folders
@@ -114,10 +116,14 @@ class SetupPage:
 
         self._keep()
         self.house.sounds.play("accept")
-        now = self.chosen
-        minutes, seats = float(now.minutes), self.seats.seats()
-        setup = Setup(self.game.name, now.arena, seats, minutes, new_seed(), now.variant, now.goal)
+        setup = replace(self._setup(), seed=new_seed())
         return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
+
+    def _setup(self) -> Setup:
+        """The match as it is chosen now, without a seed."""
+        now = self.chosen
+        seats, minutes = self.seats.seats(), float(now.minutes)
+        return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
     def _keep(self) -> None:
         """Remember the choice for the next time, also after a power cut."""
@@ -138,7 +144,7 @@ class SetupPage:
         if name == "minutes":
             return choice.chips(words("setup.minutes"), tuple(map(str, game.minutes)), str(now.minutes))
         if name == "rules":
-            line = words(f"setup.{now.variant}_line")
+            line = words(f"setup.{now.variant}_line", **numbers(game.name, now.minutes, now.variant))
             return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
         return choice.begin(words("setup.go"))
 
@@ -182,10 +188,10 @@ class SetupPage:
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
         for feat in self.game.feats:
-            best = self.house.scores.best(self.game.name, table_of(self.chosen.arena, feat, self.chosen.goal))
+            best = self.house.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.house.words(f"setup.best_{feat.name}")
-                lines.append((name, told(best[0].score, feat), best[0].initials))
+                lines.append((name, self.house.words.decimal(told(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
@@ -219,7 +225,7 @@ class SetupPage:
         screen.set_clip(None)
 
 
-@lru_cache(maxsize=16)
+@cached
 def picture(game: str, name: str) -> Lit:
     """A large picture of an arena, where the page shows it."""
     return Lit(preview(load_kept(game, name), *PICTURE.size), PICTURE.topleft)

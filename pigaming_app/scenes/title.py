@@ -3,8 +3,6 @@
 When nobody is there for a while, an AI match begins.
 """
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.games import GAMES
@@ -24,6 +22,7 @@ from pigaming_app.scenes.ink import (
     dim,
     panel,
 )
+from pigaming_app.scenes.limits import kept_goal, tagline
 from pigaming_app.scenes.logo import dot_of, logo, vignette
 from pigaming_app.scenes.operator import Combination
 from pigaming_app.scenes.page import (
@@ -41,6 +40,7 @@ from pigaming_app.scenes.pane import LEFT, MARGIN, RIGHT, Lit, Pane, backdrop, f
 from pigaming_app.scenes.parade import dot_robot, parade
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Push, Quit, Scene, Turn
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.words import LANGUAGES
 
 TILE_Y, TILE_H = 416, 416
@@ -97,7 +97,8 @@ class Title:
         parade(screen, self.clock)
         stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
         for i, game in enumerate(GAMES):
-            lit = tile(game, words(f"games.{game}"), words(f"games.{game}_line"), self.focus.name == game)
+            line = tagline(words, game, kept_goal(self.house.settings, game))
+            lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
             lit.draw(screen, *tile_rect(i).topleft)
         self._prompt(screen)
         self._foot(screen)
@@ -192,7 +193,7 @@ def tile_rect(i: int) -> pygame.Rect:
     return pygame.Rect(x, TILE_Y, w, TILE_H)
 
 
-@lru_cache(maxsize=1)
+@cached
 def ground() -> pygame.Surface:
     """What never changes: the floor's dots, the name, and black where the tiles are."""
     pane = Pane(LEFT, 54, 1210, 260)
@@ -202,7 +203,7 @@ def ground() -> pygame.Surface:
     return blacked(out, *map(tile_rect, range(len(GAMES))))
 
 
-@lru_cache(maxsize=24)
+@cached
 def tile(game: str, name: str, line: str, hot: bool) -> Lit:
     """A game's picture and name, its upper left at (0, 0)."""
     w = span(0, 4)[1]
@@ -217,7 +218,7 @@ def tile(game: str, name: str, line: str, hot: bool) -> Lit:
     return lit
 
 
-@lru_cache(maxsize=3)
+@cached
 def _picture(game: str) -> Lit:
     pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
     vignette(game, pane.hot, MARGIN, MARGIN)

@@ -1,6 +1,6 @@
 """Does the calibration still hold? The corner markers are shown, and by how much they are not where they should be."""
 
-from functools import lru_cache, partial
+from functools import partial
 
 import pygame
 
@@ -23,6 +23,7 @@ from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Turn
 from pigaming_app.scenes.stage import LEFT, TOP
+from pigaming_app.scenes.surface_cache import cached
 
 BAR = pygame.Rect(560, 640, 800, 40)
 MOST = 20.0  # mm at the right end of the bar
@@ -99,14 +100,14 @@ class CheckPage:
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
-        text(f"{mm:.1f} mm", HERO, color, "head").draw(screen, 960, 440)
+        text(self.house.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
         bar().draw(screen)
         share = min(1.0, mm / MOST)
         pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
         text(self.house.words(f"calibrate.{key}"), LABEL, color, "body").draw(screen, 960, 800)
 
 
-@lru_cache(maxsize=1)
+@cached
 def bar() -> Lit:
     """The empty bar, with marks where it warns and where a match pauses."""
     pane = Pane(BAR.x, BAR.y - 20, BAR.w, 120)

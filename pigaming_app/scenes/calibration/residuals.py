@@ -1,12 +1,11 @@
 """The picture of what a calibration gets wrong: an arrow at every corner of the held-out board, much enlarged."""
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.hardware.solver import MAX_MM, Residuals
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEEL, SUB, THIN, Color, cut, dim, panel
 from pigaming_app.scenes.pane import Lit, Pane, span
+from pigaming_app.scenes.surface_cache import cached
 
 AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the picture
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it
@@ -41,16 +40,16 @@ def _at(x: float, y: float) -> tuple[float, float]:
     return AREA.centerx + (x + 160 - 960) * SCALE, AREA.y + 12 + (y + 140) * SCALE
 
 
-@lru_cache(maxsize=4)
-def figure(name: str, mm: float, limit: float, need: str) -> Lit:
-    """One error as a number, and as a bar up to twice what is allowed; upper left at (0, 0)."""
+@cached
+def figure(name: str, told: str, share: float, need: str) -> Lit:
+    """One error as a number, and as a bar, full at twice the limit; `share` of the limit. Upper left at (0, 0)."""
     pane = Pane(0, -20, SIDE.w, 190)
-    color: Color = ICE if mm <= limit else ALARM
+    color: Color = ICE if share <= 1.0 else ALARM
     pane.page.body(name, 0, 20, MIST)
-    pane.page.text(f"{mm:.1f} mm", SUB, SIDE.w, 20, color, "head", "r")
-    share, bar = min(1.0, mm / (2.0 * limit)), SIDE.w
+    pane.page.text(told, SUB, SIDE.w, 20, color, "head", "r")
+    bar = SIDE.w
     pane.hot.line(cut(0, 74, bar, 26, 8), STEEL, THIN, True)
-    pane.hot.fill(cut(4, 78, max(12.0, (bar - 8) * share), 18, 5), color)
+    pane.hot.fill(cut(4, 78, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 18, 5), color)
     pane.hot.line([(bar / 2, 64), (bar / 2, 110)], ICE, LINE)
     pane.page.body(need, SIDE.w, 142, MIST, "r", BODY - 8)
     return pane.done()
