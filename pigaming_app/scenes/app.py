@@ -22,6 +22,7 @@ from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
+from pigaming_app.scenes.heap import return_large_blocks
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import NoMat, RealMat
 from pigaming_app.scenes.notices import Gauge, Notices
@@ -60,6 +61,7 @@ class Options:
 
 def run(options: Options) -> int:
     """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
+    return_large_blocks()
     where = folders()
     settings, said = Settings.load(where.config)
     scores, more = Scores.load(where.data)

@@ -8,6 +8,7 @@ import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
+from weakref import proxy
 
 import pygame
 
@@ -191,7 +192,8 @@ class MatchScene:
 
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
-        brain = Hands(lambda: self._held(device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        scene = proxy(self)  # a cycle would keep the surfaces of a match that is over
+        brain = Hands(lambda: scene._held(device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
         self.stage.players[seat] = "human" if device else STAND_IN
 
@@ -213,7 +215,8 @@ class MatchScene:
         self.frozen += seconds
         self.stage.wait(seconds)
         if ready and (self.stopped or self.frozen >= FREEZE):
-            return Swap(self.results)
+            results, self.results = self.results, None  # which hold this scene, for a rematch
+            return Swap(results)
         return None
 
 
