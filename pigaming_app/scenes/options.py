@@ -127,7 +127,8 @@ class OptionsPage:
         """Where the i-th row is."""
         x, w = span(0, 8)
         pitch = min(96.0, (BOTTOM - TOP - HIGH) / max(1, len(self.rows) - 1))
-        return pygame.Rect(x, round(TOP - HIGH / 2 + pitch * i), w, HIGH)
+        high = min(HIGH, int(pitch))  # rows that overlap could not be told apart by the focus
+        return pygame.Rect(x, round(TOP + pitch * i) - high // 2, w, high)
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
         """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""

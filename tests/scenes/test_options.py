@@ -118,6 +118,16 @@ def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcad
     assert not Scores.load(tmp_path / "data")[0].tables()
 
 
+@pytest.mark.parametrize("kiosk", [False, True])
+def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, kiosk: bool) -> None:
+    arcade.house.kiosk = kiosk
+    arcade.open(OptionsPage(arcade.house, operator=True))
+    page = arcade.shown(OptionsPage)
+    for name in (*page.rows[1:], page.rows[0]):
+        arcade.press(Act.DOWN)
+        assert page.focus.name == name
+
+
 def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -> None:
     arcade.house.scores.add("pitanks", "classic", "ANA", 7)
     with VirtualPad() as pad:
