@@ -123,6 +123,9 @@ class RealMatch(MatchScene):
             super().draw(screen)
         else:
             self.gathering.draw(screen)
+            if self.gathering.flood.whole:
+                self.watch.draw(screen)
+                return
         self.shine(screen)
 
     # ---- what the pages above it may do
@@ -146,6 +149,13 @@ class RealMatch(MatchScene):
         if self.real:
             self.watch.draw(screen)
         self.discs.draw(screen, self.real)
+
+    def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
+        """Which radio drives which robot has been found anew; the robots `well` turned as they should."""
+        self.plant.rig.channels = channels
+        self.house.settings.radios = [channel + 1 for channel in channels]
+        for robot in well:
+            self.plant.safety.forgive(robot)
 
     def swap(self, seat: int, real: bool) -> None:
         """Hand a seat to its simulated or its real robot; that one takes its place first."""
@@ -180,7 +190,7 @@ class RealMatch(MatchScene):
                 self._begin()
                 break
         self._tell()
-        if self.plant.safety.stopped:
+        if self.plant.safety.stopped or self.plant.safety.lasting:
             return Push(Trouble(self))
         return Home() if self.house.idle > IDLE else None
 

@@ -18,8 +18,9 @@ from pigaming_app.scenes.pause import Pause, title
 from pigaming_app.scenes.plate import Plate, plate
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.signs import sign
-from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.stack import Home, Pop, Push, Swap, Turn
 from pigaming_app.scenes.words import Words
 
 if TYPE_CHECKING:
@@ -40,8 +41,7 @@ class Trouble:
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
-        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        self.prompts = self._prompts()
 
     def entered(self) -> None:
         """Say that something is wrong."""
@@ -50,13 +50,22 @@ class Trouble:
         self.held, self.picture = 0.0, None
 
     def on(self, press: Press) -> Turn:
-        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu."""
+        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
+        robot did not do as it was told, FIRE pairs robots and radios again, and ALT lets it try again.
+        """
         admitted = self.match.access.admit(self.prompts.meant(press))
         if admitted is None:
             return None
         press = admitted
+        lasting = self.match.plant.safety.lasting
         if press.act is Act.EXTRA:
             self._simulate()
+        elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
+            return Push(PairAgain(self.match))
+        elif lasting and press.act is Act.ALT:
+            for robot in lasting:
+                self.match.plant.safety.forgive(robot)
+            self.house.sounds.play("accept")
         elif press.act is Act.STOP:
             self.match.plant.safety.all_stop()
             self.stopper = press.device
@@ -78,6 +87,7 @@ class Trouble:
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
             self.faults, self.picture = now, None
+            self.prompts = self._prompts()
         if self.house.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
@@ -96,6 +106,12 @@ class Trouble:
         self.match.shine(screen)
 
     # ---- inside
+
+    def _prompts(self) -> Prompts:
+        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
+        if self.match.plant.safety.lasting:
+            hints = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry"), *hints]
+        return Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.match.access.voice)
 
     def _releasing(self) -> list[Device]:
         """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
@@ -121,15 +137,10 @@ class Trouble:
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         title(pane, first.robot, about, ICE)
         sign(pane.hot, first.name, *ICON, 76, ALARM)
-        pane.page.body(
-            words("mat.goes_on"), TEXT_X, FOOT - 40, MIST, "l", fitted(words("mat.goes_on"), 36, ROOM, "body")
-        )
-        y = write(
-            pane,
-            named(first, words, words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))),
-            HEAD + 56,
-            ICE,
-        )
+        ending = words("mat.waits_for_you" if self.match.plant.safety.lasting else "mat.goes_on")
+        pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
+        fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
+        y = write(pane, named(first, words, fire), HEAD + 56, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:
             y = write(pane, tell(words, detail), y + 8, MIST)
