@@ -7,7 +7,8 @@ import faulthandler
 import logging
 import signal
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -60,6 +61,16 @@ class Options:
 
 def run(options: Options) -> int:
     """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
+    with opened(options) as app:
+        return app.loop()
+
+
+@contextmanager
+def opened(options: Options) -> "Iterator[App]":
+    """The arcade with its window and devices; afterwards all of it is closed and the settings are saved.
+
+    An interrupt ends it without an exception. Raises NoDisplay.
+    """
     where = folders()
     settings, said = Settings.load(where.config)
     scores, more = Scores.load(where.data)
@@ -75,9 +86,7 @@ def run(options: Options) -> int:
     house.stops.append(mat.close)
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
-        return App(options, house, [*said, *more]).loop()
-    except KeyboardInterrupt:
-        return 0
+        yield App(options, house, [*said, *more])
     finally:
         signal.signal(signal.SIGTERM, before)
         house.stand_still()
@@ -145,12 +154,12 @@ class App:
             log.warning("%s", trouble)
             self.notices.say(self.house.words("app.pin"))
 
-    def _frame(self, seconds: float) -> None:
-        """One picture: hear, move, paint."""
+    def compose(self, seconds: float) -> bool:
+        """Handle events, let `seconds` pass and paint the next picture; false: there is none to show."""
         events = pygame.event.get()
         if any(self._closes(event) for event in events) and not self.house.kiosk:
             self.stack.clear()
-            return
+            return False
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
@@ -158,11 +167,17 @@ class App:
         self._play(events, seconds)
         played = perf_counter()
         if not self.stack.scenes:
-            return
+            return False
         screen = self.house.canvas.screen
         self.stack.top.draw(screen)
         self._say(screen, seconds)
         self.gauge.note(seconds, played - began, perf_counter() - played)
+        return True
+
+    def _frame(self, seconds: float) -> None:
+        """Compose one picture and show it."""
+        if not self.compose(seconds):
+            return
         if self.options.shot and self.options.shot_due():
             self.house.canvas.screenshot(self.options.shot)
             self.stack.clear()
