@@ -1,7 +1,9 @@
-"""What runs while nobody plays: an AI match, how to play, the best scores. Any input ends it, and does nothing else."""
+"""Attract mode: for one game after the other an AI match, how to play, the best scores. Any input ends it, and does
+nothing else."""
 
 import secrets
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import partial
 from itertools import cycle
 
 import pygame
@@ -28,13 +30,19 @@ LEVELS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """A round of shows. `house.idle` has brought it up; the title lies below."""
+    """Three shows for each game, round and round, from a random game on. `house.idle` has brought it up; the title lies
+    below.
+    """
 
     def __init__(self, house: House) -> None:
         self.house = house
         self.age = 0.0
-        self.lessons = cycle(GAMES)
-        self.shows: Iterator[Callable[[], Scene | None]] = cycle((self._match, self._howto, self._best))
+        games, first = list(GAMES), secrets.randbelow(len(GAMES))
+        self.shows = (
+            partial(make, game)
+            for game in cycle(games[first:] + games[:first])
+            for make in (self._match, self._howto, self._best)
+        )
         self.show: Scene | None = None
         self._next()
 
@@ -70,21 +78,20 @@ class Attract:
         self.show = next(show for show in (make() for make in self.shows) if show)
         self.show.entered()
 
-    def _match(self) -> Scene:
-        return Demonstration(self.house)
+    def _match(self, game: str) -> Scene:
+        return Demonstration(self.house, game)
 
-    def _howto(self) -> Scene:
+    def _howto(self, game: str) -> Scene:
         from pigaming_app.scenes.howto import HowTo
 
-        page = HowTo(self.house, next(self.lessons))
+        page = HowTo(self.house, game)
         return Page(page, page.draw)
 
-    def _best(self) -> Scene | None:
+    def _best(self, game: str) -> Scene | None:
         """The tables of an arena in which somebody has scored."""
         scores = self.house.scores
         there = [
             (game, arena, GAMES[game].default_goal)
-            for game in GAMES
             for arena in arenas(game)
             if any(scores.best(game, board.table) for board in boards(game, arena, GAMES[game].default_goal))
         ]
@@ -97,8 +104,7 @@ class Attract:
 class Demonstration:
     """AIs play for a minute."""
 
-    def __init__(self, house: House) -> None:
-        game = secrets.choice(list(GAMES))
+    def __init__(self, house: House, game: str) -> None:
         rules = GAMES[game]
         teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.sides == FREE else rules.teams
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)

@@ -62,14 +62,14 @@ def work(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | No
     if first < 0.0:
         stamp(screen, crates.crate(ICE, RAW), x - SLOT, a)
     elif first < PROCESS:
-        _at_work(screen, x, a, HALF, first / PROCESS)
+        _at_work(screen, x, a, A, first / PROCESS)
     elif first < PROCESS + CARRY:
         px, py = _carried((first - PROCESS) / CARRY)
         stamp(screen, crates.crate(ICE, HALF), x + px, y + py)
     elif second < 0.0:
         stamp(screen, crates.crate(ICE, HALF), x - SLOT, b)
     elif second < PROCESS:
-        _at_work(screen, x, b, DONE, second / PROCESS)
+        _at_work(screen, x, b, B, second / PROCESS)
     else:
         stamp(screen, crates.crate(ICE, DONE), x + SLOT, b)
     at_a, at_b = 0.0 <= first < PROCESS, 0.0 <= second < PROCESS
@@ -116,9 +116,9 @@ def _carrier(screen: pygame.Surface, x: float, y: float, state: int | None) -> N
         stamp(screen, crates.crate(ICE, state), x - FORK, y)
 
 
-def _at_work(screen: pygame.Surface, x: float, y: float, makes: int, share: float) -> None:
-    add(screen, crates.busy(ICE), x, y)
-    add(screen, crates.progress(makes, int(share * crates.COUNTS)), x, y)
+def _at_work(screen: pygame.Surface, x: float, y: float, kind: int, share: float) -> None:
+    stamp(screen, crates.busy(ICE, kind), x, y)
+    add(screen, crates.progress(HALF if kind == A else DONE, int(share * crates.COUNTS)), x, y)
 
 
 def _carried(share: float) -> tuple[float, float]:
