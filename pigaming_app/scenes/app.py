@@ -62,15 +62,15 @@ class Options:
 def run(options: Options) -> int:
     """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
     with opened(options) as app:
-        return app.loop()
+        try:
+            return app.loop()
+        except KeyboardInterrupt:
+            return 0
 
 
 @contextmanager
 def opened(options: Options) -> "Iterator[App]":
-    """The arcade with its window and devices; afterwards all of it is closed and the settings are saved.
-
-    An interrupt ends it without an exception. Raises NoDisplay.
-    """
+    """The arcade with its window and devices; afterwards all is closed and the settings are saved. Raises NoDisplay."""
     where = folders()
     settings, said = Settings.load(where.config)
     scores, more = Scores.load(where.data)
