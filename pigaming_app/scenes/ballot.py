@@ -1,7 +1,6 @@
 """Who wants a rematch: everyone who played presses FIRE once; somebody missing does not hold the others up for long."""
 
 from collections.abc import Sequence
-from functools import cache
 
 import pygame
 
@@ -9,6 +8,7 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut, dim, icon, text_width
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.press import Device
+from pigaming_app.scenes.surface_cache import cached
 
 Y = 884
 PITCH = 160
@@ -74,7 +74,7 @@ class Ballot:
             pygame.draw.line(screen, FOCUS, (960 - 300 * left, 928), (960 + 300 * left, 928), 4)
 
 
-@cache
+@cached
 def question(text: str) -> Lit:
     """The question, its left edge at x = 0."""
     pane = Pane(0, Y - 40, text_width(text, LABEL), 80)
@@ -82,7 +82,7 @@ def question(text: str) -> Lit:
     return pane.done()
 
 
-@cache
+@cached
 def answer(seat: int, said: str) -> Lit:
     """A badge round x = 0 and what that player said: an icon's name, or nothing yet."""
     pane = Pane(-40, Y - 40, 140, 80)

@@ -5,7 +5,7 @@ All of it is made of small pieces that are kept; a card's upper left is at (0, 0
 
 import math
 from collections.abc import Callable, Iterator
-from functools import lru_cache, partial
+from functools import partial
 
 from pigaming_app.scenes.crates import TEAMS, emblem
 from pigaming_app.scenes.ink import (
@@ -37,6 +37,7 @@ from pigaming_app.scenes.logo import seat_robot
 from pigaming_app.scenes.page import LEVELS, dimmed
 from pigaming_app.scenes.pane import Lit, Pane, fitted, span
 from pigaming_app.scenes.sprites import HEADINGS, Sprite
+from pigaming_app.scenes.surface_cache import cached
 
 W, H = span(0, 3)[1], 600
 MIDDLE = W / 2
@@ -51,7 +52,7 @@ UP = -math.pi / 2
 UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and how far it looks to either side
 
 
-@lru_cache(maxsize=32)
+@cached
 def frame(player: int, said: str, bold: bool) -> Lit:
     """The card of somebody."""
     pane = Pane(0, 0, W, H)
@@ -61,7 +62,7 @@ def frame(player: int, said: str, bold: bool) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=16)
+@cached
 def empty(player: int, said: str) -> Lit:
     """The card of nobody."""
     pane, color = Pane(0, 0, W, H), PLAYERS[player]
@@ -73,7 +74,7 @@ def empty(player: int, said: str) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=64)
+@cached
 def invitation(player: int, press: str, join: str, level: int) -> Lit:
     """What an empty seat says; a `level` of 0 means: another seat comes first."""
     if 0 < level < LEVELS:
@@ -86,7 +87,7 @@ def invitation(player: int, press: str, join: str, level: int) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=64)
+@cached
 def driver(sign: str, name: str) -> Lit:
     """An icon and who drives: the name of a pad, the keys that steer, or an AI."""
     pane = Pane(24, DEVICE_Y - 44, W - 48, 88)
@@ -100,7 +101,7 @@ def driver(sign: str, name: str) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=16)
+@cached
 def ready(player: int, said: str) -> Lit:
     """The bar of somebody who is ready."""
     pane, color = Pane(*BAR), PLAYERS[player]
@@ -111,7 +112,7 @@ def ready(player: int, said: str) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=64)
+@cached
 def asked(label: str, said: str, level: int) -> Lit:
     """The bar of somebody who has to press a button to be ready."""
     if level < LEVELS:
@@ -124,7 +125,7 @@ def asked(label: str, said: str, level: int) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=32)
+@cached
 def strength(said: str, upright: bool) -> Lit:
     """The bar of an AI: how strong it is, between the arrows that change that."""
     pane = Pane(*BAR)
@@ -135,7 +136,7 @@ def strength(said: str, upright: bool) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=8)
+@cached
 def team(said: str, number: int) -> Lit:
     """Which team, with the bars that its robots wear, between the arrows that change it."""
     pane, x, size = _team(said)
@@ -145,7 +146,7 @@ def team(said: str, number: int) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=8)
+@cached
 def side(said: str, number: int) -> Lit:
     """Which of the two sides of the factory, with its emblem and in its colour, between the arrows that change it."""
     pane, x, size = _team(said)
@@ -154,7 +155,7 @@ def side(said: str, number: int) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=8)
+@cached
 def real(said: str, on: bool, middle: int) -> Lit:
     """Whether a seat's robot is real, as it is lit on the mat, or a drawn one; between the arrows that change it."""
     pane = Pane(24, middle - 30, W - 48, 60)
@@ -179,7 +180,7 @@ def _team(said: str) -> tuple[Pane, float, int]:
     return pane, MIDDLE - (text_width(said, size) + 44) / 2, size
 
 
-@lru_cache(maxsize=128)
+@cached
 def turntable(player: int, turn: int, lit: bool, r: int) -> Lit:
     """Arcs round a robot at (0, 0), `turn` of TURNS on their way to the next, on a circle of `r` px."""
     half = r + 30
@@ -191,7 +192,7 @@ def turntable(player: int, turn: int, lit: bool, r: int) -> Lit:
     return Lit(ink.lit(1.0), (-half, -half))
 
 
-@lru_cache(maxsize=160)
+@cached
 def robot(player: int, turn: int, scale: float) -> Sprite:
     """A seat's robot at heading `turn` of HEADINGS."""
     return seat_robot(player, turn * math.tau / HEADINGS, scale)

@@ -1,7 +1,5 @@
 """Rows in which something is chosen, and the small things round them, for the page before a match."""
 
-from functools import lru_cache
-
 from pigaming_app.scenes.ink import (
     BODY,
     FOCUS,
@@ -20,6 +18,7 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.pane import Lit, Pane, fitted, lines_of, span
+from pigaming_app.scenes.surface_cache import cached
 
 W = span(8, 4)[1]
 PAD = 32  # px between a row's edge and what is in it
@@ -27,7 +26,7 @@ CHIP, APART, CLOSE = 112, 16, 8  # px: a chip at most, between a few chips, betw
 FEW = 4  # chips that have all the room they want
 
 
-@lru_cache(maxsize=64)
+@cached
 def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
     """What is chosen, a fact beside it, the value between arrows, and a sentence about it; upper left at (0, 0)."""
     high = 236 if line else 140
@@ -42,7 +41,7 @@ def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=32)
+@cached
 def chips(name: str, values: tuple[str, ...], value: str) -> Lit:
     """All values side by side, the chosen one lit; upper left at (0, 0)."""
     pane = _named(name, 140)
@@ -68,7 +67,7 @@ def chip_at(count: int, x: float) -> int | None:
     return int(i) if 0 <= i < count and rest < wide else None
 
 
-@lru_cache(maxsize=16)
+@cached
 def records(lines: tuple[tuple[str, str, str], ...]) -> Lit:
     """The best so far: what, how much and whose, a line for each; upper left at (0, 0)."""
     pane = Pane(0, 0, W, records_high(len(lines)))
@@ -86,7 +85,7 @@ def records_high(lines: int) -> int:
     return 20 + 56 * lines
 
 
-@lru_cache(maxsize=8)
+@cached
 def begin(said: str) -> Lit:
     """The button that begins; upper left at (0, 0)."""
     pane = Pane(0, 0, W, 96)
@@ -98,7 +97,7 @@ def begin(said: str) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=2)
+@cached
 def frame(w: int, h: int) -> Lit:
     """The frame of a picture; upper left at (0, 0)."""
     pane = Pane(0, 0, w, h)
@@ -106,7 +105,7 @@ def frame(w: int, h: int) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=16)
+@cached
 def lineup(seats: tuple[tuple[int, str], ...]) -> Lit:
     """Who plays: badges and the icons of what drives them, ending at x = 0."""
     pitch = 168
@@ -118,7 +117,7 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=4)
+@cached
 def mark(seat: int) -> Lit:
     """Who begins here; round (0, 0)."""
     pane = Pane(-24, -24, 48, 48)
@@ -126,7 +125,7 @@ def mark(seat: int) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=8)
+@cached
 def meant(high: int) -> Lit:
     """What a row in focus gets on top of its outline; upper left at (0, 0)."""
     pane = Pane(0, 0, W, high)

@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from functools import cache, lru_cache
 
 import pygame
 
 from pigaming_app.scenes.ink import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
 from pigaming_app.scenes.palette import CAPITALS
 from pigaming_app.scenes.sprites import Sprite, faded, trim
+from pigaming_app.scenes.surface_cache import cached
 
 CENTRE = (960, 590)  # of the arena, on the canvas
 GO = 0.7  # seconds for which GO! is shown
@@ -76,7 +76,7 @@ def signs(go: str, *ends: str) -> Iterator[Sprite]:
     yield from (popped(end, ALARM, pop) for end in ends for pop in range(POPS))
 
 
-@lru_cache(maxsize=48)
+@cached
 def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
     """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
     if level < LEVELS:
@@ -116,7 +116,7 @@ def show(screen: pygame.Surface, sign: Sprite, at: tuple[int, int] = CENTRE) -> 
     screen.blit(sign.image, (at[0] + sign.dx, at[1] + sign.dy), special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
-@cache
+@cached
 def arcs(count: int) -> Sprite:
     """Three arcs round a number, of which `count` are still lit."""
     half = 270

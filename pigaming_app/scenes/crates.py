@@ -5,13 +5,13 @@ it is delivered by being filled.
 """
 
 import math
-from functools import cache
 
 import pygame
 
 from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW, A
 from pigaming_app.scenes.ink import ALARM, BLACK, LINE, THIN, WHITE, Color, Ink, Points, cut, dim, regular
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, trim, turned
+from pigaming_app.scenes.surface_cache import cached
 
 TEAMS: tuple[Color, Color] = ((70, 210, 255), (255, 150, 40))
 STATES: dict[int, Color] = {
@@ -81,7 +81,7 @@ def draw_crate(ink: Ink, team: int, state: int, x: float, y: float, size: float 
     state_icon(ink, state, x, y, size * 0.27, STATES[state])
 
 
-@cache
+@cached
 def crate(team: int, state: int, tenths: int = 10) -> Sprite:
     """A crate of a team in a state, at so many tenths of its size; it hides what is below."""
     size = CRATE * tenths / 10
@@ -113,7 +113,7 @@ def flame(x: float, y: float, r: float) -> Points:
     return [(x + r * u, y + r * v) for u, v in (*half, *left)]
 
 
-@cache
+@cached
 def forks(team: int, turn: int) -> Sprite:
     """The two prongs of a robot at heading `turn` of HEADINGS, and the ring of its team, open in front. They lie below
     the robot and what it carries, and hide the floor."""
@@ -128,7 +128,7 @@ def _forks(team: int) -> pygame.Surface:
     return ink.sprite(0.5)
 
 
-@cache
+@cached
 def person(turn: int, stride: int, working: bool) -> Sprite:
     """A worker from above at heading `turn` of PERSON_TURNS: yellow helmet, hands that swing or work."""
     return turned(painted(_person, (stride, working)), turn, PERSON_TURNS)
@@ -156,7 +156,7 @@ def _person(stride: int, working: bool) -> pygame.Surface:
     return ink.sprite(0.5)
 
 
-@cache
+@cached
 def progress(state: int, part: int) -> Sprite:
     """How far a machine has come, `part` of COUNTS, in the colour of what it makes."""
     ink = Ink(150, 150).to(75, 75)
@@ -165,7 +165,7 @@ def progress(state: int, part: int) -> Sprite:
     return trim(ink.lit(0.9), 75, 75)
 
 
-@cache
+@cached
 def busy(team: int, kind: int) -> Sprite:
     """A machine of a kind while it holds a team's pallet: it wears the team's outline."""
     ink, body = Ink(230, 230).to(115, 115), cut(-66, -66, 132, 132, 20)
@@ -175,7 +175,7 @@ def busy(team: int, kind: int) -> Sprite:
     return trim(ink.sprite(0.8), 115, 115)
 
 
-@cache
+@cached
 def frozen(part: int, r: int = 54) -> Sprite:
     """The ring, of `r` px, that runs down while a robot must stand still, `part` of COUNTS left."""
     half = r + 31
@@ -186,7 +186,7 @@ def frozen(part: int, r: int = 54) -> Sprite:
     return trim(ink.lit(0.9), half, half)
 
 
-@cache
+@cached
 def awaited(seconds: int) -> Sprite:
     """Where a new pallet will come, and in how many seconds."""
     ink = Ink(110, 110, 3).to(55, 55)
@@ -195,7 +195,7 @@ def awaited(seconds: int) -> Sprite:
     return trim(ink.lit(0.5), 55, 55)
 
 
-@cache
+@cached
 def exclaim() -> Sprite:
     """Watch out!"""
     ink = Ink(120, 130, 3).to(60, 60)
@@ -204,7 +204,7 @@ def exclaim() -> Sprite:
     return trim(ink.sprite(0.7), 60, 60)
 
 
-@cache
+@cached
 def cross() -> Sprite:
     """Not here."""
     ink = Ink(110, 110, 3).to(55, 55)
@@ -214,7 +214,7 @@ def cross() -> Sprite:
     return trim(ink.sprite(0.8), 55, 55)
 
 
-@cache
+@cached
 def digit(number: int) -> Sprite:
     """A big number over a robot that must wait."""
     ink = Ink(130, 140, 3).to(65, 70)
@@ -222,7 +222,7 @@ def digit(number: int) -> Sprite:
     return trim(ink.sprite(0.6), 65, 70)
 
 
-@cache
+@cached
 def target(color: Color, small: bool) -> Sprite:
     """Corners round a slot to which somebody is going."""
     half, reach, width = (38, 12, 4) if small else (44, 22, 7)
@@ -234,7 +234,7 @@ def target(color: Color, small: bool) -> Sprite:
     return trim(ink.lit(0.7), 75, 75)
 
 
-@cache
+@cached
 def arrow(color: Color, turn: int) -> Sprite:
     """The head of a dashed arrow at heading `turn` of HEADINGS."""
     return turned(painted(_arrow, (color,)), turn, HEADINGS)
@@ -244,7 +244,7 @@ def _arrow(color: Color) -> pygame.Surface:
     return master(32).fill([(20, 0), (-12, -19), (-12, 19)], color).lit(0.7)
 
 
-@cache
+@cached
 def dash(color: Color, turn: int) -> Sprite:
     """One dash of an arrow at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (color,)), turn, HEADINGS)
@@ -254,7 +254,7 @@ def _dash(color: Color) -> pygame.Surface:
     return master(24).line([(-8, 0), (8, 0)], color, 7).lit(0.6)
 
 
-@cache
+@cached
 def count(number: int, team: int) -> Sprite:
     """How many more there are, beside a warehouse."""
     ink = Ink(160, 80, 3).to(80, 40)

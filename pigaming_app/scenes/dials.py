@@ -1,7 +1,6 @@
 """What the options are set with: toggles, meters, arrows, and beside them a picture of what the row in focus means."""
 
 import math
-from functools import lru_cache
 
 import pygame
 
@@ -27,6 +26,7 @@ from pigaming_app.scenes.logo import seat_robot
 from pigaming_app.scenes.page import stamp, text
 from pigaming_app.scenes.pane import Lit, Pane, fitted, lines_of, span
 from pigaming_app.scenes.sprites import Sprite
+from pigaming_app.scenes.surface_cache import cached
 
 PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 660)
 W = span(0, 8)[1]
@@ -41,13 +41,13 @@ def label(said: str, hot: bool) -> Lit:
     return text(said, BODY, ICE if hot else MIST, "body", "l", AT - 60)
 
 
-@lru_cache(maxsize=4)
+@cached
 def rule(w: int) -> Lit:
     """The hair line between two rows."""
     return Lit(Ink(w, 4).line([(24, 2), (w - 24, 2)], dim(STEEL, 0.6), HAIR).plain(), (0, -2))
 
 
-@lru_cache(maxsize=128)
+@cached
 def value(kind: str, options: tuple[str, ...], chosen: int, hot: bool) -> Lit:
     """What is set, its middle at y = 0: a toggle, a meter, a text between arrows, or a deed."""
     pane = Pane(AT, -36, ROOM, 72)
@@ -107,7 +107,7 @@ def hit(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | Non
     return max(0, min(len(options) - 1, chosen + by))
 
 
-@lru_cache(maxsize=1)
+@cached
 def beside() -> Lit:
     """The panel beside the rows; upper left at (0, 0)."""
     pane = Pane(0, 0, PANEL.w, PANEL.h)
@@ -121,7 +121,7 @@ def about(screen: pygame.Surface, said: str, line: str) -> None:
         lit.draw(screen, PANEL.x + 40, PANEL.y + 400 + (14 + 58 * i if i else 0))
 
 
-@lru_cache(maxsize=32)
+@cached
 def told(said: str, line: str) -> tuple[Lit, ...]:
     """A title, and a sentence in lines that fit into the panel."""
     room = PANEL.w - 80
@@ -150,12 +150,12 @@ def drawn(name: str, chosen: int, seconds: float = 0.0) -> Lit:
     return _note(chosen, int(seconds * 8) % 8) if name == "music" else _drawn(name, chosen, int(seconds * 2) % 2)
 
 
-@lru_cache(maxsize=1)
+@cached
 def _robot() -> Sprite:
     return seat_robot(1, -0.6, 1.8)
 
 
-@lru_cache(maxsize=24)
+@cached
 def _burst(strength: int, stage: int) -> Lit:
     ink = Ink(400, 400).to(200, 200)
     fade = (1.0 - stage / 6) * (0.25, 0.6, 1.0)[strength]
@@ -166,7 +166,7 @@ def _burst(strength: int, stage: int) -> Lit:
     return Lit(ink.lit(0.5 + 0.5 * strength), (-200, -200))
 
 
-@lru_cache(maxsize=48)
+@cached
 def _speaker(loud: int, wave: int) -> Lit:
     ink = Ink(400, 320).to(200, 160)
     ink.line([(-92, -26), (-56, -26), (-10, -68), (-10, 68), (-56, 26), (-92, 26)], FOCUS, LINE, True)
@@ -178,7 +178,7 @@ def _speaker(loud: int, wave: int) -> Lit:
     return Lit(ink.lit(1.0), (-200, -160))
 
 
-@lru_cache(maxsize=96)
+@cached
 def _note(loud: int, beat: int) -> Lit:
     """Bars that dance, as high as the music is loud."""
     ink = Ink(440, 320).to(220, 160)
@@ -194,7 +194,7 @@ def _note(loud: int, beat: int) -> Lit:
     return Lit(ink.lit(0.7), (-220, -160))
 
 
-@lru_cache(maxsize=64)
+@cached
 def _drawn(name: str, chosen: int, beat: int) -> Lit:
     ink = Ink(480, 340).to(240, 170)
     if name == "language":

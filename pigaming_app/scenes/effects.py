@@ -2,12 +2,12 @@
 
 import math
 import random
-from functools import cache
 
 import pygame
 
 from pigaming_app.scenes.ink import LINE, PLAYERS, WALL, WHITE, Color, Ink, dim, mix, regular
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
+from pigaming_app.scenes.surface_cache import cached
 
 TURNS = 48  # headings of what may be turned coarsely
 SPARK_TURNS = 24
@@ -22,7 +22,7 @@ BEAM_ARM = 114  # px from a robot to the middle of its headlight
 FLAME_ARM = -66
 
 
-@cache
+@cached
 def beam(player: int, turn: int) -> Sprite:
     """A robot's headlight at heading `turn` of BEAM_TURNS."""
     return turned(painted(_beam, (player,)), turn, BEAM_TURNS, BEAM_ARM, 2.0)
@@ -38,7 +38,7 @@ def _beam(player: int) -> pygame.Surface:
     return pygame.transform.gaussian_blur(small, 5)
 
 
-@cache
+@cached
 def tread(player: int, turn: int, level: int) -> Sprite:
     """The marks of both wheels at heading `turn` of TURNS, `level` of TREAD_LEVELS bright."""
     if level == TREAD_LEVELS:
@@ -53,7 +53,7 @@ def _tread(player: int) -> pygame.Surface:
     return ink.plain()
 
 
-@cache
+@cached
 def flame(player: int, turn: int, flicker: int) -> Sprite:
     """Turbo: a flame behind each wheel at heading `turn` of TURNS, in two steps of flicker."""
     return turned(painted(_flame, (player, flicker)), turn, TURNS, FLAME_ARM)
@@ -68,7 +68,7 @@ def _flame(player: int, flicker: int) -> pygame.Surface:
     return ink.lit(1.2)
 
 
-@cache
+@cached
 def bullet(player: int, turn: int) -> Sprite:
     """A shot with its tail, flying at heading `turn` of HEADINGS."""
     return turned(painted(_bullet, (player,)), turn, HEADINGS, -16)
@@ -81,7 +81,7 @@ def _bullet(player: int) -> pygame.Surface:
     return ink.disc(0, 0, 7, color).disc(1, 0, 4.5, WHITE).lit(1.6)
 
 
-@cache
+@cached
 def flash(player: int, turn: int) -> Sprite:
     """A muzzle flash, centred on the muzzle, at heading `turn` of TURNS."""
     return turned(painted(_flash, (player,)), turn, TURNS)
@@ -96,7 +96,7 @@ def _flash(player: int) -> pygame.Surface:
     return ink.fill([(x * 0.6 + 2, y * 0.6) for x, y in star], mix(PLAYERS[player], WHITE, 0.6)).lit(1.5)
 
 
-@cache
+@cached
 def sparks(color: Color, size: int, turn: int) -> tuple[Sprite, ...]:
     """A streak of light in one of SPARK_TURNS directions, as it fades: the last is the brightest."""
     whole = turned(painted(_spark, (color, size)), turn, SPARK_TURNS)
@@ -111,7 +111,7 @@ def _spark(color: Color, size: int) -> pygame.Surface:
     return ink.lit(1.2)
 
 
-@cache
+@cached
 def shards(shape: int, turn: int) -> tuple[Sprite, ...]:
     """A splinter of a wall in one of SPARK_TURNS directions, as it fades: the last is the brightest."""
     whole = turned(painted(_shard, (shape,)), turn, SPARK_TURNS)
@@ -124,7 +124,7 @@ def _shard(shape: int) -> pygame.Surface:
     return master(40).line(corners, WALL, 3, True).lit(0.8)
 
 
-@cache
+@cached
 def wave(color: Color, stage: int) -> Sprite:
     """A shock, `stage` of WAVE_STEPS: eight arcs that grow, thin out and fade."""
     image, dx, dy = _wave(stage)
@@ -133,7 +133,7 @@ def wave(color: Color, stage: int) -> Sprite:
     return Sprite(image, dx, dy)
 
 
-@cache
+@cached
 def _wave(stage: int) -> Sprite:
     t, half = (stage + 1) / WAVE_STEPS, 172
     r = 30 + 110 * (1 - (1 - t) ** 2)
@@ -144,7 +144,7 @@ def _wave(stage: int) -> Sprite:
     return trim(ink.lit(1.0), half, half)
 
 
-@cache
+@cached
 def light(color: Color, level: int) -> Sprite:
     """Light on the ground round a hit, `level` of LIGHT_LEVELS bright."""
     if level < LIGHT_LEVELS:
@@ -153,7 +153,7 @@ def light(color: Color, level: int) -> Sprite:
     return trim(pygame.transform.smoothscale(spot, (360, 360)), 180, 180)
 
 
-@cache
+@cached
 def shield(player: int, turn: int, r: int = 72) -> Sprite:
     """A shield: a hexagon of radius `r` px, turned by `turn` of 24 parts of the way to itself."""
     return turned(painted(_shield, (player, r)), turn, 6 * 24)
@@ -167,7 +167,7 @@ def _shield(player: int, r: int) -> pygame.Surface:
     return ink.lit(1.0)
 
 
-@cache
+@cached
 def timer_ring(color: Color, left: int, r: int, width: int = LINE) -> Sprite:
     """What is left of something, `left` of 48: a ring of radius `r` px that empties clockwise from the top."""
     half = r + 22

@@ -7,13 +7,13 @@ at. The corners glide to a new spot in 120 ms and breathe once a second.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 
 import pygame
 
 from pigaming_app.scenes.ink import BOLD, FOCUS, LINE, Color, Ink
 from pigaming_app.scenes.pane import Lit
 from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.surface_cache import cached
 
 GLIDE = 0.12  # seconds from one spot to the next
 ACROSS = 3.0  # a pixel off the line counts as so many along it
@@ -119,7 +119,7 @@ class Focus:
         return self.name if press.repeat else min(row, key=lambda spot: _along(here, spot.rect, way)).name
 
 
-@cache
+@cached
 def corner(across: int, down: int, small: bool, color: Color) -> Lit:
     """A corner of the focus at (0, 0); `across` and `down` are 1 or -1: on which side the spot lies."""
     arm, c, width = (12, 12, LINE) if small else (48, 20, BOLD)

@@ -3,8 +3,6 @@
 A card is W x H px, its upper left at (0, 0).
 """
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.scenes.ink import (
@@ -27,6 +25,7 @@ from pigaming_app.scenes.ink import (
 )
 from pigaming_app.scenes.pane import Lit, Pane, fitted, span
 from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.surface_cache import cached
 
 W, H = span(0, 3)[1], 340
 STICK, REACH = (112, 188), 58  # the middle of a stick, and how far its knob goes, px
@@ -45,7 +44,7 @@ START = pygame.Rect(28, 286, 168, 40)
 START_LINE = cut(START.x, START.y, START.w, START.h, 10)
 
 
-@lru_cache(maxsize=8)
+@cached
 def no_pad(said: str, line: str) -> Lit:
     """A place where a pad could be."""
     pane = Pane(0, 0, W, H)
@@ -56,7 +55,7 @@ def no_pad(said: str, line: str) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=8)
+@cached
 def pad(name: str, labels: tuple[str, ...]) -> Lit:
     """A pad of that name; `labels` of fire, back, extra, alt and start."""
     pane = Pane(0, 0, W, H)
@@ -74,7 +73,7 @@ def pad(name: str, labels: tuple[str, ...]) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=32)
+@cached
 def pad_light(act: Act, label: str) -> Lit:
     """A pressed button of a pad, over its card."""
     if act is Act.START:
@@ -88,13 +87,13 @@ def pad_light(act: Act, label: str) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=1)
+@cached
 def knob() -> Lit:
     """The head of a stick, round (0, 0)."""
     return Lit(Ink(96, 96).disc(48, 48, 20, FOCUS).lit(1.0), (-48, -48))
 
 
-@lru_cache(maxsize=96)
+@cached
 def cap(label: str, w: int, h: int, down: bool) -> Lit:
     """A key, held down or not."""
     pane = Pane(0, 0, w, h)

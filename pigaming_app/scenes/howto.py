@@ -1,7 +1,6 @@
 """How to play, in four moving pictures a game: one idea each, a few words under it, keys of the device used last."""
 
 from collections.abc import Sequence
-from functools import lru_cache
 
 import pygame
 
@@ -24,6 +23,7 @@ from pigaming_app.scenes.page import blacked, button_light, chip, chip_width, he
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, lines_of, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Home, Pop, Turn
+from pigaming_app.scenes.surface_cache import cached
 
 TOP, HIGH = 220, 620
 CAPTION_Y, FOOT_Y = TOP + 546, 924
@@ -110,7 +110,7 @@ class HowTo:
         return tuple((label, what) for label, what in found if label)
 
 
-@lru_cache(maxsize=8)
+@cached
 def frame(number: int, w: int) -> Lit:
     """An empty panel with its number; upper left at (0, 0)."""
     pane = Pane(0, 0, w, HIGH)
@@ -120,7 +120,7 @@ def frame(number: int, w: int) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=16)
+@cached
 def caption(said: str, room: int) -> Lit:
     """A few words in lines of about the same length, their middle at (0, 0)."""
     lines = balanced(said, room)
@@ -139,7 +139,7 @@ def balanced(said: str, room: int) -> list[str]:
     return lines if max(text_width(line, BODY, "body") for line in lines) <= room else lines_of(said, BODY, room)
 
 
-@lru_cache(maxsize=16)
+@cached
 def keys(items: Sequence[tuple[str, str]]) -> Lit:
     """The row at the foot: all but the last from the left, the last at the right end."""
     pane = Pane(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)

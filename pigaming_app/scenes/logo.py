@@ -1,7 +1,6 @@
 """What the title is drawn of: the name in tubes of light, four robots that draw its underline, a picture of a game."""
 
 import math
-from functools import lru_cache
 
 from pigaming_app.scenes.ink import (
     ALARM,
@@ -23,6 +22,7 @@ from pigaming_app.scenes.ink import (
     dim,
 )
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, step, trim
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.tank import robot
 from pigaming_app.scenes.wall import draw_wall
 
@@ -77,7 +77,7 @@ def seat_robot(player: int, angle: float, scale: float = 2.1) -> Sprite:
     return _seat_robot(player, step(angle, HEADINGS), scale)
 
 
-@lru_cache(maxsize=24)
+@cached
 def _seat_robot(player: int, turn: int, scale: float) -> Sprite:
     half = round(84 * scale)
     ink = Ink(2 * half, 2 * half)

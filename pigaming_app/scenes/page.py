@@ -5,7 +5,6 @@ Pieces lie round (0, 0) and are drawn where they are needed.
 """
 
 import math
-from functools import lru_cache
 
 import pygame
 
@@ -29,6 +28,7 @@ from pigaming_app.scenes.ink import (
 )
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, fitted
 from pigaming_app.scenes.sprites import Sprite
+from pigaming_app.scenes.surface_cache import cached
 
 LEVELS = 8  # brightnesses kept of what pulses
 
@@ -45,7 +45,7 @@ def dimmed(lit: Lit, share: float) -> Lit:
     return Lit(image, lit.at)
 
 
-@lru_cache(maxsize=16)
+@cached
 def heading(title: str, right: str = "", color: Color = ICE) -> Lit:
     """The head of a page, with a line below it and a fact at its right end."""
     pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
@@ -58,7 +58,7 @@ def heading(title: str, right: str = "", color: Color = ICE) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=256)
+@cached
 def text(
     said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
 ) -> Lit:
@@ -71,7 +71,7 @@ def text(
     return Lit(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
 
 
-@lru_cache(maxsize=64)
+@cached
 def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> Lit:
     """An icon round (0, 0), `r` px to each side."""
     if level < LEVELS:
@@ -81,7 +81,7 @@ def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=16)
+@cached
 def calling(said: str, label: str, size: int, level: int = LEVELS) -> Lit:
     """A yellow line that asks for a press; {button} in it is the button. Round (0, 0)."""
     if level < LEVELS:
@@ -109,7 +109,7 @@ def chip_width(said: str) -> int:
     return round(text_width(said, BODY)) + 48
 
 
-@lru_cache(maxsize=128)
+@cached
 def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
     """A box with a word, its upper left at (0, 0). `state`: off, on, focus (on and in focus), ready (calls)."""
     edge = {"off": STEEL, "on": ICE, "focus": FOCUS, "ready": FOCUS}[state]
@@ -120,7 +120,7 @@ def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=16)
+@cached
 def button_light(label: str) -> Lit:
     """A button as it is printed on the device, its left edge at x = 0."""
     pane = Pane(0, -32, button_width(label), 64)

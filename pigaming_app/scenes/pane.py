@@ -4,11 +4,11 @@ Whole pages cost a quarter of a second to light; a scene that moves builds itsel
 """
 
 from dataclasses import dataclass
-from functools import cache, lru_cache
 
 import pygame
 
 from pigaming_app.scenes.ink import Color, Ink, Page, text_width
+from pigaming_app.scenes.surface_cache import cached
 
 ADD = pygame.BLEND_RGB_ADD
 MARGIN = 48  # px round a pane in which its glow ends
@@ -52,7 +52,7 @@ class Pane:
         return Lit(self.page.done(), self.at)
 
 
-@lru_cache(maxsize=160)
+@cached
 def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0.7, level: int = 8) -> Lit:
     """One line of light whose capitals are centred on (0, 0); `level` of 8 parts of its brightness."""
     if level < 8:
@@ -89,7 +89,7 @@ def span(first: int, columns: int) -> tuple[int, int]:
     return LEFT + first * 146, columns * 146 - 24
 
 
-@cache
+@cached
 def backdrop() -> pygame.Surface:
     """The dots of an arena's floor, over the whole canvas."""
     tile = Ink(48, 48).disc(24, 12, 1.5, (22, 31, 46)).plain()

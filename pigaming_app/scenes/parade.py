@@ -1,7 +1,6 @@
 """The robots of the title: each drives in, draws a line under the name, looks about, drives off, and comes again."""
 
 import math
-from functools import cache, lru_cache
 from itertools import pairwise
 
 import pygame
@@ -11,6 +10,7 @@ from pigaming_app.scenes.logo import seat_robot, trail_path
 from pigaming_app.scenes.page import stamp
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, step
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.tank import tank
 
 COMING, STAYING, LEAVING = 1.9, 16.0, 1.3  # seconds
@@ -45,12 +45,12 @@ def dot_robot(seconds: float, scale: float) -> Sprite:
     return _dot_robot(step(-0.5 + 1.3 * _look(seconds + 0.6, 2), HEADINGS), scale)
 
 
-@lru_cache(maxsize=48)
+@cached
 def _dot_robot(turn: int, scale: float) -> Sprite:
     return seat_robot(0, turn * math.tau / HEADINGS, scale)
 
 
-@cache
+@cached
 def line(player: int) -> Lit:
     """The whole line that a robot draws."""
     path = trail_path(player)
@@ -60,7 +60,7 @@ def line(player: int) -> Lit:
     return pane.done()
 
 
-@cache
+@cached
 def _light(player: int) -> Lit:
     ink = Ink(96, 64)
     for i in range(8):

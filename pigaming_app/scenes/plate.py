@@ -1,11 +1,11 @@
 """A line of text on a black plate with cut corners: what is said over a running match, made once and kept."""
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import pygame
 
 from pigaming_app.scenes.ink import BODY, ICE, STEEL, THIN, Color, Ink, badge, cut, icon, text_width
+from pigaming_app.scenes.surface_cache import cached
 
 MARGIN = 24  # px of glow round a plate
 
@@ -24,7 +24,7 @@ class Plate:
         screen.blit(self.image, corner, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
-@lru_cache(maxsize=96)
+@cached
 def plate(
     text: str,
     color: Color = STEEL,

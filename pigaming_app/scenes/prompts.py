@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache
 
 import pygame
 
@@ -20,6 +19,7 @@ from pigaming_app.scenes.ink import (
 )
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.surface_cache import cached
 
 ROOM = 1760  # px for the whole row
 GAPS = (56, 44, 32, 24)
@@ -79,7 +79,7 @@ def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, floa
     return out
 
 
-@lru_cache(maxsize=32)
+@cached
 def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> Lit:
     """The whole row, lit."""
     ends = places(said, room)

@@ -1,7 +1,6 @@
 """Two pages that hold a match up for a while: a pad is gone, or nobody is there. A ring says for how long."""
 
 import math
-from functools import cache
 from typing import Protocol
 
 import pygame
@@ -14,6 +13,7 @@ from pigaming_app.scenes.pause import Held, Pause, title
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.surface_cache import cached
 
 WAIT = 15.0  # seconds
 DEAF = 1.0  # seconds in which presses are ignored: the others are still playing
@@ -167,7 +167,7 @@ def ring(screen: pygame.Surface, left: float, whole: float) -> None:
     word(str(max(0, math.ceil(left))), LABEL, FOCUS, "head").draw(screen, *RING)
 
 
-@cache
+@cached
 def empty() -> Lit:
     """The ground of a ring."""
     pane = Pane(-50, -50, 100, 100)
@@ -175,7 +175,7 @@ def empty() -> Lit:
     return pane.done()
 
 
-@cache
+@cached
 def plug(color: Color, joined: bool) -> Lit:
     """The end of a cable over the pad whose middle is (0, 0)."""
     pane = Pane(-40, -120, 80, 120)
@@ -184,7 +184,7 @@ def plug(color: Color, joined: bool) -> Lit:
     return pane.done()
 
 
-@cache
+@cached
 def bolt() -> Lit:
     """Two dashes where plug and pad should meet."""
     pane = Pane(-60, -80, 120, 30)

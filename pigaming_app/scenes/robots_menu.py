@@ -1,7 +1,6 @@
 """Everything that robots on a mat need, for the operator: camera, corners, markers."""
 
 import logging
-from functools import lru_cache
 
 import pygame
 
@@ -17,6 +16,7 @@ from pigaming_app.scenes.pane import Lit, backdrop
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.settings import folders
 
 ROWS = ("robots", "calibrate", "check", "pin", "sheet")
@@ -118,7 +118,7 @@ class RobotsMenu:
         self.said = SAID
 
 
-@lru_cache(maxsize=5)
+@cached
 def sketch(name: str) -> Lit:
     """The picture of a row, round (0, 0)."""
     ink = Ink(480, 340).to(240, 170)

@@ -5,12 +5,12 @@ How long a petal is and its colour say how good; so good and bad differ in light
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 
 import pygame
 
 from pigaming_app.scenes.ink import ADD, ICE, MIST, THIN, Color, Ink, Points, dim, icon
 from pigaming_app.scenes.sprites import Batch, Sprite, put, trim
+from pigaming_app.scenes.surface_cache import cached
 
 PETALS = 16
 GOOD, BAD = (70, 214, 255), (255, 84, 60)
@@ -52,7 +52,7 @@ def tone(level: int) -> Color:
     return dim(GOOD if level > 0 else BAD, 0.45 + 0.55 * abs(level) / LEVELS)
 
 
-@lru_cache(maxsize=PETALS * (2 * LEVELS + 1) * 2)
+@cached
 def petal(k: int, level: int, inner: int, outer: int) -> Sprite:
     """One petal and the room it has, round the middle of the rose."""
     room = _slice(k, inner, outer)
@@ -67,7 +67,7 @@ def petal(k: int, level: int, inner: int, outer: int) -> Sprite:
     return trim(ink.lit(0.6), -left, -top)
 
 
-@lru_cache(maxsize=2 * len(SIGNS))
+@cached
 def sign(name: str, r: int = SIGN) -> Sprite:
     """The sign of an action, `r` px to each side."""
     ink = Ink(2 * r + 32, 2 * r + 32, 3)

@@ -25,6 +25,7 @@ from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.seats import EMPTY, Seats
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.words import Words
 from pigaming_app.settings import Choice, folders
@@ -219,7 +220,7 @@ class SetupPage:
         screen.set_clip(None)
 
 
-@lru_cache(maxsize=16)
+@cached
 def picture(game: str, name: str) -> Lit:
     """A large picture of an arena, where the page shows it."""
     return Lit(preview(load_kept(game, name), *PICTURE.size), PICTURE.topleft)

@@ -6,12 +6,12 @@ finite, so what is kept is bounded.
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
 from typing import NamedTuple
 
 import pygame
 
 from pigaming_app.scenes.ink import MULT, Ink
+from pigaming_app.scenes.surface_cache import cached
 
 HEADINGS = 96  # of what is turned finely: 3.75 degrees each, two pixels at a barrel's end
 
@@ -71,7 +71,7 @@ def faded(sprite: Sprite, share: float) -> Sprite:
 Paint = Callable[..., pygame.Surface]
 
 
-@lru_cache(maxsize=256)
+@cached
 def painted(paint: Paint, args: tuple[object, ...]) -> pygame.Surface:
     """The master that `paint(*args)` makes; kept while it is being turned."""
     return paint(*args)

@@ -4,7 +4,6 @@ The same drawing serves the arena, the title and the lobby.
 """
 
 import math
-from functools import cache
 
 import pygame
 
@@ -25,6 +24,7 @@ from pigaming_app.scenes.ink import (
     shape_points,
 )
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, trim, turned
+from pigaming_app.scenes.surface_cache import cached
 
 HALF, ARM = 80, 13  # px: what a turned tank covers, and where the middle of that is
 TRIANGLE_BACK = 4  # px that player 2's turret sits further back
@@ -59,7 +59,7 @@ def robot(ink: Ink, player: int, x: float, y: float, angle: float, scale: float 
     return ink.to(0, 0)
 
 
-@cache
+@cached
 def tank(player: int, turn: int) -> Sprite:
     """A tank at heading `turn` of HEADINGS, number upright. Premultiplied: it hides the ground and glows."""
     image, dx, dy = turned(painted(_tank, (player,)), turn, HEADINGS, ARM)
@@ -71,7 +71,7 @@ def tank(player: int, turn: int) -> Sprite:
     return Sprite(image, dx, dy)
 
 
-@cache
+@cached
 def ghost(player: int) -> Sprite:
     """A tank that blinks, in the moments in which it is not there: a dim ring and its number."""
     ink = Ink(112, 112).to(56, 56)
@@ -80,7 +80,7 @@ def ghost(player: int) -> Sprite:
     return trim(ink.sprite(0.6), 56, 56)
 
 
-@cache
+@cached
 def team_mark(team: int, turn: int) -> Sprite:
     """What team mates wear behind them, at heading `turn` of 48: one bar for the first team, two for the second."""
     return turned(painted(_team_mark, (team,)), turn, 48, -46)

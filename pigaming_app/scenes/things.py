@@ -1,7 +1,6 @@
 """What lies in an arena or rises from it: pick-ups, mines, scores, small icons, single glyphs of a number."""
 
 import math
-from functools import cache, lru_cache
 
 import pygame
 
@@ -23,11 +22,12 @@ from pigaming_app.scenes.ink import (
     regular,
 )
 from pigaming_app.scenes.sprites import Sprite, faded, trim
+from pigaming_app.scenes.surface_cache import cached
 
 POPUP_LEVELS = 6
 
 
-@cache
+@cached
 def pickup(name: str) -> Sprite:
     """A power that lies on the floor."""
     ink = Ink(152, 152, 3).to(76, 76)
@@ -37,7 +37,7 @@ def pickup(name: str) -> Sprite:
     return trim(ink.sprite(1.0), 76, 76)
 
 
-@cache
+@cached
 def mine(player: int, bright: bool) -> Sprite:
     """A mine in its owner's colour and with its number; an armed one is `bright` every other moment."""
     ink = Ink(120, 120, 3).to(60, 60)
@@ -48,7 +48,7 @@ def mine(player: int, bright: bool) -> Sprite:
     return trim(ink.sprite(1.0 if bright else 0.7), 60, 60)
 
 
-@cache
+@cached
 def small_icon(name: str, color: Color = ICE, r: int = 16, width: float = THIN) -> Sprite:
     """An icon `r` px to each side, as light."""
     ink = Ink(2 * r + 64, 2 * r + 64, 3)
@@ -56,7 +56,7 @@ def small_icon(name: str, color: Color = ICE, r: int = 16, width: float = THIN) 
     return trim(ink.lit(0.6), r + 32, r + 32)
 
 
-@cache
+@cached
 def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
     """A score that rises, `level` of POPUP_LEVELS there; it carries its own dark edge and reads over anything."""
     if level < POPUP_LEVELS:
@@ -74,7 +74,7 @@ def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
     return trim(out, w / 2, h / 2)
 
 
-@lru_cache(maxsize=512)
+@cached
 def glyph(char: str, size: int, color: Color, glow: float = 0.7) -> tuple[Sprite, float]:
     """One digit or sign as light, from its left edge and the middle of the capitals, and how far to the next, px."""
     advance = font("hero", size * 2).size(char)[0] / 2

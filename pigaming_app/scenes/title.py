@@ -3,8 +3,6 @@
 When nobody is there for a while, an AI match begins.
 """
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.games import GAMES
@@ -41,6 +39,7 @@ from pigaming_app.scenes.pane import LEFT, MARGIN, RIGHT, Lit, Pane, backdrop, f
 from pigaming_app.scenes.parade import dot_robot, parade
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Push, Quit, Scene, Turn
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.words import LANGUAGES
 
 TILE_Y, TILE_H = 416, 416
@@ -192,7 +191,7 @@ def tile_rect(i: int) -> pygame.Rect:
     return pygame.Rect(x, TILE_Y, w, TILE_H)
 
 
-@lru_cache(maxsize=1)
+@cached
 def ground() -> pygame.Surface:
     """What never changes: the floor's dots, the name, and black where the tiles are."""
     pane = Pane(LEFT, 54, 1210, 260)
@@ -202,7 +201,7 @@ def ground() -> pygame.Surface:
     return blacked(out, *map(tile_rect, range(len(GAMES))))
 
 
-@lru_cache(maxsize=24)
+@cached
 def tile(game: str, name: str, line: str, hot: bool) -> Lit:
     """A game's picture and name, its upper left at (0, 0)."""
     w = span(0, 4)[1]
@@ -217,7 +216,7 @@ def tile(game: str, name: str, line: str, hot: bool) -> Lit:
     return lit
 
 
-@lru_cache(maxsize=3)
+@cached
 def _picture(game: str) -> Lit:
     pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
     vignette(game, pane.hot, MARGIN, MARGIN)

@@ -2,10 +2,10 @@
 
 import math
 import random
-from functools import lru_cache
 
 from pigaming_app.scenes.ink import BLACK, HAIR, LINE, WALL, Ink, Point, cut, dim, regular
 from pigaming_app.scenes.sprites import Sprite, trim
+from pigaming_app.scenes.surface_cache import cached
 
 SOLID = -1  # health of a wall that takes any number
 
@@ -29,7 +29,7 @@ def draw_wall(ink: Ink, length: float, thick: float, health: int, seed: int, who
     return ink
 
 
-@lru_cache(maxsize=192)
+@cached
 def wall(length: float, thick: float, angle: float, health: int, seed: int, whole: int = 5) -> Sprite:
     """The sprite of a wall that lies at `angle` rad. Premultiplied."""
     c, s = abs(math.cos(angle)), abs(math.sin(angle))

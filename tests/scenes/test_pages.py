@@ -19,6 +19,7 @@ from pigaming_app.scenes.prompts import Prompts, places
 from pigaming_app.scenes.seats import Seats
 from pigaming_app.scenes.setup import SetupPage
 from pigaming_app.scenes.stack import Scene, Stack
+from pigaming_app.scenes.surface_cache import surfaces
 from pigaming_app.scenes.title import Title
 from pigaming_app.settings import Settings
 from tests.scenes.arcade import KEYS, Arcade
@@ -102,18 +103,11 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
     true_size = pane.fitted
     for module in (card, choice, dials, gadgets, howto, page, title):
         monkeypatch.setattr(module, "fitted", measured)
-        forget(module)
+    surfaces.clear()
     scene = top(arcade, name)
     walk(arcade, scene)
     assert {text: share for text, share in shrunk.items() if share < SMALLEST} == {}
     assert shrunk or name == "padtest"
-
-
-def forget(module: object) -> None:
-    """Empty what a module keeps, so that it measures again."""
-    for thing in vars(module).values():
-        if hasattr(thing, "cache_clear"):
-            thing.cache_clear()
 
 
 def walk(arcade: Arcade, scene: Scene) -> None:

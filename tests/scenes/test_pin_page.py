@@ -11,9 +11,10 @@ from pigaming_app.hardware import markers
 from pigaming_app.hardware.markers import NoVision
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes.app import App, Options
-from pigaming_app.scenes.calibration.pin import FARTHEST, PinPage
+from pigaming_app.scenes.calibration.pin import CORNERS, FARTHEST, PinPage, handle
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.ink import FOCUS
 from pigaming_app.scenes.press import Act
 from pigaming_app.settings import Settings
 from tests.scenes.arcade import Arcade
@@ -52,6 +53,20 @@ def test_a_corner_moves_by_ten_or_by_one_and_the_picture_with_it(arcade: Arcade)
     assert window.get_at((1919, 0))[:3] == (255, 255, 255)
     assert canvas.at((20, 11)) == pytest.approx((0.0, 0.0), abs=0.01)
     arcade.shown(PinPage)
+
+
+@pytest.mark.parametrize("corner", range(4))
+def test_the_arrow_points_at_the_chosen_corner_of_the_picture(corner: int) -> None:
+    picture = pygame.Surface((1920, 1080))
+    handle(corner).draw(picture)
+    x, y = CORNERS[corner]
+    quarter = pygame.Rect(960 if x else 0, 540 if y else 0, 960, 540)
+    arrow = pygame.transform.flip(picture.subsurface(quarter), bool(x), bool(y))
+    assert sum(arrow.get_at((at, at)) == FOCUS for at in range(66, 166)) > 90, "from inside to the corner"
+    assert arrow.get_at((120, 60))[:3] == arrow.get_at((60, 120))[:3] == FOCUS, "with two barbs"
+    assert arrow.get_at((200, 9))[:3] == arrow.get_at((9, 200))[:3] == FOCUS, "in an angle along the edges"
+    picture.fill("black", quarter)
+    assert not pygame.mask.from_threshold(picture, "white", (200,) * 3).count(), "and nowhere else"
 
 
 def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) -> None:

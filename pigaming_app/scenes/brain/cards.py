@@ -5,7 +5,6 @@ one it follows in white, and its stick; a brain that chooses among moves shows h
 """
 
 from collections.abc import Mapping, Sequence
-from functools import cache, lru_cache
 
 import pygame
 
@@ -33,6 +32,7 @@ from pigaming_app.scenes.ink import (
 from pigaming_app.scenes.pane import fitted, word
 from pigaming_app.scenes.rose import tone
 from pigaming_app.scenes.sprites import Batch, Sprite, put, trim
+from pigaming_app.scenes.surface_cache import cached
 
 Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin round their sprites
 TEXT = 104  # px from the left edge of a box to its texts
@@ -135,7 +135,7 @@ def put_on(screen: pygame.Surface, image: pygame.Surface, x: float, y: float) ->
     screen.blit(image, (x - EDGE, y - EDGE), special_flags=pygame.BLEND_RGB_ADD)
 
 
-@cache
+@cached
 def box(seat: int, w: int, named: bool) -> pygame.Surface:
     """The outline of a box; `named`: with the badge of its robot and the sign of an AI."""
     ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
@@ -146,7 +146,7 @@ def box(seat: int, w: int, named: bool) -> pygame.Surface:
     return ink.lit(0.7)
 
 
-@cache
+@cached
 def bar(seat: int, chosen: bool, full: bool) -> Sprite:
     """A wish, from the middle of its top: its light, or the empty frame."""
     ink = Ink(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).to(EDGE + BAR_W / 2, EDGE)
@@ -159,7 +159,7 @@ def bar(seat: int, chosen: bool, full: bool) -> Sprite:
     return Sprite(ink.plain(), -EDGE - BAR_W // 2, -EDGE)
 
 
-@lru_cache(maxsize=64)
+@cached
 def sign(name: str, color: Color) -> Sprite:
     """What a wish is for: an icon, or a crate's state."""
     ink = Ink(96, 96, 3).to(48, 48)
@@ -170,7 +170,7 @@ def sign(name: str, color: Color) -> Sprite:
     return trim(ink.lit(0.4), 48, 48)
 
 
-@lru_cache(maxsize=64)
+@cached
 def cell(fill: Color, held: bool) -> Sprite:
     """One position of a stick."""
     half = CELL / 2 - 2

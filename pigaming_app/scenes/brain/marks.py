@@ -6,7 +6,6 @@ show, and whatever would lie on another robot (whose marker a camera may be read
 
 import math
 from collections.abc import Callable, Sequence
-from functools import cache, lru_cache
 from typing import Any
 
 import pygame
@@ -15,6 +14,7 @@ from pigaming_app.ai.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PETAL
 from pigaming_app.scenes.ink import ALARM, FOCUS, LINE, THIN, Color, Ink, Points, dim
 from pigaming_app.scenes.rose import tone
 from pigaming_app.scenes.sprites import HEADINGS, Batch, Sprite, master, painted, put, step, trim, turned
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.scenes.views.picture import Pose
 from pigaming_app.sim.sweep import meets_wall
@@ -121,7 +121,7 @@ def blocked(state: Any, x: float, y: float, to_x: float, to_y: float) -> float:
 # ---- sprites
 
 
-@lru_cache(maxsize=(2 * LEVELS + 1) * HEADINGS)
+@cached
 def leaf(level: int, turn: int) -> Sprite:
     """A petal, -LEVELS (bad) to LEVELS (good), whose middle points to heading `turn` of HEADINGS."""
     return turned(painted(_leaf, (level,)), turn, HEADINGS, ARM)
@@ -137,7 +137,7 @@ def _leaf(level: int) -> pygame.Surface:
     return ink.lit(0.7)
 
 
-@lru_cache(maxsize=4 * HEADINGS)
+@cached
 def lamp(color: Color, turn: int) -> Sprite:
     """The outer edge of a petal, lit."""
     return turned(painted(_lamp, (color,)), turn, HEADINGS, ARM)
@@ -148,20 +148,20 @@ def _lamp(color: Color) -> pygame.Surface:
     return master(40, ARM).arc(0, 0, OUTER + 6, -half, half, color, 7).lit(0.8)
 
 
-@cache
+@cached
 def dot(color: Color, r: float) -> Sprite:
     """One dot of a line."""
     return trim(Ink(48, 48, 3).disc(24, 24, r, color).lit(0.8), 24, 24)
 
 
-@cache
+@cached
 def goal(color: Color) -> Sprite:
     """Where it is going."""
     ink = Ink(120, 120, 3).ring(60, 60, GOAL_R, color, LINE).ring(60, 60, 11, color, LINE)
     return trim(ink.lit(0.7), 60, 60)
 
 
-@cache
+@cached
 def cross(color: Color) -> Sprite:
     """Where its sight ends."""
     ink = Ink(80, 80, 3).to(40, 40)

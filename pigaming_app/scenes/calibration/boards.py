@@ -3,8 +3,6 @@
 In the margin below the markers a row of boxes shows how many pictures were taken; it is dark on the board's light.
 """
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.hardware.boards import LIGHT, Board
@@ -16,6 +14,7 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.pixels import grey_surface
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Pop, Swap, Turn
+from pigaming_app.scenes.surface_cache import cached
 
 BOX, GAP, FOOT = 26, 8, 1062  # px: of a box of the progress, between two, the line on which they are
 GREY, DONE = (150, 150, 150), (20, 20, 20)
@@ -86,7 +85,7 @@ class BoardsPage:
             pygame.draw.rect(screen, DONE if i < taken else GREY, box, 0 if i < taken else 2)
 
 
-@lru_cache(maxsize=2)
+@cached
 def picture(board: Board) -> pygame.Surface:
     """A board as it is projected. Raises NoVision."""
     surface = grey_surface(board.picture())

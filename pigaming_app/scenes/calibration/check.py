@@ -1,6 +1,6 @@
 """Does the calibration still hold? The corner markers are shown, and by how much they are not where they should be."""
 
-from functools import lru_cache, partial
+from functools import partial
 
 import pygame
 
@@ -23,6 +23,7 @@ from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Turn
 from pigaming_app.scenes.stage import LEFT, TOP
+from pigaming_app.scenes.surface_cache import cached
 
 BAR = pygame.Rect(560, 640, 800, 40)
 MOST = 20.0  # mm at the right end of the bar
@@ -106,7 +107,7 @@ class CheckPage:
         text(self.house.words(f"calibrate.{key}"), LABEL, color, "body").draw(screen, 960, 800)
 
 
-@lru_cache(maxsize=1)
+@cached
 def bar() -> Lit:
     """The empty bar, with marks where it warns and where a match pauses."""
     pane = Pane(BAR.x, BAR.y - 20, BAR.w, 120)

@@ -3,14 +3,13 @@
 They are painted whenever robots are driven by a camera; the tracker compares where it sees them with the calibration.
 """
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.hardware.drift import Drift, corner_markers
 from pigaming_app.hardware.rig import Rig
 from pigaming_app.hardware.tracker import Tracker
 from pigaming_app.scenes.pixels import grey_surface
+from pigaming_app.scenes.surface_cache import cached
 
 
 class DriftWatch:
@@ -32,7 +31,7 @@ def draw_corners(screen: pygame.Surface) -> None:
     screen.blits(tiles())
 
 
-@lru_cache(maxsize=1)
+@cached
 def tiles() -> list[tuple[pygame.Surface, tuple[int, int]]]:
     """The corner markers with their own light round them, and where each belongs."""
     return [(grey_surface(picture), (left, top)) for left, top, picture in corner_markers()]

@@ -1,7 +1,6 @@
 """A robot is put on one bright spot after the other; where the camera sees it says how high the camera hangs."""
 
 from dataclasses import replace
-from functools import lru_cache
 
 import pygame
 
@@ -15,6 +14,7 @@ from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Swap, Turn
 from pigaming_app.scenes.stage import LEFT, TOP
+from pigaming_app.scenes.surface_cache import cached
 
 DISC = 72  # px: the light must fall on all of a lid, which is 70 mm up, aslant
 GREY = (128, 128, 128)
@@ -83,7 +83,7 @@ class OutlinesPage:
         self.work.shown(place)
 
 
-@lru_cache(maxsize=3)
+@cached
 def spot(here: bool, done: bool) -> Lit:
     """Four lines that help to put a robot in the middle; no light near its marker."""
     color = FOCUS if here else dim(ICE, 0.5) if done else STEEL

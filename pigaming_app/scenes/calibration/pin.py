@@ -4,7 +4,6 @@ What is saved is kept in the settings and holds for everything that the arcade s
 """
 
 import logging
-from functools import lru_cache
 
 import pygame
 
@@ -39,6 +38,7 @@ from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Turn
 from pigaming_app.scenes.stage import LEFT, TOP
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.settings import folders
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -192,7 +192,7 @@ def signed(number: int) -> str:
     return f"{number:+d}".replace("-", "−") if number else "0"
 
 
-@lru_cache(maxsize=1)
+@cached
 def grid() -> pygame.Surface:
     """A grid over the whole picture, the edge of the arena, and a black box in the middle."""
     pane = Pane(0, 0, 1920, 1080)
@@ -211,11 +211,11 @@ def grid() -> pygame.Surface:
     return surface
 
 
-@lru_cache(maxsize=4)
+@cached
 def handle(corner: int) -> Lit:
     """The corner that is moved: a bright angle, and an arrow out to it."""
-    across, down = (1, 1, -1, -1)[corner], (1, -1)[corner > 1]
     x, y = CORNERS[corner]
+    across, down = (-1 if x else 1), (-1 if y else 1)  # from the corner into the picture
     pane = Pane(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)
     ink: Ink = pane.hot
     for width, reach in ((THIN, 20), (14, 8)):

@@ -1,12 +1,11 @@
 """The picture of what a calibration gets wrong: an arrow at every corner of the held-out board, much enlarged."""
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.hardware.solver import MAX_MM, Residuals
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEEL, SUB, THIN, Color, cut, dim, panel
 from pigaming_app.scenes.pane import Lit, Pane, span
+from pigaming_app.scenes.surface_cache import cached
 
 AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the picture
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it
@@ -41,7 +40,7 @@ def _at(x: float, y: float) -> tuple[float, float]:
     return AREA.centerx + (x + 160 - 960) * SCALE, AREA.y + 12 + (y + 140) * SCALE
 
 
-@lru_cache(maxsize=4)
+@cached
 def figure(name: str, mm: float, limit: float, need: str) -> Lit:
     """One error as a number, and as a bar up to twice what is allowed; upper left at (0, 0)."""
     pane = Pane(0, -20, SIDE.w, 190)

@@ -7,7 +7,7 @@ jumped (the training runs faster than eyes can follow) their shadows stay for a 
 import math
 from collections import deque
 from collections.abc import Iterator
-from functools import cache, partial
+from functools import partial
 from time import perf_counter
 from typing import Any
 
@@ -18,6 +18,7 @@ from pigaming_app.scenes import effects
 from pigaming_app.scenes.ink import ADD, PLAYERS, PRE, Ink, dim
 from pigaming_app.scenes.lab.places import ARENA, MATCH, SCALE
 from pigaming_app.scenes.sprites import HEADINGS, Batch, Sprite, faded, put, step
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.views.walled import wall_sprite
 from pigaming_app.scenes.views.warming import Job
@@ -183,13 +184,13 @@ def little(sprite: Sprite) -> Sprite:
     return Sprite(pygame.transform.smoothscale(sprite.image, size), round(sprite.dx * SCALE), round(sprite.dy * SCALE))
 
 
-@cache
+@cached
 def little_tank(player: int, turn: int) -> Sprite:
     """A robot at heading `turn` of HEADINGS."""
     return little(tank(player, turn))
 
 
-@cache
+@cached
 def shadow(player: int, turn: int, level: int) -> Sprite:
     """Where a robot was, at heading `turn` of a quarter of HEADINGS, `level` of SHADOWS bright."""
     sprite = little_tank(player, 4 * turn)
@@ -198,19 +199,19 @@ def shadow(player: int, turn: int, level: int) -> Sprite:
     return faded(Sprite(flat, sprite.dx, sprite.dy), 0.45 * level / SHADOWS)
 
 
-@cache
+@cached
 def little_bullet(player: int, turn: int) -> Sprite:
     """A shot, flying at heading `turn` of TURNS."""
     return little(effects.bullet(player, turn * HEADINGS // effects.TURNS))
 
 
-@cache
+@cached
 def little_wave(player: int, stage: int) -> Sprite:
     """The shock of a hit, `stage` of WAVE_STEPS."""
     return little(effects.wave(PLAYERS[player], stage))
 
 
-@cache
+@cached
 def dot(player: int, level: int) -> Sprite:
     """A dot of a trail, `level` of TREAD_LEVELS bright."""
     ink = Ink(28, 28).disc(14, 14, 5, dim(PLAYERS[player], 0.08 + 0.07 * level))
@@ -224,7 +225,7 @@ class _Wall:
         self.ax, self.ay, self.bx, self.by, self.half, self.whole = ax, ay, bx, by, half, whole
 
 
-@cache
+@cached
 def little_wall(ax: float, ay: float, bx: float, by: float, half: float, whole: int, health: int) -> Sprite:
     """A wall with so much health."""
     return little(wall_sprite(_Wall(ax, ay, bx, by, half, whole), health))

@@ -4,7 +4,6 @@ Everyone plays everyone, a little in every frame; the table sorts itself while t
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import combinations
 from time import perf_counter
 
@@ -22,6 +21,7 @@ from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
+from pigaming_app.scenes.surface_cache import cached
 
 MATCHES = {True: 10, False: 2}  # of every two, compiled and plain
 MINUTES = 1.0
@@ -139,7 +139,7 @@ class Compare:
         screen.fill(GOOD, (box.x, box.y, round(box.w * done), box.h))
 
 
-@lru_cache(maxsize=24)
+@cached
 def row(name: str, own: bool, best: bool) -> Lit:
     """A row without its numbers; upper left at (0, 0)."""
     w = RIGHT - LEFT

@@ -4,7 +4,6 @@ them. A tie is half a win, so the hand-made robot itself would be on the dashed 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 
 import pygame
@@ -13,6 +12,7 @@ from pigaming_app.scenes.ink import BODY, ICE, MIST, STEEL, THIN, TITLE, WHITE, 
 from pigaming_app.scenes.lab.places import CURVE, GOOD, PLOT, RIGHT
 from pigaming_app.scenes.page import text
 from pigaming_app.scenes.pane import Lit, word
+from pigaming_app.scenes.surface_cache import cached
 
 FIRST = 50  # matches that the plot has room for in the beginning; it doubles
 HANDMADE = 0.5  # how often one wins against one like itself
@@ -91,7 +91,7 @@ def _height(share: float) -> float:
     return max(CURVE.top + 104.0, min(CURVE.bottom - 64.0, PLOT.bottom - PLOT.h * share))
 
 
-@lru_cache(maxsize=101)
+@cached
 def number(percent: int) -> Lit:
     """How often, round (0, 0)."""
     return word(f"{percent}%", TITLE - 16, ICE, "head", 0.45)

@@ -1,11 +1,11 @@
 """A knob from -10 to +10: zero at the top, lit from zero to its value, good one way and bad the other."""
 
 import math
-from functools import lru_cache
 
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
 from pigaming_app.scenes.lab.places import BAD, GOOD, NOTHING
 from pigaming_app.scenes.pane import Lit, Pane
+from pigaming_app.scenes.surface_cache import cached
 
 MOST = 10
 RADIUS = 48  # px
@@ -14,7 +14,7 @@ TOP = -math.pi / 2
 ARROW = 88  # px from the middle of a knob that is held to the tip of an arrow
 
 
-@lru_cache(maxsize=128)
+@cached
 def dial(value: int, held: bool) -> Lit:
     """The knob at `value`, round (0, 0); `held`: somebody is turning it."""
     pane = Pane(-110, -80, 220, 160)

@@ -1,7 +1,5 @@
 """A name for the robot, chosen with a stick and one button: up and down change a letter, FIRE goes on, START saves."""
 
-from functools import cache
-
 import pygame
 
 from pigaming_app.scenes.ink import (
@@ -26,6 +24,7 @@ from pigaming_app.scenes.pane import Lit, Pane, backdrop, word
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
+from pigaming_app.scenes.surface_cache import cached
 
 DEAF = 0.3  # seconds in which presses are ignored
 ROLL = 0.09  # seconds in which a letter rolls into its place
@@ -155,7 +154,7 @@ def middle(slot: int) -> float:
     return 960 + (slot - (LENGTH - 1) / 2) * (W + GAP)
 
 
-@cache
+@cached
 def box() -> Lit:
     """A letter's box, round (0, 0)."""
     pane = Pane(-W / 2, -H / 2, W, H)
@@ -164,7 +163,7 @@ def box() -> Lit:
     return pane.done()
 
 
-@cache
+@cached
 def here() -> Lit:
     """The corners round the letter that is chosen, and what changes it; round (0, 0)."""
     pane = Pane(-W / 2 - 20, -230, W + 40, 460)

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import Any
 
 import pygame
@@ -57,6 +56,7 @@ from pigaming_app.scenes.page import blacked, stamp
 from pigaming_app.scenes.pane import Lit, Pane, backdrop, fitted
 from pigaming_app.scenes.rose import LEVELS, PETALS, draw_petals, draw_signs, tone
 from pigaming_app.scenes.sprites import HEADINGS, Sprite
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.words import Words
 
@@ -130,7 +130,7 @@ class LabPage:
         bar_knob().draw(screen, left + (right - left) * now.knowing, BAR_Y)
 
 
-@lru_cache(maxsize=2)
+@cached
 def ground(language: str) -> pygame.Surface:
     """Everything of the page that never changes."""
     words, page = Words(language), Page()
@@ -211,7 +211,7 @@ def _play(page: Page, said: str) -> None:
     page.body(said, PLAY.left + 112, PLAY.centery, ICE, "l", fitted(said, BODY + 2, PLAY.w - 136, "body"))
 
 
-@lru_cache(maxsize=8)
+@cached
 def speed(most: str, chosen: int) -> Lit:
     """The three speeds, one of them lit; upper left at (0, 0)."""
     pane = Pane(0, 0, SPEED.w, SPEED.h)
@@ -238,7 +238,7 @@ def speed_at(x: float) -> int:
     return next(i for i in (2, 1, 0) if x >= speed_part(i)[0] or i == 0)
 
 
-@lru_cache(maxsize=16)
+@cached
 def knob_name(said: str, focus: bool) -> Lit:
     """What a knob turns, in two lines at most below it; round the middle of the knob."""
     color: Color = FOCUS if focus else ICE
@@ -259,7 +259,7 @@ def balanced(said: str) -> list[str]:
     return list(min(cuts, key=lambda lines: max(text_width(line, BODY, "body") for line in lines)))
 
 
-@lru_cache(maxsize=32)
+@cached
 def tag(said: str) -> Sprite:
     """A word on a black plate, from its upper left corner."""
     w = round(text_width(said, BODY, "body")) + 40
@@ -269,7 +269,7 @@ def tag(said: str) -> Sprite:
     return Sprite(ink.sprite(0.5), -24, -24)
 
 
-@lru_cache(maxsize=1)
+@cached
 def bar_knob() -> Lit:
     """Where on the bar it is, round (0, 0)."""
     ink = Ink(80, 80).disc(40, 40, 17, WHITE)

@@ -1,7 +1,6 @@
 """The saved robots: choose one to go on with."""
 
 from datetime import datetime
-from functools import lru_cache
 
 import pygame
 
@@ -14,6 +13,7 @@ from pigaming_app.scenes.pane import Lit, Pane, backdrop, fitted, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
+from pigaming_app.scenes.surface_cache import cached
 
 COLUMNS, ROWS = 3, 4
 TOP, HIGH, PITCH = 236, 140, 164
@@ -113,7 +113,7 @@ def saved(name: str) -> str:
         return ""
 
 
-@lru_cache(maxsize=64)
+@cached
 def card(name: str, when: str, hot: bool) -> Lit:
     """A robot's name and when it was saved; upper left at (0, 0)."""
     w = span(0, 4)[1]

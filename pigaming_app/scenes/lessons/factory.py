@@ -1,7 +1,6 @@
 """How to play Robot Factory: lift a pallet, machine A and then B, deliver, mind people."""
 
 import math
-from functools import cache
 from itertools import pairwise
 
 import pygame
@@ -13,6 +12,7 @@ from pigaming_app.scenes.lessons.loop import add
 from pigaming_app.scenes.page import stamp
 from pigaming_app.scenes.pane import Lit
 from pigaming_app.scenes.sprites import HEADINGS
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.views.shopfloor import draw_lorry, draw_machine, draw_slot
 
@@ -133,7 +133,7 @@ def _carried(share: float) -> tuple[float, float]:
     return corners[-1]
 
 
-@cache
+@cached
 def _warehouse() -> Lit:
     hot, cold = Ink(240, 480).to(120, 240), Ink(240, 480).to(120, 240)
     box = cut(-54, -2 * PITCH - 12, 108, 4 * PITCH + 24, 16)
@@ -143,7 +143,7 @@ def _warehouse() -> Lit:
     return _lit(hot, cold, SHELF - 120, -240)
 
 
-@cache
+@cached
 def _machines() -> Lit:
     """Both machines with their slots, and the way from one to the other."""
     hot, cold = Ink(460, 460).to(230, 230), Ink(460, 460).to(230, 230)
@@ -158,14 +158,14 @@ def _machines() -> Lit:
     return _lit(hot, cold, -230, -230)
 
 
-@cache
+@cached
 def _lorry() -> Lit:
     ink = Ink(240, 180).to(120, 90, 0, 1.4)
     draw_lorry(ink, 0, 0, crates.TEAMS[ICE], -1)
     return Lit(ink.lit(0.8), (-120, -90))
 
 
-@cache
+@cached
 def _button(pressed: bool) -> Lit:
     """A button that is pressed now and then."""
     ink = Ink(140, 140).to(70, 70)

@@ -1,7 +1,6 @@
 """How to play PiTanks: drive, shoot, break walls, collect."""
 
 import math
-from functools import cache
 
 import pygame
 
@@ -12,6 +11,7 @@ from pigaming_app.scenes.lessons.loop import Loop, add, drive_round
 from pigaming_app.scenes.page import stamp
 from pigaming_app.scenes.pane import Lit
 from pigaming_app.scenes.sprites import HEADINGS, step
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.wall import wall
 
@@ -104,7 +104,7 @@ def pickups(screen: pygame.Surface, x: float, y: float, seconds: float) -> str |
     return f"powers.{POWERS[chosen]}"
 
 
-@cache
+@cached
 def _stick() -> Lit:
     ink = Ink(200, 200).to(100, 100)
     ink.ring(0, 0, 40, MIST, THIN)
@@ -113,18 +113,18 @@ def _stick() -> Lit:
     return Lit(ink.lit(0.6), (-100, -100))
 
 
-@cache
+@cached
 def _knob() -> Lit:
     return Lit(Ink(96, 96).disc(48, 48, 19, ICE).lit(0.8), (-48, -48))
 
 
-@cache
+@cached
 def _cell(lit: bool) -> Lit:
     ink, box = Ink(96, 96), cut(32, 26, 32, 44, 7)
     return Lit((ink.fill(box, FOCUS) if lit else ink.line(box, STEEL, 3, True)).lit(0.8), (-48, -48))
 
 
-@cache
+@cached
 def _halo() -> Lit:
     ink = Ink(200, 200).to(100, 100)
     for i in range(8):

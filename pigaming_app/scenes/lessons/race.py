@@ -1,7 +1,6 @@
 """How to play Robot Race: laps, four lines in order, whose line ends a lap, mud."""
 
 import math
-from functools import cache
 
 import pygame
 
@@ -9,6 +8,7 @@ from pigaming_app.scenes import effects, things
 from pigaming_app.scenes.ink import ALARM, ICE, PLAYERS, SUB, THIN, Color, Ink, badge, dim, mix
 from pigaming_app.scenes.lessons.loop import Loop, add, drive_by, drive_round
 from pigaming_app.scenes.pane import Lit, word
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.race_signs import clods
 from pigaming_app.scenes.views.roadway import EDGE, MUD, Frame, draw_line
 
@@ -79,7 +79,7 @@ def mud(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | Non
     return None
 
 
-@cache
+@cached
 def _round(lined: bool) -> Lit:
     """A road all round; with the lines of all four players across it."""
     hot, cold = _sheets()
@@ -92,7 +92,7 @@ def _round(lined: bool) -> Lit:
     return _lit(hot, cold)
 
 
-@cache
+@cached
 def _own() -> Lit:
     """A straight road with the lines of two players."""
     hot, cold = _sheets()
@@ -104,7 +104,7 @@ def _own() -> Lit:
     return _lit(hot, cold)
 
 
-@cache
+@cached
 def _edge() -> Lit:
     """Where the road ends, and contour lines of mud below."""
     hot, cold = _sheets()
@@ -115,7 +115,7 @@ def _edge() -> Lit:
     return _lit(hot, cold)
 
 
-@cache
+@cached
 def _post(line: int, lit: bool) -> Lit:
     ink = Ink(120, 120).to(60, 60)
     badge(ink, line, 0, 0, 25, None if lit else dim(PLAYERS[line], 0.3))

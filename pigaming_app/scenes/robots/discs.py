@@ -6,7 +6,6 @@ aslant, hence discs twice as wide as the robot.
 """
 
 import math
-from functools import cache
 
 import pygame
 
@@ -14,6 +13,7 @@ from pigaming_app.hardware.rig import Rig
 from pigaming_app.scenes.ink import BLACK, GREY, LINE, PLAYERS, THIN, Color, Ink, badge, regular
 from pigaming_app.scenes.mat import LIGHT_AFTER
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -61,7 +61,7 @@ def _behind(at: Sighting) -> tuple[float, float]:
     return dx, dy
 
 
-@cache
+@cached
 def disc(r: int, color: Color) -> pygame.Surface:
     """A disc of one colour, of `r` px; nothing shines through."""
     out = pygame.Surface((2 * r, 2 * r), pygame.SRCALPHA)
@@ -69,7 +69,7 @@ def disc(r: int, color: Color) -> pygame.Surface:
     return out
 
 
-@cache
+@cached
 def ring(player: int) -> Sprite:
     """The ring in the player's colour, which hides the ground."""
     half = RING + 24
@@ -78,7 +78,7 @@ def ring(player: int) -> Sprite:
     return trim(ink.sprite(0.9), half, half)
 
 
-@cache
+@cached
 def pointer(player: int, turn: int) -> Sprite:
     """Barrel and arrow ahead of a robot at heading `turn` of HEADINGS."""
     return turned(painted(_pointer, (player,)), turn, HEADINGS, ARM)
@@ -92,7 +92,7 @@ def _pointer(player: int) -> pygame.Surface:
     return ink.neon([(far - 6, -15), (TIP, 0), (far - 6, 15)], color, LINE).sprite(0.8)
 
 
-@cache
+@cached
 def tag(player: int) -> Sprite:
     """The badge of a player on black."""
     ink = Ink(96, 96).to(48, 48)

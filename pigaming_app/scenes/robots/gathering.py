@@ -4,7 +4,6 @@ The mat stays dark but for outlines, arrows and discs, so that markers are found
 """
 
 import math
-from functools import cache, lru_cache
 
 import pygame
 
@@ -22,6 +21,7 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.robots.discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.robots.trouble import named, shown
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, turned
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -111,7 +111,7 @@ class Gathering:
         sheet.draw(screen, x, y + (BESIDE if y < TOP + HEIGHT / 2 else -BESIDE))
 
 
-@cache
+@cached
 def frame() -> Lit:
     """The rim of the arena, dim."""
     pane = Pane(LEFT, TOP, WIDTH, HEIGHT)
@@ -119,7 +119,7 @@ def frame() -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=8)
+@cached
 def outline(player: int, there: bool) -> Lit:
     """Where a robot shall stand, round (0, 0): dashed, and whole once it is there."""
     half = RING + 24
@@ -132,7 +132,7 @@ def outline(player: int, there: bool) -> Lit:
     return Lit(ink.lit(0.8), (-half, -half))
 
 
-@cache
+@cached
 def dash(player: int, turn: int, moving: bool) -> Sprite:
     """A tip of an arrow at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (player, moving)), turn, HEADINGS)

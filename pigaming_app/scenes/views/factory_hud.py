@@ -4,7 +4,7 @@ They are baked into the ground whenever what they say changes.
 """
 
 from collections.abc import Callable, Iterator
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import pygame
@@ -15,6 +15,7 @@ from pigaming_app.scenes.crates import TEAMS as COLORS
 from pigaming_app.scenes.crates import draw_crate, emblem
 from pigaming_app.scenes.ink import ALARM, ICE, LABEL, LINE, MIST, PLAYERS, SUB, TITLE, Ink, badge, cut, dim, icon
 from pigaming_app.scenes.sprites import Sprite, faded
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import glyph, number_width
 from pigaming_app.scenes.views.ground import HUD_HEIGHT, Bit, Ground
 from pigaming_app.scenes.views.hud import ALARM_SECONDS, number_bits
@@ -108,7 +109,7 @@ def panel_bits(
         yield image, (round(at(px, 0)) - image.get_width() // 2, round(Y + H / 2) - image.get_height() // 2), None
 
 
-@cache
+@cached
 def frame(team: int) -> pygame.Surface:
     """Outline and emblem of a panel."""
     ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
@@ -117,7 +118,7 @@ def frame(team: int) -> pygame.Surface:
     return ink.lit(0.6)
 
 
-@cache
+@cached
 def small_crate(team: int, state: int, size: int) -> pygame.Surface:
     """A crate in a panel."""
     ink = Ink(size + 28, size + 28, 3)
@@ -125,7 +126,7 @@ def small_crate(team: int, state: int, size: int) -> pygame.Surface:
     return ink.lit(0.5)
 
 
-@cache
+@cached
 def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
     """A robot of the team: badge, the mark of an AI, and its turbo, of 16."""
     ink = Ink(120, 52, 3)
@@ -138,7 +139,7 @@ def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
     return ink.lit(0.4)
 
 
-@cache
+@cached
 def pulse(team: int) -> tuple[Sprite, ...]:
     """A panel that lights up at a delivery, and how that fades; from its upper left corner."""
     ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE).fill(cut(0, 0, W, H), dim(COLORS[team], 0.24))

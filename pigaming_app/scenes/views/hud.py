@@ -6,7 +6,7 @@ the clock and linked to their panels.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import pygame
@@ -36,6 +36,7 @@ from pigaming_app.scenes.ink import (
     mix,
 )
 from pigaming_app.scenes.sprites import Sprite, faded
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import glyph, number_width, small_icon
 from pigaming_app.scenes.views.ground import HUD_HEIGHT, Bit, Ground
 from pigaming_app.sim.world import HZ
@@ -202,7 +203,7 @@ def number_bits(text: str, size: int, x: float, y: float, color: Color) -> list[
     return bits
 
 
-@cache
+@cached
 def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, the leader's crown and the sign of an AI."""
     ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
@@ -220,7 +221,7 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
     return ink.lit(0.7)
 
 
-@cache
+@cached
 def pulse(player: int, w: int) -> tuple[Sprite, ...]:
     """A panel that lights up when its points change, and how that fades; from its upper left corner."""
     ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
@@ -229,7 +230,7 @@ def pulse(player: int, w: int) -> tuple[Sprite, ...]:
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
 
-@cache
+@cached
 def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
     """The cells of a turbo meter, all lit or all dark."""
     ink = Ink(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
@@ -240,7 +241,7 @@ def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
     return ink.lit(0.5) if full else ink.plain()
 
 
-@cache
+@cached
 def sum_frame(leads: bool, second: bool) -> pygame.Surface:
     """The box of a team's sum, with the bars that its robots wear: one, or two for the second team."""
     ink = Ink(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
@@ -255,7 +256,7 @@ def sum_frame(leads: bool, second: bool) -> pygame.Surface:
     return ink.lit(0.7)
 
 
-@cache
+@cached
 def link() -> pygame.Surface:
     """Two short bars between panels that belong together."""
     ink = Ink(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)

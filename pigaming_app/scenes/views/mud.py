@@ -1,12 +1,12 @@
 """The mud round a track: brown contour lines like those of a map, wobbling, with clods between them."""
 
 import random
-from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
 import pygame
 
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.roadway import MUD
 from pigaming_app.sim.course import Course, Place, locate
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -18,7 +18,7 @@ CLODS = 420
 Heights = npt.NDArray[np.float32]
 
 
-@lru_cache(maxsize=4)
+@cached
 def mud(course: Course) -> pygame.Surface:
     """The arena of 1600 x 900, with mud wherever there is no track: to be added to what lies there."""
     away = _away(course)

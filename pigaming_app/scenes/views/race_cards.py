@@ -5,7 +5,6 @@ A card is baked into the ground from these pieces whenever what it says changes.
 
 import math
 from dataclasses import dataclass
-from functools import cache
 
 import pygame
 
@@ -31,6 +30,7 @@ from pigaming_app.scenes.ink import (
     regular,
 )
 from pigaming_app.scenes.sprites import Sprite, faded
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import number_width
 from pigaming_app.scenes.views.ground import Bit
 from pigaming_app.scenes.views.hud import number_bits
@@ -107,7 +107,7 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
 # ---- pieces, each made once
 
 
-@cache
+@cached
 def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
     """Outline and badge of a card; it is red while something is wrong and bold when the race is done."""
     ink, color = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
@@ -123,7 +123,7 @@ def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
     return ink.lit(0.7)
 
 
-@cache
+@cached
 def pulse(seat: int) -> tuple[Sprite, ...]:
     """A card that lights up, and how that fades; from its upper left corner."""
     ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
@@ -131,7 +131,7 @@ def pulse(seat: int) -> tuple[Sprite, ...]:
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
 
-@cache
+@cached
 def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
     """A short word, EDGE px in from the left and with its middle EDGE px down."""
     wide = max(1, round(number_width(text, size)))
@@ -139,7 +139,7 @@ def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
     return ink.text(text, size, EDGE, EDGE, color, "head").lit(0.5)
 
 
-@cache
+@cached
 def turbo(seat: int, full: bool) -> pygame.Surface:
     """The cells of a turbo meter, all lit or all dark."""
     ink, color = Ink(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
@@ -149,7 +149,7 @@ def turbo(seat: int, full: bool) -> pygame.Surface:
     return ink.lit(0.5) if full else ink.plain()
 
 
-@cache
+@cached
 def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
     """The bar along a card's foot, a piece for each lap, all lit or all dark."""
     ink, color = Ink(FOOT + 2 * EDGE, 6 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
@@ -160,7 +160,7 @@ def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
     return ink.lit(0.6) if full else ink.plain()
 
 
-@cache
+@cached
 def mover(up: bool) -> pygame.Surface:
     """An arrowhead: went ahead, or fell back."""
     side = -1 if up else 1
@@ -168,7 +168,7 @@ def mover(up: bool) -> pygame.Surface:
     return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
 
 
-@cache
+@cached
 def signs(done: bool) -> pygame.Surface:
     """What stands before the times: a stopwatch or, in the end, a flag; a lap gone round; a star for the best."""
     ink = Ink(W // 2, H + 2 * EDGE).to(EDGE, EDGE)
@@ -182,7 +182,7 @@ def signs(done: bool) -> pygame.Surface:
     return ink.fill(star(0, ROWS[2], 12), FOCUS).lit(0.5)
 
 
-@cache
+@cached
 def missed_mark(line: int) -> pygame.Surface:
     """On a card: the badge of the line that was missed."""
     ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
@@ -191,7 +191,7 @@ def missed_mark(line: int) -> pygame.Surface:
     return ink.disc(114, 80, 8, WHITE).lit(0.7)
 
 
-@cache
+@cached
 def wrong_mark() -> pygame.Surface:
     """On a card: turn round."""
     ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)

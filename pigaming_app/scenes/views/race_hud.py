@@ -4,13 +4,14 @@ The clock counts up; once somebody has finished it counts down what the others h
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache, partial
+from functools import partial
 
 import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, MIST, SUB, TITLE, WHITE, Color, Ink
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import glyph, number_width
 from pigaming_app.scenes.views import race_cards
 from pigaming_app.scenes.views.ground import Ground
@@ -145,7 +146,7 @@ def _time(ticks: float) -> str:
     return f"{ticks * DT:.2f}" if ticks > 0.0 else "–"
 
 
-@cache
+@cached
 def small_flag() -> pygame.Surface:
     """The flag beside the clock once somebody has finished."""
     ink = Ink(104, 104)

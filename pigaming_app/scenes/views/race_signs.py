@@ -2,7 +2,6 @@
 
 import math
 import random
-from functools import cache
 
 import pygame
 
@@ -27,6 +26,7 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.race_cards import flag, star, u_turn
 from pigaming_app.scenes.views.roadway import MUD
 
@@ -37,7 +37,7 @@ GHOST_TURNS = 48
 DARK_RED = (36, 6, 8)
 
 
-@cache
+@cached
 def wrong_way(below: bool) -> Sprite:
     """Turn round: a red disc with a bent arrow, pointing at the robot above or `below` it."""
     ink, up = Ink(184, 184).to(92, 92), -1 if below else 1
@@ -47,7 +47,7 @@ def wrong_way(below: bool) -> Sprite:
     return trim(u_turn(ink, 0, -1, 0.92).sprite(0.9), 92, 92)
 
 
-@cache
+@cached
 def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
     """A red sign with the badge of the line to go back to; `words` say that the lap did not count."""
     wide = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
@@ -66,7 +66,7 @@ def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
     return Sprite(sprite.image, sprite.dx, sprite.dy - (high // 2 - 42) * up)
 
 
-@cache
+@cached
 def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
     """Finished: the place, over and under it a chequered band."""
     color = PLAYERS[seat]
@@ -84,7 +84,7 @@ def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
     return trim(ink.sprite(0.8), half_w, half_h)
 
 
-@cache
+@cached
 def notice(text: str, color: Color, sign: str = "") -> Sprite:
     """A word that rises over a robot, with a star or a flag before it."""
     lead = 64 if sign else 0
@@ -100,13 +100,13 @@ def notice(text: str, color: Color, sign: str = "") -> Sprite:
     return trim(ink.sprite(0.7), wide / 2, high / 2)
 
 
-@cache
+@cached
 def gold_star() -> Sprite:
     """Before a time that is the best."""
     return trim(Ink(112, 112).to(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
 
 
-@cache
+@cached
 def ghost(turn: int) -> Sprite:
     """The best lap ever, at heading `turn` of GHOST_TURNS: a dashed outline with a star."""
     return turned(painted(_ghost, ()), turn, GHOST_TURNS)
@@ -119,7 +119,7 @@ def _ghost() -> pygame.Surface:
     return ink.fill(star(0, 0, 15), color).lit(0.8)
 
 
-@cache
+@cached
 def dash(seat: int, turn: int) -> Sprite:
     """A piece of the way back to a missed line, at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (seat,)), turn, HEADINGS)
@@ -131,7 +131,7 @@ def _dash(seat: int) -> pygame.Surface:
     return ink.line([(-9, 0), (9, 0)], PLAYERS[seat], 7).sprite(0.7)
 
 
-@cache
+@cached
 def tip(seat: int, turn: int) -> Sprite:
     """Where that way ends: an arrowhead at heading `turn` of HEADINGS."""
     return turned(painted(_tip, (seat,)), turn, HEADINGS)
@@ -143,14 +143,14 @@ def _tip(seat: int) -> pygame.Surface:
     return ink.fill([(24, 0), (-16, 23), (-16, -23)], PLAYERS[seat]).sprite(0.9)
 
 
-@cache
+@cached
 def clods(size: int) -> tuple[Sprite, ...]:
     """A lump of mud as it fades: the last is the brightest."""
     whole = trim(Ink(48, 48).to(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole
 
 
-@cache
+@cached
 def splash(which: int) -> Sprite:
     """Mud under a robot, one of three shapes."""
     rng, ink, color = random.Random(which), Ink(160, 160).to(80, 80), dim(MUD, 0.62)
@@ -160,7 +160,7 @@ def splash(which: int) -> Sprite:
     return trim(ink.disc(0, 0, 42, color).lit(0.3), 80, 80)
 
 
-@cache
+@cached
 def confetti(color: Color, turn: int) -> tuple[Sprite, ...]:
     """A square of the chequered flag, turned one of four ways, as it fades: the last is the brightest."""
     ink = Ink(56, 56).to(28, 28, turn * math.pi / 8)

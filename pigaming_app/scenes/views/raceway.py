@@ -1,11 +1,10 @@
 """The ground of a race: road, mud, lines and what stands beside them; painted once for every track and kept."""
 
-from functools import lru_cache
-
 import pygame
 
 from pigaming_app.games.race.start import Track
 from pigaming_app.scenes.ink import ADD, STEEL, WIDE, Ink
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.ground import LEFT, TOP, Ground
 from pigaming_app.scenes.views.roadway import BADGE, draw_track, edges, sign_post
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -21,7 +20,7 @@ class Raceway(Ground):
         super().__init__(bare(track))
 
 
-@lru_cache(maxsize=4)
+@cached
 def bare(track: Track) -> pygame.Surface:
     """The whole canvas without HUD."""
     out = pygame.Surface((1920, 1080))
@@ -35,7 +34,7 @@ def bare(track: Track) -> pygame.Surface:
     return out
 
 
-@lru_cache(maxsize=4)
+@cached
 def earth(track: Track) -> pygame.Surface:
     """The arena of 1600 x 900: mud, and in it the black of the road and of where badges stand."""
     from pigaming_app.scenes.views.mud import mud  # with numpy, for which the title does not wait

@@ -1,7 +1,6 @@
 """The ground of Robot Factory: warehouses in their teams' colours, machines, the aisle; drawn once for a floor."""
 
 import math
-from functools import lru_cache
 
 import pygame
 
@@ -9,6 +8,7 @@ from pigaming_app.games.factory.floor import BODY, Floor, SlotSpec
 from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHELVES, A
 from pigaming_app.scenes.crates import STATES, TEAMS, star, state_icon
 from pigaming_app.scenes.ink import BLACK, ICE, LINE, STEEL, THIN, WALL, Color, Ink, Page, cut, dim
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -18,7 +18,7 @@ WALKWAY = (124, 104, 30)
 Inks = tuple[Ink, Ink]  # what glows, and what does not
 
 
-@lru_cache(maxsize=4)
+@cached
 def bare(floor: Floor) -> pygame.Surface:
     """The whole canvas of a floor without what changes."""
     page = Page()

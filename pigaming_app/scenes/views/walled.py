@@ -1,13 +1,13 @@
 """The ground of PiTanks: frame, grid, the places on which robots begin, and walls, drawn again when they break."""
 
 import math
-from functools import lru_cache
 from typing import Any
 
 import pygame
 
 from pigaming_app.scenes.ink import LINE, PLAYERS, PRE, WALL, Page, cut, dim, shape_points
 from pigaming_app.scenes.sprites import Sprite
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.ground import LEFT, TOP, Ground
 from pigaming_app.scenes.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -57,7 +57,7 @@ def _box(one: Any, sprite: Sprite) -> pygame.Rect:
     return sprite.image.get_rect(topleft=(int(x + sprite.dx + 0.5), int(y + sprite.dy + 0.5)))
 
 
-@lru_cache(maxsize=4)
+@cached
 def bare(starts: Starts) -> pygame.Surface:
     """Grid, frame and the shapes on which robots begin."""
     page = Page()
