@@ -1,8 +1,8 @@
 """A scripted walk through every screen of the arcade, which measures the CPU time of each frame.
 
 A frame is: events, update, draw; without the flip, which waits for the display. Only the thread of the frames counts.
-The walk is the cold case: it runs in a fresh process with empty folders, so nothing is cached but what the arcade itself
-has prepared. Time is made up, 1/60 s a frame; keys are real events.
+The walk is the cold case: it runs in a fresh process with empty folders, so nothing is cached but what the arcade
+itself has prepared. Time is made up, 1/60 s a frame; keys are real events.
 """
 
 import json
@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from time import thread_time
 from typing import Any
@@ -96,13 +96,30 @@ class Walker:
         self.until(lambda: self.on("Title"))
 
 
-SCANCODES = {}
+SCANCODES: dict[str, int] = {}
 
 
 def _codes() -> None:
     import pygame
 
-    for key in ("w", "a", "s", "d", "x", "p", "space", "return", "escape", "tab", "f4", "f1", "up", "down", "left", "right"):
+    for key in (
+        "w",
+        "a",
+        "s",
+        "d",
+        "x",
+        "p",
+        "space",
+        "return",
+        "escape",
+        "tab",
+        "f4",
+        "f1",
+        "up",
+        "down",
+        "left",
+        "right",
+    ):
         SCANCODES[key] = getattr(pygame, f"KSCAN_{key.upper()}")
 
 
@@ -120,8 +137,6 @@ def tour(w: Walker) -> None:
 
 def pages(w: Walker, language: str) -> None:
     from pigaming_app.scenes.howto import HowTo
-    from pigaming_app.scenes.best import Best
-    from pigaming_app.scenes.options import OptionsPage
     from pigaming_app.scenes.stack import Push
 
     for game in ("pitanks", "factory", "race"):

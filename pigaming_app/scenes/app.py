@@ -5,6 +5,7 @@ A mistake in a scene is written to the log and the title comes back with one sen
 
 import faulthandler
 import logging
+import math
 import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -23,6 +24,7 @@ from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
+from pigaming_app.scenes.frame_budget import Unfinished, budget
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import NoMat, RealMat
 from pigaming_app.scenes.notices import Gauge, Notices
@@ -35,6 +37,8 @@ from pigaming_app.settings import Settings, folders
 
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
+PAINTING = 0.014  # s of a frame after which no missing piece is begun
+LATEST = 240  # frames after which a picture is completed at once, however long that takes
 SETTLING = 1.0  # s after the start in which a pointer that merely lies there does not take the focus
 TROUBLES, QUIET = 5, 10.0  # so many failures, each within so many s of the one before: the arcade gives up
 
@@ -112,6 +116,7 @@ class App:
             self.notices.say(house.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
+        self.shown, self.unfinished = False, 0  # whether there was a picture; frames since in which there was none
         self.failures, self.failed_at = 0, -QUIET
         self.stack = self._begin()
 
@@ -155,7 +160,8 @@ class App:
             self.notices.say(self.house.words("app.pin"))
 
     def compose(self, seconds: float) -> bool:
-        """Handle events, let `seconds` pass and paint the next picture; false: there is none to show."""
+        """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
+        began = perf_counter()
         events = pygame.event.get()
         if any(self._closes(event) for event in events) and not self.house.kiosk:
             self.stack.clear()
@@ -163,26 +169,39 @@ class App:
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
-        began = perf_counter()
         self._play(events, seconds)
         played = perf_counter()
-        if not self.stack.scenes:
+        if not self.stack.scenes or not self._paint(began):
             return False
-        screen = self.house.canvas.screen
-        self.stack.top.draw(screen)
-        self._say(screen, seconds)
+        self._say(self.house.canvas.screen, seconds)
         self.gauge.note(seconds, played - began, perf_counter() - played)
+        return True
+
+    def _paint(self, began: float) -> bool:
+        """Paint the top scene in what is left of a frame that has begun then; false: it is not complete yet."""
+        screen = self.house.canvas.screen
+        limited = self.options.step is None and self.shown and self.unfinished < LATEST
+        try:
+            with budget.until(began + PAINTING if limited else math.inf):
+                self.stack.top.draw(screen)
+        except Unfinished:
+            screen.set_clip(None)
+            self.unfinished += 1
+            return False
+        self.shown, self.unfinished = True, 0
         return True
 
     def _frame(self, seconds: float) -> None:
         """Compose one picture and show it."""
-        if not self.compose(seconds):
+        painted = self.compose(seconds)
+        if not self.stack.scenes:
             return
-        if self.options.shot and self.options.shot_due():
+        if painted and self.options.shot and self.options.shot_due():
             self.house.canvas.screenshot(self.options.shot)
             self.stack.clear()
             return
-        self.house.canvas.flip()
+        if painted:
+            self.house.canvas.flip()
         if self.window:
             self.window.update(seconds)
         if self.options.over():

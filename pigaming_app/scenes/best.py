@@ -1,12 +1,13 @@
 """The best of an arena, in two tables: today's beside that of all time, or of two feats, such as lap and race."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import pygame
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Feat
 from pigaming_app.scenes.feats import boards, told
+from pigaming_app.scenes.frame_budget import budget
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, TITLE, icon, panel
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
@@ -29,6 +30,7 @@ class Best:
         self.house, self.game, self.arena, self.goal, self.fresh = house, game, arena, goal, list(fresh)
         self.age = 0.0
         self.lit: list[tuple[float, Lit]] = []
+        self.pieces = self._make()
         self.prompts = Prompts(house, [(Act.FIRE, "results.on")])
 
     def entered(self) -> None:
@@ -54,14 +56,16 @@ class Best:
 
     def paint(self, screen: pygame.Surface) -> None:
         """Paint the tables alone; their rows come in one after the other."""
-        if not self.lit:
-            self.lit = list(self._make())
+        for piece in self.pieces:
+            self.lit.append(piece)
+            budget.pause()
         screen.blit(backdrop(), (0, 0))
         for begins, lit in self.lit:
             share = min(1.0, (self.age - begins) / WIPE)
             lit.draw(screen, share=1 - (1 - share) ** 2)
 
-    def _make(self) -> list[tuple[float, Lit]]:
+    def _make(self) -> Iterator[tuple[float, Lit]]:
+        """One piece of the page after the other, and the second at which each comes in."""
         words = self.house.words
         pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
         pane.page.text(words("results.scores"), TITLE, LEFT, 112)
@@ -69,18 +73,17 @@ class Best:
         where = f"{words('games.' + self.game)}  ·  {title}"
         pane.page.body(where, RIGHT, 112, MIST, "r", fitted(where, 40, 800, "body"))
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], FOCUS, LINE)
-        out = [(0.0, pane.done())]
+        yield 0.0, pane.done()
         for first, board in zip((0, 6), boards(self.game, self.arena, self.goal), strict=True):
             x, w = span(first, 6)
             rows = self.house.scores.best(self.game, board.table, board.days)[:ROWS]
             head = Pane(x, 216, w, 670)
             panel(head.hot, x, 276, w, 24 + PITCH * ROWS + 8, STEEL, THIN)
             head.page.text(words(board.heading, goal=self.goal), LABEL, x, 236, ICE)
-            out.append((0.1, head.done()))
+            yield 0.1, head.done()
             for i in range(ROWS):
                 row = rows[i] if i < len(rows) else None
-                out.append((0.2 + APART * i, self._row(row, board.feat, i, x, w)))
-        return out
+                yield 0.2 + APART * i, self._row(row, board.feat, i, x, w)
 
     def _row(self, row: Score | None, feat: Feat, i: int, x: int, w: int) -> Lit:
         y = TOP + PITCH * i + PITCH // 2 - 20

@@ -2,9 +2,11 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Job, Steps, sliced
 from pigaming_app.scenes.ink import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
 from pigaming_app.scenes.palette import CAPITALS
 from pigaming_app.scenes.sprites import Sprite, faded, trim
@@ -66,14 +68,14 @@ class Countdown:
             show(screen, arcs(self.number), at)
 
 
-def signs(go: str, *ends: str) -> Iterator[Sprite]:
-    """Every sign of a match, made one at a time, in the order in which they are shown."""
+def signs(go: str, *ends: str) -> Iterator[Job]:
+    """A job for every sign of a match, in the order in which they are shown."""
     for number in (3, 2, 1):
-        yield arcs(number)
-        yield from (popped(str(number), ICE, pop) for pop in range(POPS))
-    yield from (popped(go, FOCUS, pop) for pop in range(POPS))
-    yield from (popped(go, FOCUS, POPS - 1, level) for level in range(LEVELS - 1, 0, -1))
-    yield from (popped(end, ALARM, pop) for end in ends for pop in range(POPS))
+        yield partial(arcs, number)
+        yield from (partial(popped, str(number), ICE, pop) for pop in range(POPS))
+    yield from (partial(popped, go, FOCUS, pop) for pop in range(POPS))
+    yield from (partial(popped, go, FOCUS, POPS - 1, level) for level in range(LEVELS - 1, 0, -1))
+    yield from (partial(popped, end, ALARM, pop) for end in ends for pop in range(POPS))
 
 
 @cached
@@ -82,14 +84,15 @@ def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
     if level < LEVELS:
         return faded(popped(text, color, pop), level / LEVELS)
     if pop == POPS - 1:
-        return _word(text, color)
+        return _whole(text, color)
     whole = popped(text, color, POPS - 1)
     scale = 1.0 + 0.7 * (1 - (pop + 1) / POPS) ** 2
     image = pygame.transform.smoothscale_by(whole.image, scale)
     return Sprite(image, round(whole.dx * scale), round(whole.dy * scale))
 
 
-def _word(text: str, color: Color) -> Sprite:
+@sliced
+def _whole(text: str, color: Color) -> Steps[Sprite]:
     edge = font("hero", HUGE).render(text, True, BLACK)
     w, h = edge.get_width() + 128, HUGE + 128
     out = pygame.Surface((w, h), pygame.SRCALPHA)
@@ -97,8 +100,10 @@ def _word(text: str, color: Color) -> Sprite:
     for i in range(24):
         angle = i * math.tau / 24
         out.blit(edge, (64 + MOAT * math.cos(angle), top + MOAT * math.sin(angle)))
-    light = Ink(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lit(0.8)
+    yield
+    light = yield from Ink(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    yield
     return trim(out, w / 2, h / 2)
 
 

@@ -12,6 +12,7 @@ from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.scenes import card
 from pigaming_app.scenes.focus import Focus
+from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.lobby_page import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.press import Act, Device, Press
@@ -24,6 +25,7 @@ IDLE = 60.0  # seconds without a press until the title
 ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
 SAID = 4.0  # seconds for which a message stays
 PAUSE = 1.0  # seconds without a press in which a slow piece of work may be done
+AHEAD = 3.0  # ms of a frame for pieces that will be needed
 POINTED = 4.0  # seconds after the mouse moved in which its focus shows
 
 
@@ -38,7 +40,7 @@ class Lobby:
         self.now = Moment()
         self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
         self.focus = Focus(spots(self.seats))
-        self.ahead = card.ahead()
+        self.ahead = Ahead(card.ahead())
         self.rehearsal: Stage | None = None
 
     def entered(self) -> None:
@@ -99,15 +101,15 @@ class Lobby:
 
     def _make_ahead(self) -> None:
         """While people think: first what this page will need, then the sprites of the match."""
-        if piece := next(self.ahead, None):
-            piece()
-        elif self.rehearsal is None and self.house.idle > PAUSE:
+        if not self.ahead.work(AHEAD):
+            return
+        if self.rehearsal is None and self.house.idle > PAUSE:
             one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
             now = chosen(self.house, self.game)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.rehearsal = Stage(self.house, Match(setup), loud=False)
         elif self.rehearsal:
-            self.rehearsal.warm(3.0)
+            self.rehearsal.warm(AHEAD)
 
     # ---- what presses do
 

@@ -15,6 +15,7 @@ from pigaming_app.ai import make, seated
 from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.countdown import CENTRE, Countdown, clear_of, popped, show, signs
+from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, PLAYERS
 from pigaming_app.scenes.pause import Pause
@@ -32,6 +33,7 @@ RESUME = 0.5  # seconds for each number after an interruption
 FREEZE = 1.5  # seconds between the last tick and the results
 STILL = 60.0  # seconds without a hand on anything
 NOTICE = 3.0  # seconds for which a line over the match stays
+SIGNS, WARM = 1.0, 10.0  # ms of a frame for signs, and for other sprites while nobody moves
 STAND_IN = "normal"  # the brain that drives on for somebody
 
 
@@ -53,7 +55,7 @@ class MatchScene:
         self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
-        self.signs = signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish")))
+        self.signs = Ahead(signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
         self.notice: Plate | None = None
@@ -95,8 +97,8 @@ class MatchScene:
             return self._end(seconds)
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
-        next(self.signs, None)
-        self.warm = self.warm or self.stage.warm(14.0 if self.count.locked else 2.0)
+        self.signs.work(SIGNS)
+        self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
             self.house.sounds.play(sound)
         if self.count.locked:

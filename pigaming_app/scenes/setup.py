@@ -17,6 +17,7 @@ from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
 from pigaming_app.scenes.feats import table_of, told
 from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.page import blacked, heading
@@ -221,9 +222,11 @@ class SetupPage:
 
 
 @cached
-def picture(game: str, name: str) -> Lit:
+@sliced
+def picture(game: str, name: str) -> Steps[Lit]:
     """A large picture of an arena, where the page shows it."""
-    return Lit(preview(load_kept(game, name), *PICTURE.size), PICTURE.topleft)
+    image = yield from preview(load_kept(game, name), *PICTURE.size)
+    return Lit(image, PICTURE.topleft)
 
 
 @lru_cache(maxsize=16)

@@ -60,9 +60,9 @@ class Stage:
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the match, between its last two ticks."""
         blend = 1.0 if self.match.over else self.pace.blend
-        self.view.draw(screen, self.match.state, blend, self.unseen)
-        self.brain.draw(screen, blend, self.unseen)
-        self.unseen = 0.0
+        unseen, self.unseen = self.unseen, 0.0
+        self.view.draw(screen, self.match.state, blend, unseen)
+        self.brain.draw(screen, blend, unseen)
 
     def picture(self) -> pygame.Surface:
         """The match as it stands, as dark as it lies behind a page."""

@@ -13,6 +13,8 @@ from typing import ParamSpec, TypeVar
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import budget
+
 BUDGET = 128 << 20  # bytes
 
 Args = ParamSpec("Args")
@@ -53,7 +55,9 @@ class SurfaceCache:
             if entry is not None:
                 use(entry)
                 return entry.value  # type: ignore[return-value]  # it was made by `make`
+            budget.claim()
             value = make(*args, **named)
+            budget.note()
             self._keep(Entry(table, key, value))
             return value
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BLUE,
@@ -131,7 +132,8 @@ class LabPage:
 
 
 @cached
-def ground(language: str) -> pygame.Surface:
+@sliced
+def ground(language: str) -> Steps[pygame.Surface]:
     """Everything of the page that never changes."""
     words, page = Words(language), Page()
     out = blacked(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
@@ -148,10 +150,13 @@ def ground(language: str) -> pygame.Surface:
     _named(page, words("lab.wins"), CURVE)
     page.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
     page.cold.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
+    yield
     _legend(page, words)
     _bar(page, words)
     _play(page, words("lab.play"))
-    out.blit(page.done(), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    yield
+    light = yield from page.lighting()
+    out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     return out
 
 

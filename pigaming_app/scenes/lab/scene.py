@@ -72,8 +72,8 @@ class Lab:
         """Begin, or go on."""
         self.age, self.held = 0.0, ""
         self.house.sounds.music(True)
-        if self.page is None or self.page.language != self.house.words.language:
-            self.page, self.seen = LabPage(self.house), -1
+        if self.page and self.page.language != self.house.words.language:
+            self.page = None
 
     def on(self, press: Press) -> Turn:
         """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
@@ -115,8 +115,9 @@ class Lab:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        if self.page:
-            self.page.draw(screen, self.shown)
+        if self.page is None:
+            self.page, self.seen = LabPage(self.house), -1
+        self.page.draw(screen, self.shown)
         if not self.held:
             self.focus.draw(screen)
         words = self.house.words

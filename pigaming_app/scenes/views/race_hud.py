@@ -10,6 +10,7 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
+from pigaming_app.scenes.frame_budget import Job
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, MIST, SUB, TITLE, WHITE, Color, Ink
 from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import glyph, number_width
@@ -19,7 +20,6 @@ from pigaming_app.scenes.views.hud import number_bits
 from pigaming_app.scenes.views.picture import Words
 from pigaming_app.scenes.views.race_cards import FOOT, GAIN, LOSS, Card, H, W, Y, card_bits
 from pigaming_app.scenes.views.race_happenings import SHOWN_FROM
-from pigaming_app.scenes.views.warming import Job
 from pigaming_app.sim.world import DT, HZ
 
 PLACES = {1: (520,), 2: (520, 1048), 3: (160, 520, 1048), 4: (160, 520, 1048, 1408)}
@@ -49,13 +49,13 @@ class Cards:
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
             card = self._card(state, seat, i + 1, golden.get(seat))
             if self.said.get(x) != card:
-                self.said[x] = card
                 self.ground.bake(pygame.Rect(x - 8, 0, W + 16, HIGH), card_bits(card, x))
+                self.said[x] = card
         left = _left(state)
         clock = ("left", left) if left is not None else ("time", state.tick // HZ)
         if self.said.get("clock") != clock:
-            self.said["clock"] = clock
             self._bake_clock(*clock)
+            self.said["clock"] = clock
 
     def jobs(self, state: Race) -> Iterator[Job]:
         """The pieces of the cards, each made by one small job."""
