@@ -14,6 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from pigaming_app.hardware.kinematics import Kinematics
+from pigaming_app.hardware.packets import DEADMAN, EMPTY
 from pigaming_app.hardware.rolling import Wear
 from pigaming_app.hardware.safety import Signs
 from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Image, Telemetry, Wheels
@@ -28,6 +29,7 @@ UNMEASURED = replace(
 SPARSE = 24  # px between those of a picture that are compared with the one before
 AGAIN = 0.5  # s until the next try after something broke
 PERIOD = 0.005  # s between two looks for a new picture
+GREETING = 0.5  # s after which every robot in reach has heard of this rig, and reported since
 
 log = logging.getLogger("pigaming")
 
@@ -99,6 +101,7 @@ class Rig:
         self.drift = drift  # mm by which the corner markers have moved
         self.recorder: Notes | None = None
         self._begun = clock()
+        self._deaf_since: dict[int, float] = {}  # s, by robot
         self._image: Image | None = None  # the newest
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
@@ -161,10 +164,22 @@ class Rig:
                 outside=seconds,
                 silence=now - (report.heard if report else self._begun),
                 battery=report.battery if report else Signs().battery,
+                refuses=report is not None and bool(report.flags & EMPTY),
+                deaf=self._deaf(robot, report),
                 unlinked=gone,
                 drift=drift,
             )
         return found
+
+    def _deaf(self, robot: int, report: Telemetry | None) -> float:
+        """Seconds from the first to the newest of the reports, without one between, that the deadman has tripped.
+
+        Not counted is that of a robot that had nobody to hear before this rig began.
+        """
+        if report is None or not report.flags & DEADMAN or report.heard < self._begun + GREETING:
+            self._deaf_since.pop(robot, None)
+            return 0.0
+        return max(1e-3, report.heard - self._deaf_since.setdefault(robot, report.heard))
 
     def start(self) -> "Rig":
         """Look and talk in threads of their own until close(); the clock must be one of real time."""

@@ -11,12 +11,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.signals import Fix, Wheels
+from pigaming_app.keeping import Draft
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import ROBOTS
 
@@ -53,10 +54,10 @@ class Run:
 
 
 class Recorder:
-    """Writes a run, line by line, so that a run that breaks off is still there. Raises OSError."""
+    """Writes a run, line by line; the file appears when it is closed. Raises OSError."""
 
     def __init__(self, path: Path, mm: float, emulated: bool = False) -> None:
-        self._file: TextIO = path.open("w", encoding="utf-8")
+        self._draft = Draft(path)
         self._seq = 0
         self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
 
@@ -75,11 +76,15 @@ class Recorder:
         self._write({"kind": "pose", "time": now, "poses": [list(one[:3]) for one in sightings]})
 
     def close(self) -> None:
-        """The run is over."""
-        self._file.close()
+        """The run is whole: put it in its place."""
+        self._draft.finish()
+
+    def discard(self) -> None:
+        """The run broke off: an earlier one at its place stays. After `close` this does nothing."""
+        self._draft.discard()
 
     def _write(self, line: dict[str, Any]) -> None:
-        self._file.write(json.dumps(line, separators=(",", ":")) + "\n")
+        self._draft.write(f"{json.dumps(line, separators=(',', ':'))}\n".encode())
 
 
 def load(path: Path, fewest: int = 50) -> Run:

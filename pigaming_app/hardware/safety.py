@@ -39,6 +39,8 @@ class Signs(NamedTuple):
     outside: float = 0.0  # s for which it has been outside the arena
     silence: float = 0.0  # s since it was heard
     battery: float = 9.9  # V
+    refuses: bool = False  # its battery was empty, and it keeps its motors off until that has recovered
+    deaf: float = 0.0  # s for which it has reported that its deadman stopped it
     unlinked: bool = False  # the radio is gone
     drift: float = 0.0  # mm by which the corner markers have moved
     stopped: bool = False  # somebody pressed the all-stop
@@ -65,8 +67,10 @@ RULES = (
     Rule("lost", lambda s: s.unseen > 1.000 and s.refused not in (*IN_A_HAND, BEYOND), Does.STOP, pauses=True),
     Rule("unseen", lambda s: s.unseen > 0.250, Does.STOP),
     Rule("unseen", lambda s: s.unseen > 0.100, Does.HALF),
-    Rule("empty", lambda s: s.battery < 4.0, Does.OFF, pauses=True),
+    Rule("empty", lambda s: s.battery < 4.0 or s.refuses, Does.OFF, pauses=True),
     Rule("silent", lambda s: s.silence > 1.0, Does.OFF, pauses=True),
+    Rule("deadman", lambda s: s.deaf > 0.5, Does.STOP, pauses=True),
+    Rule("deadman", lambda s: s.deaf > 0.0, Does.WARN),
     Rule("outside", lambda s: s.unseen > 1.000 and s.refused == BEYOND, Does.STOP, pauses=True),
     Rule("outside", lambda s: s.outside > 3.0, Does.INWARD, pauses=True),
     Rule("outside", lambda s: s.outside > 0.0, Does.INWARD),

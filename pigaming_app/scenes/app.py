@@ -20,11 +20,12 @@ import pygame
 
 from pigaming_app.keeping import NotSaved
 from pigaming_app.logbook import log_file
+from pigaming_app.parsing import reason
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
-from pigaming_app.scenes.frame_budget import Unfinished, budget
+from pigaming_app.scenes.frame_budget import Unfinished, budget, clock
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import NoMat, RealMat
 from pigaming_app.scenes.notices import Gauge, Notices
@@ -118,11 +119,12 @@ class App:
         self.frames, self.seconds = 0, 0.0
         self.shown, self.unfinished = False, 0  # whether there was a picture; frames since in which there was none
         self.failures, self.failed_at = 0, -QUIET
+        self.code = 0
         self.stack = self._begin()
 
     def loop(self) -> int:
         """Frame after frame, until no scene is left; the exit code."""
-        clock, last = pygame.time.Clock(), perf_counter()
+        ticker, last = pygame.time.Clock(), perf_counter()
         while self.stack.scenes:
             now = perf_counter()
             seconds = self.options.step or min(now - last, SLOWEST)
@@ -139,9 +141,9 @@ class App:
             if self.frames == self.options.frames:
                 break
             if self.options.step is None:
-                clock.tick(FRAMES)
-                self.gauge.fps = clock.get_fps()
-        return 0
+                ticker.tick(FRAMES)
+                self.gauge.fps = ticker.get_fps()
+        return self.code
 
     def _begin(self) -> Stack:
         if self.options.first and self.options.alone:
@@ -161,7 +163,7 @@ class App:
 
     def compose(self, seconds: float) -> bool:
         """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
-        began = perf_counter()
+        began, started = clock(), perf_counter()
         events = pygame.event.get()
         if any(self._closes(event) for event in events) and not self.house.kiosk:
             self.stack.clear()
@@ -174,7 +176,7 @@ class App:
         if not self.stack.scenes or not self._paint(began):
             return False
         self._say(self.house.canvas.screen, seconds)
-        self.gauge.note(seconds, played - began, perf_counter() - played)
+        self.gauge.note(seconds, played - started, perf_counter() - played)
         return True
 
     def _paint(self, began: float) -> bool:
@@ -197,7 +199,7 @@ class App:
         if not self.stack.scenes:
             return
         if painted and self.options.shot and self.options.shot_due():
-            self.house.canvas.screenshot(self.options.shot)
+            self.code = self._shoot(self.options.shot)
             self.stack.clear()
             return
         if painted:
@@ -206,6 +208,16 @@ class App:
             self.window.update(seconds)
         if self.options.over():
             self.stack.clear()
+
+    def _shoot(self, path: Path) -> int:
+        """Save the picture that was asked for; the exit code."""
+        try:
+            self.house.canvas.screenshot(path)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            print(f"PiGaming: {trouble}", file=sys.stderr)
+            return 2
+        return 0
 
     def _closes(self, event: pygame.Event) -> bool:
         """Whether an event closes the arcade: with a second window, closing the first one no longer says QUIT."""
@@ -254,7 +266,7 @@ class App:
             try:
                 house.canvas.screenshot(path)
                 self.notices.say(f"{house.words('app.picture')}: {path.name}")
-            except OSError as trouble:
+            except NotSaved as trouble:
                 log.warning("%s", trouble)
                 self.notices.say(house.words("app.unsaved"))
 
@@ -295,6 +307,7 @@ def _keep(settings: Settings, folder: Path) -> None:
         settings.save(folder)
     except NotSaved as trouble:
         log.warning("%s", trouble)
+        print(f"PiGaming: {trouble}", file=sys.stderr)
 
 
 def _keep_log(data: Path) -> "IO[Any] | None":
@@ -303,7 +316,8 @@ def _keep_log(data: Path) -> "IO[Any] | None":
         log.handlers[:] = [log_file(data)]
         log.propagate = False
         crash_file = (data / "crash.log").open("a", encoding="utf-8")
-    except OSError:
+    except OSError as trouble:
+        print(f"PiGaming: {data} cannot be written: {reason(trouble)}. There is no log.", file=sys.stderr)
         return None
     faulthandler.enable(crash_file)
     return crash_file

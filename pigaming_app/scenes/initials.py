@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.games.game import Feat, Outcome, Setup
+from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes.best import ROWS, Best
-from pigaming_app.scenes.feats import Board, boards, told
+from pigaming_app.scenes.feats import Board, boards, contest, counts, told
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BODY,
@@ -55,25 +55,25 @@ class Claim:
 
 
 def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
-    """What people did, above zero, that is among the rows shown."""
+    """What people did, above zero, in a match that counts, that is among the rows shown."""
     out = []
-    there = {board.feat.name: board for board in boards(setup.game, setup.arena, setup.goal)}
     for row in outcome.rows:
         device = devices[row.seat]
-        if setup.seats[row.seat].brain == "human" and device:
+        if setup.seats[row.seat].brain == "human" and device and counts(setup, row.seat):
+            there = {board.table.feat: board for board in boards(contest(setup, row.seat))}
             feats = [(there[name], value) for name, value in row.feats.items() if value > 0]
-            kept = tuple((board, value) for board, value in feats if places(house, setup, board.feat, value))
+            kept = tuple((board, value) for board, value in feats if places(house, board, value))
             if kept:
                 out.append(Claim(row.seat, device, kept))
     return out
 
 
-def places(house: House, setup: Setup, feat: Feat, value: int) -> list[tuple[Board, int]]:
-    """The places of a value in the boards of its feat in which it is shown."""
+def places(house: House, claimed: Board, value: int) -> list[tuple[Board, int]]:
+    """The places of a value in the boards of its table in which it is shown."""
     found = [
-        (board, house.scores.place(setup.game, board.table, value, board.days, timed=feat.timed))
-        for board in boards(setup.game, setup.arena, setup.goal)
-        if board.feat == feat
+        (board, house.scores.place(board.table, value, board.days))
+        for board in boards(claimed.table)
+        if board.table == claimed.table
     ]
     return [(board, place) for board, place in found if place and place <= ROWS]
 
@@ -161,7 +161,7 @@ class Initials:
     def _enter(self) -> Turn:
         initials = "".join(LETTERS[letter] for letter in self.letters)
         for board, value in self.claim.feats:
-            row = self.house.scores.add(self.setup.game, board.table, initials, value, timed=board.feat.timed)
+            row = self.house.scores.add(board.table, initials, value)
             self.fresh.append(row)
         self.house.sounds.play("ready", self.claim.seat)
         return self._next()
@@ -177,7 +177,7 @@ class Initials:
             self.house.scores.save(folders().data)
         except NotSaved as reason:
             _log.warning("%s", reason)
-        return Swap(Best(self.house, self.setup.game, self.setup.arena, self.setup.goal, self.fresh))
+        return Swap(Best(self.house, contest(self.setup, self.claim.seat), self.fresh))
 
     def _heading(self) -> Lit:
         """Who is asked, for what."""
@@ -187,7 +187,7 @@ class Initials:
         text = words("results.high_score")
         size = fitted(text, TITLE, RIGHT - LEFT - 330 - 300 * (len(self.claim.feats) - 1))
         pane.page.text(text, size, LEFT + 132, 112, PLAYERS[seat])
-        told_all = "   ".join(told(value, board.feat) for board, value in self.claim.feats)
+        told_all = "   ".join(words.decimal(told(value, board.table)) for board, value in self.claim.feats)
         pane.page.text(told_all, TITLE, RIGHT, 112, ICE, "hero", "r")
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line(
             [(LEFT, 176), (LEFT + 218, 176)], PLAYERS[seat], LINE
@@ -201,7 +201,7 @@ class Initials:
         for i in range(3):
             pane.hot.line(cut(middle(i) - SLOT_W / 2, MIDDLE - SLOT_H / 2, SLOT_W, SLOT_H, 20), STEEL, THIN, True)
         words = self.house.words
-        found = [one for board, value in self.claim.feats for one in places(self.house, self.setup, board.feat, value)]
+        found = [one for board, value in self.claim.feats for one in places(self.house, board, value)]
         text = "   ·   ".join(
             words("results.place", board=words(board.heading, goal=self.setup.goal), place=place)
             for board, place in found

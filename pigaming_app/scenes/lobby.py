@@ -11,10 +11,12 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.scenes import card
+from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.lobby_page import LobbyPage, Moment, problem, spots
+from pigaming_app.scenes.mat import unfit
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, Seats
 from pigaming_app.scenes.setup import SetupPage, chosen, summary
@@ -36,7 +38,7 @@ class Lobby:
         self.house, self.game = house, game
         self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game], mat=house.robots)
         for seat, place in enumerate(self.seats.places):
-            place.real = seat + 1 in house.settings.real
+            place.real = seat + 1 in house.settings.real and not unfit(house.settings)
         self.now = Moment()
         self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
         self.focus = Focus(spots(self.seats))
@@ -195,6 +197,9 @@ class Lobby:
 
     def _swap(self, seat: int) -> None:
         """A real robot for a simulated one, or the other way round; the next lobby begins like this."""
+        if reason := unfit(self.house.settings):
+            self._say(tell(self.house.words, reason), "error")
+            return
         self.seats.swap(seat)
         self.house.settings.real = [i + 1 for i, place in enumerate(self.seats.places) if place.real]
         self.house.sounds.play("move")

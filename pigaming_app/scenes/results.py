@@ -11,6 +11,7 @@ import pygame
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.scenes.ballot import Ballot
 from pigaming_app.scenes.best import Best
+from pigaming_app.scenes.feats import contest
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.initials import Initials, claims
 from pigaming_app.scenes.press import Act, Device, Press
@@ -41,7 +42,8 @@ class Results:
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human"]
         self.ballot = Ballot(house, seats, humans, devices)
-        self.page = ResultsPage(house, outcome, setup, finished)
+        absent = [seat for seat in humans if devices[seat] is None]
+        self.page = ResultsPage(house, outcome, setup, finished, absent)
         self.claims = claims(house, outcome, setup, devices) if finished else []
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = 0.0
@@ -79,7 +81,7 @@ class Results:
                 self.house.sounds.play("accept")
                 return Pop()
             case Act.ALT:
-                return Push(Best(self.house, self.setup.game, self.setup.arena, self.setup.goal))
+                return Push(Best(self.house, contest(self.setup)))
             case Act.BACK:
                 self.house.sounds.play("back")
                 return Home()

@@ -15,7 +15,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
-from pigaming_app.scenes.feats import table_of, told
+from pigaming_app.scenes.feats import contest, table_of, told
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
@@ -116,10 +116,14 @@ class SetupPage:
 
         self._keep()
         self.house.sounds.play("accept")
-        now = self.chosen
-        minutes, seats = float(now.minutes), self.seats.seats()
-        setup = Setup(self.game.name, now.arena, seats, minutes, new_seed(), now.variant, now.goal)
+        setup = replace(self._setup(), seed=new_seed())
         return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
+
+    def _setup(self) -> Setup:
+        """The match as it is chosen now, without a seed."""
+        now = self.chosen
+        seats, minutes = self.seats.seats(), float(now.minutes)
+        return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
     def _keep(self) -> None:
         """Remember the choice for the next time, also after a power cut."""
@@ -184,10 +188,10 @@ class SetupPage:
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
         for feat in self.game.feats:
-            best = self.house.scores.best(self.game.name, table_of(self.chosen.arena, feat, self.chosen.goal))
+            best = self.house.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.house.words(f"setup.best_{feat.name}")
-                lines.append((name, told(best[0].score, feat), best[0].initials))
+                lines.append((name, self.house.words.decimal(told(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 

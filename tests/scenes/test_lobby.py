@@ -203,6 +203,19 @@ def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(
     assert page.seats.real() == [1]
 
 
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls, home: Path, language: str) -> None:
+    arcade = Arcade(controls, language)
+    arcade.house.mat = EmulatedMat(live=False)
+    arcade.house.settings.radio, arcade.house.settings.real = "stock", [1]
+    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.press(Act.FIRE)
+    arcade.press(Act.UP)
+    page = arcade.shown(Lobby)
+    assert page.seats.real() == []
+    assert "deadman" in page.now.message
+
+
 def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
     arcade.house.settings.real = [1, 2, 3, 4]
     arcade.open(Lobby(arcade.house, "race"))

@@ -13,9 +13,11 @@ from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.options import SURE, OptionsPage
 from pigaming_app.scenes.padtest import PadTest
 from pigaming_app.scenes.press import Act
-from pigaming_app.scores import Scores
+from pigaming_app.scores import Scores, Table
 from pigaming_app.settings import Settings
 from tests.scenes.arcade import Arcade
+
+TABLE = Table("pitanks", "classic", "points", rules="plain", length=2, people=1)
 
 
 @pytest.fixture
@@ -93,16 +95,16 @@ def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None
 
 
 def test_high_scores_go_only_after_a_second_press(arcade: Arcade, tmp_path: Path) -> None:
-    arcade.house.scores.add("pitanks", "classic", "ANA", 7, datetime(2026, 5, 1, 12))
+    arcade.house.scores.add(TABLE, "ANA", 7, datetime(2026, 5, 1, 12))
     go(arcade, "reset")
     arcade.press(Act.FIRE)
-    assert arcade.house.scores.best("pitanks", "classic")
+    assert arcade.house.scores.best(TABLE)
     arcade.wait(SURE + 0.5)
     arcade.press(Act.FIRE)
-    assert arcade.house.scores.best("pitanks", "classic")
+    assert arcade.house.scores.best(TABLE)
     arcade.press(Act.FIRE)
-    assert not arcade.house.scores.best("pitanks", "classic")
-    assert not Scores.load(tmp_path / "data")[0].best("pitanks", "classic")
+    assert not arcade.house.scores.best(TABLE)
+    assert not Scores.load(tmp_path / "data")[0].tables()
 
 
 def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:

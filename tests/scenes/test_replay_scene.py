@@ -10,6 +10,7 @@ from pigaming_app.scenes.attract import PAGE, Attract, Demonstration, Page
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.replay import ReplayScene
+from pigaming_app.scores import Table
 from pigaming_app.sim.record import digest
 from tests.scenes.arcade import Arcade, setup
 
@@ -20,7 +21,7 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
-    arcade.house.scores.add("pitanks", "classic", "ABC", 7)
+    arcade.house.scores.add(Table("pitanks", "classic", "points", rules="plain", length=2, people=1), "ABC", 7)
     attract = Attract(arcade.house)
     arcade.open(attract)
     assert isinstance(attract.show, Demonstration)

@@ -15,10 +15,13 @@ from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.plot import Curve, LapPlot, moments, scale, spread, team_curve
 from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.results import IDLE, Results
-from pigaming_app.scores import Scores
+from pigaming_app.scores import Scores, Table
 from pigaming_app.settings import folders
 from tests.scenes.arcade import KEYS, Arcade, setup
 
+ALONE = Table("pitanks", "classic", "points", rules="plain", length=1, people=1)
+LAP = Table("race", "classic", "lap", True, "standard", 3, 1)
+RACE = replace(LAP, feat="race")
 LONG = 4.0  # seconds after which everything is there and may be pressed
 
 
@@ -178,14 +181,14 @@ def test_three_letters_by_stick(arcade: Arcade) -> None:
     assert arcade.shown(Results) is results
     kept, said = Scores.load(folders().data)
     assert not said
-    assert [(row.initials, row.score) for row in kept.best("pitanks", "classic")] == [("ZCA", 9), ("AAA", 4)]
+    assert [(row.initials, row.score) for row in kept.best(replace(ALONE, people=3))] == [("ZCA", 9), ("AAA", 4)]
 
 
 def test_nobody_chooses_and_nothing_is_written(arcade: Arcade) -> None:
     results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.until(lambda: arcade.stack.top is results)
-    assert not arcade.house.scores.best("pitanks", "classic")
+    assert not arcade.house.scores.tables()
 
 
 def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
@@ -196,7 +199,7 @@ def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
 
 def test_a_low_score_is_no_record(arcade: Arcade) -> None:
     for _ in range(10):
-        arcade.house.scores.add("pitanks", "classic", "ABC", 20)
+        arcade.house.scores.add(ALONE, "ABC", 20)
     results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
     arcade.wait(5.0)
     assert arcade.stack.top is results
@@ -248,7 +251,7 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
     race(arcade, 9_870, 30_120)
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     claim = arcade.shown(Initials).claim
-    assert (claim.seat, [(board.feat.name, value) for board, value in claim.feats]) == (
+    assert (claim.seat, [(board.table.feat, value) for board, value in claim.feats]) == (
         0,
         [("lap", 9_870), ("race", 30_120)],
     )
@@ -258,17 +261,17 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
     arcade.shown(Best)
     kept, said = Scores.load(folders().data)
     assert not said
-    assert [row.score for row in kept.best("race", "classic lap")] == [9_870]
-    assert [row.score for row in kept.best("race", "classic race 3")] == [30_120]
-    assert not kept.best("race", "classic race 5"), "five laps are another race"
+    assert [row.score for row in kept.best(LAP)] == [9_870]
+    assert [row.score for row in kept.best(RACE)] == [30_120]
+    assert not kept.best(replace(RACE, length=5)), "five laps are another race"
 
 
 def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> None:
     for _ in range(10):
-        arcade.house.scores.add("race", "classic race 3", "ABC", 20_000, timed=True)
+        arcade.house.scores.add(RACE, "ABC", 20_000)
     race(arcade, 9_870, 30_120)
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
-    assert [board.feat.name for board, _ in arcade.shown(Initials).claim.feats] == ["lap"]
+    assert [board.table.feat for board, _ in arcade.shown(Initials).claim.feats] == ["lap"]
 
 
 def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None:

@@ -44,6 +44,17 @@ def idle(arcade: Arcade, page: RobotsPage) -> None:
     raise AssertionError("still busy")
 
 
+def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedMat) -> None:
+    arcade.house.settings.radio = "stock"
+    page = RobotsPage(arcade.house)
+    arcade.open(page)
+    arcade.press(Act.UP)
+    assert page.focus.name == "radio"
+    assert "no deadman" in page._line()
+    arcade.press(Act.LEFT)
+    assert "no deadman" not in page._line()
+
+
 def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) -> None:
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)

@@ -3,7 +3,8 @@
 Fire lifts and sets down. A raw pallet goes to a machine A, comes out half done, goes to a machine B, comes out done,
 and goes to your exit; people work the machines. In a wrong machine a pallet is spoiled, and only after ten seconds a
 new one comes. Nobody can lift the other team's pallets. Drive over a person, who is never hurt, and you stand still for
-three seconds. Whoever has delivered everything first wins; when the time is up, more deliveries do, then more work.
+three seconds. Whoever has delivered everything first wins; both on the same tick is a tie. When the time is up, more
+deliveries win, then more work.
 """
 
 from math import cos, sin

@@ -77,8 +77,13 @@ def set_rules(rules: Rules, setup: Setup) -> None:
 
 
 def standing(match: Factory, seat: int) -> float:
-    """Deliveries of a seat's team, then the work that its robots have fed to machines."""
+    """Deliveries of a seat's team, then the work that its robots have fed to machines.
+
+    Work counts only while something is left to deliver: who delivers everything on the same tick as the others ties.
+    """
     team = match.robots[seat].team
+    if match.delivered[team] == match.rules.pallets:
+        return match.delivered[team] * STEPS_BEFORE
     steps = sum(match.loads[i].steps for i in range(ROBOTS) if match.robots[i].team == team)
     return match.delivered[team] * STEPS_BEFORE + min(STEPS_BEFORE - 1.0, steps)
 

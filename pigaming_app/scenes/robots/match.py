@@ -15,7 +15,7 @@ from pigaming_app.scenes.calibration.drift_watch import DriftWatch
 from pigaming_app.scenes.countdown import Countdown
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM
-from pigaming_app.scenes.mat import Mat, exact
+from pigaming_app.scenes.mat import Mat, NoMat, exact, refused, unfit
 from pigaming_app.scenes.match import LEAD, NOTICE, SIGNS, MatchScene, new_seed
 from pigaming_app.scenes.pace import Pace
 from pigaming_app.scenes.plate import plate
@@ -29,7 +29,7 @@ from pigaming_app.scenes.stack import Home, Pop, Push, Scene, Turn
 from pigaming_app.scenes.words import Words
 
 IDLE = 180.0  # seconds without a press while robots take their places, until the title
-TOLD = ("low", "drifts")  # what is only said
+TOLD = ("low", "drifts", "deadman")  # what is only said
 
 log = logging.getLogger("pigaming")
 
@@ -40,6 +40,8 @@ class RealMatch(MatchScene):
     def __init__(
         self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: Mat
     ) -> None:
+        if reason := unfit(house.settings):
+            raise refused(NoMat(reason))
         rig = mat.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         self.mat = mat

@@ -13,6 +13,7 @@ from pigaming_app.scenes.calibration.telling import paragraph, tell
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS, GREEN, ICE, MIST, Color
+from pigaming_app.scenes.mat import unfit
 from pigaming_app.scenes.options import Value
 from pigaming_app.scenes.page import blacked, heading, stamp, text
 from pigaming_app.scenes.pane import backdrop
@@ -44,7 +45,7 @@ class RobotsPage:
         assert house.mat is not None
         self.house = house
         self.check = Checkup(house.mat, house.settings)
-        self.names = EMULATED if house.mat.emulated else ROWS
+        self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
         self.focus = Focus(rows.spots(self.names), "pair")
         self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
@@ -113,7 +114,7 @@ class RobotsPage:
             text(heard, 40, bright, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y - 26)
             text(seen, 34, dim, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y + 26)
         moving = self.check.moving
-        told = words("fleet.moving", robot=moving + 1) if moving is not None else words(f"fleet.{self.focus.name}_line")
+        told = words("fleet.moving", robot=moving + 1) if moving is not None else self._line()
         for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
             line.draw(screen, dials.PANEL.x + 30, dials.PANEL.y + 520 + 48 * i)
         sentence = self._trouble() or (self.sentence if self.said > 0.0 else "")
@@ -124,6 +125,11 @@ class RobotsPage:
             Discs(self.check.rig).draw(screen, set(range(ROBOTS)))
 
     # ---- what is read
+
+    def _line(self) -> str:
+        """A sentence about the row in focus, or why its value is refused for matches."""
+        reason = unfit(self.house.settings) if self.focus.name == "radio" else None
+        return tell(self.house.words, reason) if reason else self.house.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
         """What the camera does."""

@@ -4,7 +4,7 @@ A view looks at the match and never touches it; what happened it finds by compar
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -24,7 +24,16 @@ REAL_WIDER = 42  # px
 JUMP = 100.0  # px in a tick: a robot that was placed, not driven
 Pose = tuple[float, float, float]  # px and px on the canvas, rad
 Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
-Words = Callable[..., str]
+
+
+class Words(Protocol):
+    """The texts of a language."""
+
+    def __call__(self, key: str, **values: object) -> str:
+        """The text of a key."""
+
+    def decimal(self, number: str) -> str:
+        """A number as this language writes it."""
 
 
 class Taste(Protocol):
@@ -115,6 +124,11 @@ class Picture:
         screen.fblits(over, PRE)
         screen.fblits(light, ADD)
         screen.fblits(top, PRE)
+
+
+def decimal(words: Words | None, number: str) -> str:
+    """A number with the decimal sign of the language."""
+    return words.decimal(number) if words else number
 
 
 def _poses(state: Any) -> Sequence[Pose]:
