@@ -89,12 +89,15 @@ def opened(options: Options) -> "Iterator[App]":
     house.sounds.volume(settings.music, settings.sounds)
     house.mat = mat = _mat(options, settings, canvas)
     house.stops.append(mat.close)
+    house.backstage.then = house.compiler.start
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
         yield App(options, house, [*said, *more])
     finally:
         signal.signal(signal.SIGTERM, before)
         house.stand_still()
+        house.backstage.end()
+        house.compiler.end()
         mat.end()
         house.sounds.close()
         _keep(settings, where.config)
@@ -176,6 +179,8 @@ class App:
         if not self.stack.scenes or not self._paint(began):
             return False
         self._say(self.house.canvas.screen, seconds)
+        if self.seconds > 0.0 and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
+            self.house.backstage.start()  # nobody waits for a match yet
         self.gauge.note(seconds, played - started, perf_counter() - played)
         return True
 

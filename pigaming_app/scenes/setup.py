@@ -55,6 +55,7 @@ class SetupPage:
         self.chosen = chosen(house, game)
         self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
+        self.going = False  # a match was asked for
         self.prompts = Prompts(
             house, [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
         )
@@ -62,12 +63,14 @@ class SetupPage:
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
-        self.clock = 0.0
+        self.clock, self.going = 0.0, False
         self.house.sounds.music(True)
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
         press = self.prompts.meant(press)
+        if self.going:
+            return None
         match press.act:
             case Act.LEFT | Act.RIGHT:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
@@ -91,6 +94,8 @@ class SetupPage:
             return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
         self.focus.update(seconds)
+        if self.going:
+            return self._begin()
         return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -111,11 +116,18 @@ class SetupPage:
     # ---- inside
 
     def _go(self) -> Turn:
+        self._keep()
+        self.house.sounds.play("accept")
+        self.going = True
+        return self._begin()
+
+    def _begin(self) -> Turn:
+        """The match, unless what it needs is still being prepared."""
         from pigaming_app.scenes.match import new_seed
         from pigaming_app.scenes.robots.begin import match_of
 
-        self._keep()
-        self.house.sounds.play("accept")
+        if not self.house.backstage.ready(self.game.name, self.chosen.arena):
+            return None
         setup = replace(self._setup(), seed=new_seed())
         return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
 

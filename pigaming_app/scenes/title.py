@@ -84,7 +84,7 @@ class Title:
 
             self.house.sounds.play("accept")
             return Push(OptionsPage(self.house, operator=True))
-        if self.house.idle > self.house.settings.attract_seconds:
+        if self.house.idle > self.house.settings.attract_seconds and not self.house.backstage.busy:
             from pigaming_app.scenes.attract import Attract
 
             return Push(Attract(self.house))

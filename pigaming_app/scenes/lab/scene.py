@@ -41,7 +41,7 @@ class Lab:
 
     def __init__(self, house: House, fast: bool | None = None) -> None:
         self.house = house
-        self.workshop = Workshop(FIRST, new_seed(), fast)
+        self.workshop = Workshop(FIRST, new_seed(), fast, house.compiler)
         self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
         self.cheered: Progress | None = None  # in which that was over
         self.name = ""  # under which it was saved or opened
