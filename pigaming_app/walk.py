@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from time import thread_time
 from typing import Any
@@ -294,6 +295,10 @@ def lab(w: Walker, language: str) -> None:
     w.press("escape")
 
 
+def another(w: Walker, show: object) -> bool:
+    return w.top.show is not show
+
+
 def attract(w: Walker) -> None:
     w.home()
     w.house.settings.attract_seconds = 5.0
@@ -304,7 +309,7 @@ def attract(w: Walker) -> None:
         w.wait(10.0)
         if hasattr(show, "stage"):
             show.stage.match.state.rules.ticks = show.stage.match.state.tick + 50
-        w.until(lambda show=show: w.top.show is not show)
+        w.until(partial(another, w, show))
     w.home()
 
 

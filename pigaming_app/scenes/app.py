@@ -174,13 +174,14 @@ class App:
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
+        first = not self.shown
         self._play(events, seconds)
         played = perf_counter()
         if not self.stack.scenes or not self._paint(began):
             return False
         self._say(self.house.canvas.screen, seconds)
-        if self.seconds > 0.0 and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
-            self.house.backstage.start()  # nobody waits for a match yet
+        if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
+            self.house.backstage.start()  # the title is there
         self.gauge.note(seconds, played - started, perf_counter() - played)
         return True
 

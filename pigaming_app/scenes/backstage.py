@@ -77,9 +77,7 @@ class Backstage:
 
     def _do(self) -> None:
         """Piece after piece, in the order in which they may be needed."""
-        arena_jobs = import_module(
-            "pigaming_app.scenes.arena_jobs"
-        )  # with all games, for which the title does not wait
+        arena_jobs = import_module("pigaming_app.scenes.arena_jobs")  # the title does not wait for it
         there = arena_jobs.every_arena()
         for one in there:
             if not self._ended:

@@ -48,9 +48,8 @@ class Compiler:
 
 def _started(command: tuple[str, ...]) -> subprocess.Popen[bytes]:
     quiet = subprocess.DEVNULL
-    flags = getattr(subprocess, "CREATE_NO_WINDOW", 0) | getattr(
-        subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0
-    )  # Windows
+    windows = ("CREATE_NO_WINDOW", "BELOW_NORMAL_PRIORITY_CLASS")  # flags that only Windows has
+    flags: int = sum(getattr(subprocess, name, 0) for name in windows)
     process = subprocess.Popen(
         command, cwd=PACKAGE.parent, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet, creationflags=flags
     )
