@@ -171,7 +171,8 @@ def test_the_process_ends_with_the_arcade_and_is_not_started_again() -> None:
     compiler.start()
     process = compiler._process
     compiler.start()
-    assert process and compiler._process is process
+    assert process
+    assert compiler._process is process
     compiler.end()
     assert process.poll() is not None
     compiler.start()

@@ -265,6 +265,17 @@ def balanced(said: str) -> list[str]:
 
 
 @cached
+def warming(said: str) -> Lit:
+    """What is being waited for, beside a clock: above the middle of the plot, where no curve comes so early."""
+    pane = Pane(PLOT.x, PLOT.y - 10, PLOT.w, 92)
+    icon(pane.page.cold, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
+    for i, line in enumerate(balanced(said)):
+        size = fitted(line, BODY, PLOT.w - 92, "body")
+        pane.page.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
+    return pane.done()
+
+
+@cached
 def tag(said: str) -> Sprite:
     """A word on a black plate, from its upper left corner."""
     w = round(text_width(said, BODY, "body")) + 40

@@ -15,7 +15,7 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS
 from pigaming_app.scenes.lab.curve import HANDMADE
 from pigaming_app.scenes.lab.dial import MOST
-from pigaming_app.scenes.lab.page import SPEEDS, LabPage, Shown, speed_at
+from pigaming_app.scenes.lab.page import SPEEDS, LabPage, Shown, speed_at, warming
 from pigaming_app.scenes.lab.places import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
 from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.workshop import Workshop
@@ -128,7 +128,7 @@ class Lab:
         if self.house.idle > IDLE - LAST:
             plate(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > PATIENT:
-            plate(words("lab.warming"), sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
+            warming(words("lab.warming")).draw(screen)
 
     def left(self) -> None:
         """Taken off the stack: the training rests."""
