@@ -26,7 +26,6 @@ from pigaming_app.scenes.stage import Stage
 IDLE = 60.0  # seconds without a press until the title
 ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
 SAID = 4.0  # seconds for which a message stays
-PAUSE = 1.0  # seconds without a press in which a slow piece of work may be done
 AHEAD = 3.0  # ms of a frame for pieces that will be needed
 POINTED = 4.0  # seconds after the mouse moved in which its focus shows
 
@@ -105,9 +104,9 @@ class Lobby:
         """While people think: first what this page will need, then the sprites of the match."""
         if not self.ahead.work(AHEAD):
             return
-        if self.rehearsal is None and self.house.idle > PAUSE:
+        now = chosen(self.house, self.game)
+        if self.rehearsal is None and self.house.backstage.ready(self.game, now.arena):
             one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
-            now = chosen(self.house, self.game)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.rehearsal = Stage(self.house, Match(setup), loud=False)
         elif self.rehearsal:

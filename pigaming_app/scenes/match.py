@@ -33,7 +33,7 @@ RESUME = 0.5  # seconds for each number after an interruption
 FREEZE = 1.5  # seconds between the last tick and the results
 STILL = 60.0  # seconds without a hand on anything
 NOTICE = 3.0  # seconds for which a line over the match stays
-SIGNS, WARM = 1.0, 10.0  # ms of a frame for signs, and for other sprites while nobody moves
+SIGNS, WARM = 1.0, 7.0  # ms of a frame for signs, and for other sprites while nobody moves
 STAND_IN = "normal"  # the brain that drives on for somebody
 
 

@@ -26,8 +26,7 @@ Indices = npt.NDArray[np.int64]
 @sliced
 def mud(course: Course) -> Steps[pygame.Surface]:
     """The arena of 1600 x 900, with mud wherever there is no track: to be added to what lies there."""
-    coarse = _away(course)
-    yield
+    coarse = yield from _away(course)
     away = _finer(_finer(coarse, 0), 1)
     h, w = away.shape
     yield
@@ -55,21 +54,21 @@ def _rows(away: Heights, clods: Heights, top: int) -> npt.NDArray[np.uint8]:
     return np.asarray((bright[..., None] * np.array(MUD, np.float32)).clip(0, 255), np.uint8)
 
 
-def _away(course: Course) -> Heights:
-    """How far outside the track's edge the points of a coarse grid are, px; negative on the track.
-
-    As `sim.course.locate` finds it: the nearest point of the course, then the nearer of the two legs that meet there.
-    """
+def _away(course: Course) -> Steps[Heights]:
+    """How far outside the track's edge the points of a coarse grid are, px; negative on the track."""
     centre = np.array([course.xs[: course.count], course.ys[: course.count]]).T
     half = np.array(course.half[: course.count])
-    ys, xs = np.mgrid[0 : int(HEIGHT) + 1 : GRID, 0 : int(WIDTH) + 1 : GRID]
-    points = np.stack([xs.ravel(), ys.ravel()], 1).astype(float)
-    nearest = ((centre**2).sum(1) - 2 * points @ centre.T).argmin(1)
-    after, before = (nearest + 1) % course.count, (nearest - 1) % course.count
-    gap, wide = _on_leg(points, centre, half, nearest, after)
-    gap_before, wide_before = _on_leg(points, centre, half, before, nearest)
-    found = np.where(gap_before < gap, gap_before - wide_before, gap - wide)
-    return np.asarray(found.reshape(xs.shape), np.float32)
+    rows = []
+    for y in range(0, int(HEIGHT) + 1, GRID):
+        xs = np.arange(0.0, WIDTH + 1.0, GRID)
+        points = np.stack([xs, np.full_like(xs, y)], 1)
+        nearest = ((centre**2).sum(1) - 2 * points @ centre.T).argmin(1)
+        after, before = (nearest + 1) % course.count, (nearest - 1) % course.count
+        gap, wide = _on_leg(points, centre, half, nearest, after)
+        gap_before, wide_before = _on_leg(points, centre, half, before, nearest)
+        rows.append(np.where(gap_before < gap, gap_before - wide_before, gap - wide))
+        yield
+    return np.array(rows, np.float32)
 
 
 def _on_leg(points: Numbers, centre: Numbers, half: Numbers, a: Indices, b: Indices) -> tuple[Numbers, Numbers]:
