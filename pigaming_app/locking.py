@@ -35,8 +35,8 @@ else:
 
 
 @contextlib.contextmanager
-def locked(path: Path, patience: float = PATIENCE) -> Iterator[None]:
-    """Hold the lock of `path`, the file `.NAME.lock` beside it. Raises NotSaved after `patience` seconds of waiting.
+def locked(path: Path) -> Iterator[None]:
+    """Hold the lock of `path`, the file `.NAME.lock` beside it. Raises NotSaved after PATIENCE seconds of waiting.
 
     Where a lock file cannot be written, or the file system has no locks, the block runs without one.
     """
@@ -45,7 +45,7 @@ def locked(path: Path, patience: float = PATIENCE) -> Iterator[None]:
             path.parent.mkdir(parents=True, exist_ok=True)
             handle = os.open(path.with_name(f".{path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o666)
             held.callback(os.close, handle)
-            _wait(handle, time.monotonic() + patience)
+            _wait(handle, time.monotonic() + PATIENCE)
         except TimeoutError:
             raise NotSaved(f"{path} was not saved: another copy of the arcade is using it.") from None
         except OSError:

@@ -30,10 +30,11 @@ def read(path: Path, limit: int = LIMIT) -> bytes:
     if not stat.S_ISREG(os.stat(path).st_mode):
         raise OSError(errno.EISDIR if path.is_dir() else errno.EINVAL, "it is not a file")
     with open(path, "rb", opener=_without_waiting) as file:
-        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+        opened = os.fstat(file.fileno())
+        if not stat.S_ISREG(opened.st_mode):
             raise OSError(errno.EINVAL, "it is not a file")
-        content = file.read(limit + 1)
-    if len(content) > limit:
+        content = file.read(limit + 1) if opened.st_size <= limit else b""
+    if max(len(content), opened.st_size) > limit:
         raise OSError(errno.EFBIG, f"it is larger than {limit:,} bytes")
     return content
 

@@ -63,7 +63,7 @@ def _check_targets(record: Path | None, screenshot: Path | None, wrong: type[Exc
     """Refuse before the match what could not be written after it. Raises `wrong` or NotSaved."""
     if screenshot is not None and screenshot.suffix.lower() != ".png":
         raise wrong(f"--screenshot: {screenshot}: the name of a picture ends in .png")
-    if record is not None and screenshot is not None and record.resolve() == screenshot.resolve():
+    if record is not None and screenshot is not None and os.path.realpath(record) == os.path.realpath(screenshot):
         raise wrong(f"--record: {record}: the picture has that name")
     for path in (record, screenshot):
         if path is not None:

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from dataclasses import fields, replace
 from importlib.util import find_spec
 from io import BytesIO, StringIO
-from pathlib import Path
+from os.path import realpath
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -77,16 +77,16 @@ def _check(arguments: argparse.Namespace) -> None:
         raise ChoiceError(f"--out: {arguments.out}: the name of a table ends in .npz")
     if arguments.curve and arguments.curve.suffix.lower() != ".png":
         raise ChoiceError(f"--curve: {arguments.curve}: the name of a picture ends in .png")
-    taken: set[Path] = set()
+    taken: set[str] = set()
     for option in ("out", "csv", "curve"):
         path = getattr(arguments, option)
         if path is None:
             continue
         if path.is_dir() or not path.absolute().parent.is_dir():
             raise ChoiceError(f"--{option}: {path}: there is no such folder, or it is one itself")
-        if path.resolve() in taken:
+        if realpath(path) in taken:
             raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
-        taken.add(path.resolve())
+        taken.add(realpath(path))
         check_target(path)
     if arguments.curve and find_spec("matplotlib") is None:
         raise ChoiceError("--curve: matplotlib is missing; `pip install matplotlib`, or use --csv")

@@ -22,7 +22,7 @@ MAY = {
     "logbook": set(),
     "start": {"install", "cli"},
     "install": {"start", "keeping"},
-    "doctor": {"settings", "scores", "start", "games", "sim", "ai"},
+    "doctor": {"settings", "scores", "parsing", "start", "games", "sim", "ai"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))

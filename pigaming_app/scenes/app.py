@@ -101,6 +101,8 @@ def opened(options: Options) -> "Iterator[App]":
         mat.end()
         house.sounds.close()
         _keep(settings, where.config)
+        if scores.unsaved:
+            _keep(scores, where.data)
         canvas.close()
         _close_log(crash_file)
 
@@ -308,9 +310,9 @@ def _title(house: House) -> Scene:
     return Title(house)
 
 
-def _keep(settings: Settings, folder: Path) -> None:
+def _keep(kept: Settings | Scores, folder: Path) -> None:
     try:
-        settings.save(folder)
+        kept.save(folder)
     except NotSaved as trouble:
         log.warning("%s", trouble)
         print(f"PiGaming: {trouble}", file=sys.stderr)

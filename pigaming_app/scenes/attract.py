@@ -25,7 +25,7 @@ from pigaming_app.scenes.stage import Stage
 MINUTES = 1.0  # of a match
 AFTER = 2.5  # seconds for which its end is shown
 PAGE = 12.0  # seconds for a page
-PROMPT_Y, PAGE_PROMPT_Y = 984, 1014  # px; a page's own row ends above
+PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; a page's own row ends above
 LEVELS = 6  # brightnesses of the prompt
 
 

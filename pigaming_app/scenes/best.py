@@ -67,6 +67,7 @@ class Best:
     def update(self, seconds: float) -> Turn:
         """Stay a while."""
         self.age += seconds
+        self.turned += seconds
         self.idle += seconds
         return Pop() if self.idle > STAY else None
 
@@ -95,12 +96,11 @@ class Best:
         ring = self._ring(act)
         if len(ring) > 1:
             self._show(ring[(ring.index(self.contest) + STEPS[act]) % len(ring)])
-            self.age = DEAF
             self.house.sounds.play("move")
 
     def _show(self, contest: Table) -> None:
         """Show the tables of a contest, and arrows wherever there are others."""
-        self.contest = contest
+        self.contest, self.turned = contest, 0.0
         where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
         line = min(ROOM, text_width(conditions(self.house.words, contest), LABEL, "head")) / 2
         self.arrows: dict[Act, tuple[float, float]] = {}
@@ -139,7 +139,7 @@ class Best:
                 screen, x + w / 2, TOP + HIGH / 2
             )
         for i, row in enumerate(rows):
-            share = (self.age - APART * i) / WIPE
+            share = (self.turned - APART * i) / WIPE
             if share > 0.0:
                 self._row(screen, row, board, i, x, w, 1 - (1 - min(1.0, share)) ** 2)
 

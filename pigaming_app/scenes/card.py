@@ -126,7 +126,8 @@ def asked(label: str, said: str, level: int) -> Lit:
     size = fitted(said, BODY, W - 40 - wide - 18, "body")
     x = MIDDLE - (wide + 18 + text_width(said, size, "body")) / 2
     pane = Pane(*BAR)
-    pane.page.body(said, x + button(pane.page, x, BAR_Y, label, FOCUS) + 18, BAR_Y, ICE, "l", size)
+    pane.page.body(said, x, BAR_Y, ICE, "l", size)
+    button(pane.page, x + text_width(said, size, "body") + 18, BAR_Y, label, FOCUS)
     return pane.done()
 
 

@@ -37,8 +37,10 @@ def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
     pane.page.text(value, size, W / 2, 94, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
         icon(pane.hot, sign, x, 94, 20, MIST, LINE)
-    for i, part in enumerate(lines_of(line, BODY, W - 2 * PAD)[:2] if line else []):
-        pane.page.body(part, PAD, 156 + 48 * i, MIST)
+    room = W - 2 * PAD
+    size = next(size for size in range(BODY, 0, -2) if len(lines_of(line, size, room)) <= 2)
+    for i, part in enumerate(lines_of(line, size, room)):
+        pane.page.body(part, PAD, 156 + 48 * i, MIST, "l", size)
     return pane.done()
 
 

@@ -79,8 +79,8 @@ class Controls:
     def label(self, device: Device | None, act: Act) -> str:
         """What is printed on the button that means `act` (None: of the device used last); empty if there is none."""
         device = device or self.last
-        if device.kind == "keys" or act is Act.BRAIN:
-            return keyboard.label(device.number if device.kind == "keys" else 0, act)
+        if device.kind == "keys":
+            return keyboard.label(device.number, act)
         return pads.label(self.name(device), act) if device.kind == "pad" else ""
 
     def _heard(self, event: pygame.Event) -> Iterator[Press]:

@@ -12,7 +12,7 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
 
 TOP, PITCH, HIGH = 236, 164, 140
-NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 560, LEFT + 1000, LEFT + 1370
+NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
 
 
 class DeviceTable:
@@ -62,7 +62,7 @@ class DeviceTable:
         badge(pane.hot, seat, LEFT + 84, y, 40)
         icon(pane.hot, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
         name = words(f"devices.{controls.name(device)}")
-        pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 290, "body"))
+        pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 264, "body"))
         self._moves(pane, device, y)
         for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
             wide = button(pane.page, x, y, words.printed(controls.label(device, act)))

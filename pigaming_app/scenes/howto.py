@@ -20,6 +20,7 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.lessons import LESSONS
+from pigaming_app.scenes.limits import kept_minutes, limits
 from pigaming_app.scenes.page import blacked, button_light, chip, chip_width, heading, text
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, lines_of, span
 from pigaming_app.scenes.press import Act, Press
@@ -27,7 +28,7 @@ from pigaming_app.scenes.stack import Home, Pop, Turn
 from pigaming_app.scenes.surface_cache import cached
 
 TOP, HIGH = 220, 620
-CAPTION_Y, FOOT_Y = TOP + 546, 924
+CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without a press until the title
 FIRES = {"pitanks": "hint_fire", "factory": "hint_lift"}  # what FIRE does, in games in which it does something
 LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
@@ -80,6 +81,8 @@ class HowTo:
             if said:
                 text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
+        said = limits(words, self.game, kept_minutes(self.house.settings, self.game))
+        text(said, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
         keys(self._keys()).draw(screen)
 
     def _show(self, game: str) -> None:

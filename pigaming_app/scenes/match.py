@@ -17,7 +17,8 @@ from pigaming_app.games.game import Setup
 from pigaming_app.scenes.countdown import CENTRE, Countdown, clear_of, popped, show, signs
 from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import ALARM, PLAYERS
+from pigaming_app.scenes.ink import ALARM, FOCUS, LABEL, PLAYERS
+from pigaming_app.scenes.limits import tagline
 from pigaming_app.scenes.pause import Pause
 from pigaming_app.scenes.plate import Plate, plate
 from pigaming_app.scenes.press import Act, Device, Drive, Press
@@ -119,6 +120,9 @@ class MatchScene:
             ending = "time" if self.match.seconds_left <= 0.0 else "finish"
             show(screen, popped(words(f"match.{ending}"), ALARM, pop))
         elif self.count.shown:
+            if self.match.setup.game == "race":
+                line = tagline(words, "race", self.match.setup.goal)
+                plate(line, FOCUS, FOCUS, LABEL, face="head").draw(screen, 960, 206)
             if self.count.locked:
                 self.stage.captions(screen, self.devices)
                 self.spot = clear_of(self.stage.robots())

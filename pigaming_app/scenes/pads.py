@@ -29,6 +29,7 @@ _SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RI
 _PLAIN_SHOULDERS = (4, 5)
 _PLAIN = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT)  # the first four buttons of a plain joystick
 _DIRECTIONS = {Act.UP: "↑", Act.DOWN: "↓", Act.LEFT: "←", Act.RIGHT: "→"}
+_SHARED = {Act.LEAVE: Act.BACK, Act.BRAIN: Act.ALT}  # one button for both; BRAIN only in a pause
 _PRINTED = {
     "Xbox": {Act.FIRE: "A", Act.BACK: "B", Act.EXTRA: "X", Act.ALT: "Y", Act.START: "START"},
     "PlayStation": {
@@ -183,7 +184,7 @@ class Pads:
 
 def label(kind: str, act: Act) -> str:
     """What is printed on the button of a kind of pad that means `act`; empty if none does."""
-    return _DIRECTIONS.get(act) or _PRINTED[kind].get(Act.BACK if act is Act.LEAVE else act, "")
+    return _DIRECTIONS.get(act) or _PRINTED[kind].get(_SHARED.get(act, act), "")
 
 
 def _kind(name: str) -> str:

@@ -1,6 +1,7 @@
 """The page over a match that stands still: who paused, and what now. The match is one dark picture behind it."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 import pygame
@@ -65,8 +66,10 @@ class Pause:
         self.house.sounds.music(False)
 
     def on(self, press: Press) -> Turn:
-        """START and BACK go on, and so does F4, with a look into an AI; FIRE takes what has the focus."""
+        """START and BACK go on; so does F4, or ALT of a pad, with a look into an AI; FIRE takes what has the focus."""
         press = self.prompts.meant(press)
+        if press.act is Act.ALT:
+            press = replace(press, act=Act.BRAIN)
         if press.act is Act.BRAIN:
             self.match.think_aloud()
         if press.act in (Act.START, Act.BACK, Act.BRAIN):

@@ -43,12 +43,16 @@ class Prompts:
         words = self.house.words
         return tuple((words.printed(self._label(act)), words(key)) for act, key in self.items if self._label(act))
 
+    @property
+    def acts(self) -> list[Act]:
+        """What each of the hints stands for."""
+        return [act for act, _ in self.items if self._label(act)]
+
     def meant(self, press: Press) -> Press:
         """A click on one of the hints as the press that it stands for; any other press as it is."""
         if press.act is not Act.CLICK or press.at is None or abs(press.at[1] - self.y) > HIGH:
             return press
-        acts = [act for act, _ in self.items if self._label(act)]
-        for act, (left, right) in zip(acts, places(self.said, self.room), strict=True):
+        for act, (left, right) in zip(self.acts, places(self.said, self.room), strict=True):
             if left <= press.at[0] <= right:
                 return replace(press, act=act)
         return press

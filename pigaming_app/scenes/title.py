@@ -23,6 +23,7 @@ from pigaming_app.scenes.ink import (
     dim,
     panel,
 )
+from pigaming_app.scenes.limits import kept_goal, tagline
 from pigaming_app.scenes.logo import dot_of, logo, vignette
 from pigaming_app.scenes.operator import Combination
 from pigaming_app.scenes.page import (
@@ -97,7 +98,8 @@ class Title:
         parade(screen, self.clock)
         stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
         for i, game in enumerate(GAMES):
-            lit = tile(game, words(f"games.{game}"), words(f"games.{game}_line"), self.focus.name == game)
+            line = tagline(words, game, kept_goal(self.house.settings, game))
+            lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
             lit.draw(screen, *tile_rect(i).topleft)
         self._prompt(screen)
         self._foot(screen)

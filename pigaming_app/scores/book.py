@@ -11,12 +11,14 @@ from pathlib import Path
 
 from pigaming_app.keeping import NotSaved, keep, recall
 from pigaming_app.locking import locked
-from pigaming_app.scores.older import back_up, carry_over
+from pigaming_app.parsing import read_text
+from pigaming_app.scores.older import back_up, carry_over, pending
 from pigaming_app.scores.table import LENGTH, Score, Table, are_initials, day, local, worth_keeping
 from pigaming_app.scores.text import Content, Faults, Migrated, parse, text_of
 
 FILE = "scores2.toml"  # version 1.3.0 has no use for it and leaves it alone
 LARGEST = 16_000_000  # bytes
+Stamp = tuple[int, int, int]
 log = logging.getLogger("pigaming")
 
 
@@ -26,6 +28,7 @@ class Scores:
     def __init__(self) -> None:
         self._content = Content()  # with the own changes
         self._seen = Content()  # the file as it was read or written last
+        self._stamp: Stamp | None = None  # of that file
         self._added: list[tuple[Table, Score]] = []
         self._cleared = False
 
@@ -54,18 +57,14 @@ class Scores:
         """Whether `save` has something to write."""
         return self._cleared or bool(self._added)
 
-    @property
-    def migrated(self) -> list[Migrated]:
-        """The files of version 1.3.0 that were carried over."""
-        return self._content.migrated
-
     def save(self, folder: Path) -> None:
         """Merge the own changes into the file. Raises NotSaved; then the file is intact and the changes are kept."""
         with locked(folder / FILE):
-            before = self._seen
-            said = self._refresh(folder)
-            for sentence in [*said, *_merged(before, self._seen)]:
-                log.warning("%s", sentence)
+            if _stamp(folder / FILE) != self._stamp:
+                before = self._seen
+                said = self._refresh(folder)
+                for sentence in [*said, *_merged(before, self._seen)]:
+                    log.warning("%s", sentence)
             self._write(folder)
 
     def tables(self) -> list[Table]:
@@ -106,6 +105,7 @@ class Scores:
     def _refresh(self, folder: Path) -> list[str]:
         """Take over the file as it is now, with the own changes on top; what to report."""
         path = folder / FILE
+        self._stamp = _stamp(path)  # before it is read: if it is replaced meanwhile, it is read again
         found, said = recall(path, parse, LARGEST)
         self._seen, faults = found or (Content(), Faults())
         said += faults.sentences(path)
@@ -127,7 +127,7 @@ class Scores:
         keep(folder / FILE, text_of(self._content))
         self._added.clear()
         self._cleared = False
-        self._seen = self._content.copy()
+        self._seen, self._stamp = self._content.copy(), _stamp(folder / FILE)
 
     def _enter(self, rows: Iterable[tuple[Table, Score]]) -> None:
         """Put rows in their places."""
@@ -135,6 +135,24 @@ class Scores:
         for table, row in rows:
             tables = self._content.tables
             tables[table] = worth_keeping(table, [*tables.get(table, []), row], today)
+
+
+def _stamp(path: Path) -> Stamp | None:
+    """What changes whenever the file is replaced; None: there is no file."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_mtime_ns, found.st_size
+
+
+def migrations(folder: Path) -> tuple[list[Migrated], bool]:
+    """The files of version 1.3.0 carried over so far, and whether one waits for the next start. It changes nothing."""
+    try:
+        content, _ = parse(read_text(folder / FILE, LARGEST))
+    except (OSError, ValueError):
+        content = Content()
+    return content.migrated, pending(folder, content)
 
 
 def _merged(before: Content, now: Content) -> list[str]:

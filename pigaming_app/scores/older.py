@@ -38,7 +38,8 @@ def carry_over(folder: Path, content: Content) -> list[str]:
     new = rows - _known(folder, content)
     for (table, row), times in new.items():
         content.tables.setdefault(table, []).extend([row] * times)
-    content.migrated.append(Migrated(FILE, _backup(path), _digest(path), local(None), new.total()))
+    games = Counter(table.game for table, _ in new.elements())
+    content.migrated.append(Migrated(FILE, _backup(path), _digest(path), local(None), dict(games)))
     return [*said, *faults.sentences(path)]
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from datetime import date, datetime
+from datetime import UTC, date, datetime, timedelta
 
 LENGTH = 10  # rows of a table
 DAYS = 7  # days whose own tables are kept, back from today; as many after it, for a clock that was wrong
@@ -57,19 +57,20 @@ def are_initials(text: str) -> bool:
 
 def local(when: datetime | None) -> datetime:
     """The time in the local zone, whole seconds; None: now. Raises ValueError for a year that is not in YEARS."""
-    if when is None:
-        return datetime.now().astimezone().replace(microsecond=0)
+    when = when or datetime.now()
+    if when.year not in YEARS:
+        raise ValueError(f"the year {when.year}")
     try:
-        if when.year not in YEARS:
-            raise ValueError(f"the year {when.year}")
-        return when.astimezone().replace(microsecond=0)
+        here = when.astimezone().replace(microsecond=0)
     except (OverflowError, OSError) as error:
         raise ValueError(str(error)) from None
+    whole = (here.utcoffset() or timedelta()) % timedelta(minutes=1) == timedelta()
+    return here if whole else here.astimezone(UTC)  # TOML has no seconds in an offset, as Liberia's was until 1972
 
 
 def day(row: Score) -> date:
     """The local day of a row."""
-    return row.when.astimezone().date()
+    return row.when.date()
 
 
 def worth_keeping(table: Table, rows: Iterable[Score], today: date) -> list[Score]:

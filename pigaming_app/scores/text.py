@@ -8,7 +8,7 @@ file = "scores.toml"
 backup = "scores-1.3.0.toml"
 digest = "9f86d081…"
 when = 2026-11-22T10:00:00+00:00
-rows = 12
+rows = { pitanks = 8, race = 4 }
 
 [[table]]
 game = "race"
@@ -39,13 +39,13 @@ MOST_LENGTH = 1000
 
 @dataclass(frozen=True)
 class Migrated:
-    """A file of version 1.3.0 that was carried over: its name, its backup's, when, and how many rows were new."""
+    """A file of version 1.3.0 that was carried over: its name, its backup's, when, and the new rows of each game."""
 
     file: str
     backup: str
     digest: str  # SHA-256 of the file
     when: datetime
-    rows: int
+    rows: Mapping[str, int]
 
 
 @dataclass
@@ -192,13 +192,14 @@ def _migrated(entry: object) -> Migrated | None:
             "backup": str(backup),
             "digest": str(digest),
             "when": datetime() as when,
-            "rows": int(rows),
+            "rows": dict(rows),
         }:
             pass
         case _:
             return None
     try:
-        good = type(rows) is int and rows >= 0 and _is_plain(file) and _is_plain(backup)
+        counted = all(type(one) is int and one >= 0 for one in rows.values())
+        good = counted and _is_plain(file) and _is_plain(backup)
         return Migrated(file, backup, digest, local(when), rows) if good else None
     except ValueError:
         return None

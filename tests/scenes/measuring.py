@@ -3,6 +3,8 @@
 `Ink` notes each line of text and each closed outline of the house shape; a `Screen` notes which of them reach it.
 """
 
+import functools
+import gc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -17,7 +19,7 @@ from pigaming_app.scenes.pane import Lit
 from pigaming_app.scenes.sheet import Ink, Page
 
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # a little more than the safe area of menus: hints may stand in its margin
-TOUCH = 4  # px that two boxes may share: edges of letters are softer than they are wide
+NEAR = 3  # px between a text and an outline, at least
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,8 @@ class Screen(pygame.Surface):
 
 @contextmanager
 def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
-    """Everything that is lit from now on is measured; forget what is cached before."""
+    """Everything that is lit from now on is measured; what was lit before is forgotten first."""
+    forget()
     measured = Measured()
     text, line, plain, sprite, done, draw = Ink.text, Ink.line, Ink.plain, Ink.sprite, Page.done, Lit.draw
 
@@ -117,6 +120,14 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
     patch.setattr(Page, "done", noted(done, lambda page: [page.warm, page.cold, page.hot]))
     patch.setattr(Lit, "draw", drawn)
     yield Screen(measured)
+    forget()
+
+
+def forget() -> None:
+    """Empty every cache of the scenes."""
+    for cached in gc.get_objects():
+        if isinstance(cached, functools._lru_cache_wrapper) and cached.__module__.startswith("pigaming_app.scenes"):
+            cached.cache_clear()
 
 
 def marks_of(ink: Any) -> list[Mark]:
@@ -125,9 +136,9 @@ def marks_of(ink: Any) -> list[Mark]:
     return found
 
 
-def faults(screen: Screen) -> list[str]:
+def faults(screen: Screen, safe: pygame.Rect = SAFE) -> list[str]:
     """What touches what, crosses an outline or leaves the picture."""
-    found = [f"{mark.text!r} leaves the picture" for mark in screen.texts if not SAFE.contains(_rect(mark))]
+    found = [f"{mark.text!r} leaves the picture" for mark in screen.texts if not safe.contains(_rect(mark))]
     for one, other in combinations(screen.texts, 2):
         if _shared(one, other) and one.text != other.text:
             found.append(f"{one.text!r} touches {other.text!r}")
@@ -136,17 +147,17 @@ def faults(screen: Screen) -> list[str]:
     return sorted(set(found))
 
 
-def _shared(one: Mark, other: Mark) -> bool:
+def _shared(one: Mark, other: Mark, apart: float = 0.0) -> bool:
+    """Whether two boxes share something, or are nearer to each other than `apart` px."""
     (a, b, c, d), (e, f, g, h) = one.box, other.box
-    return min(c, g) - max(a, e) > TOUCH and min(d, h) - max(b, f) > TOUCH
+    return min(c, g) - max(a, e) > -apart and min(d, h) - max(b, f) > -apart
 
 
 def _crosses(mark: Mark, frame: Mark) -> bool:
-    """It is neither inside of an outline nor outside; one that stands in a gap of its edge is on it with its middle."""
-    if not _shared(mark, frame):
-        return False
+    """It is neither inside of an outline nor outside."""
     (a, b, c, d), (e, f, g, h) = mark.box, frame.box
-    return a < e - TOUCH or c > g + TOUCH or b < f - TOUCH or d > h + TOUCH
+    inside = a >= e + NEAR and c <= g - NEAR and b >= f + NEAR and d <= h - NEAR
+    return not inside and _shared(mark, frame, NEAR)
 
 
 def _rect(mark: Mark) -> pygame.Rect:
