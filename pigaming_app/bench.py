@@ -16,6 +16,7 @@ from statistics import median
 from time import perf_counter, time
 from typing import Any
 
+from pigaming_app import bench_memory
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.rollout import Batch
 from pigaming_app.games import GAMES
@@ -51,6 +52,7 @@ def measure(game: str) -> dict[str, Any]:
         "real_time_factor_compiled": None if one is None else 1.0 / (HZ * one),
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
         "start_s": min(_start() for _ in range(STARTS)),
+        "rss_mb": bench_memory.measure(),
         "machine": machine(),
     }
 

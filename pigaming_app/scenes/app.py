@@ -26,12 +26,14 @@ from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
 from pigaming_app.scenes.frame_budget import Unfinished, budget, clock
+from pigaming_app.scenes.heap import return_large_blocks
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import NoMat, RealMat
 from pigaming_app.scenes.notices import Gauge, Notices
 from pigaming_app.scenes.press import Act
 from pigaming_app.scenes.sounds import Sounds
 from pigaming_app.scenes.stack import Push, Scene, Stack
+from pigaming_app.scenes.surface_cache import surfaces
 from pigaming_app.scenes.words import Words
 from pigaming_app.scores import Scores
 from pigaming_app.settings import Settings, folders
@@ -76,6 +78,7 @@ def run(options: Options) -> int:
 @contextmanager
 def opened(options: Options) -> "Iterator[App]":
     """The arcade with its window and devices; afterwards all is closed and the settings are saved. Raises NoDisplay."""
+    return_large_blocks()
     where = folders()
     settings, said = Settings.load(where.config)
     scores, more = Scores.load(where.data)
@@ -134,11 +137,8 @@ class App:
             now = perf_counter()
             seconds = self.options.step or min(now - last, SLOWEST)
             last = now
-            try:
-                self._frame(seconds)
-            except Exception:
-                if not self._recovered():
-                    return 1
+            if self._failed(seconds) and not self._recovered():
+                return 1
             self.frames += 1
             self.seconds += seconds
             if self.frames == 1 and not self.options.headless:
@@ -165,6 +165,15 @@ class App:
         except NoPin as trouble:
             log.warning("%s", trouble)
             self.notices.say(self.house.words("app.pin"))
+
+    def _failed(self, seconds: float) -> bool:
+        """Show one picture; whether a scene failed at it, which goes to the log."""
+        try:
+            self._frame(seconds)
+        except Exception:
+            log.exception("a scene failed")
+            return True
+        return False
 
     def compose(self, seconds: float) -> bool:
         """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
@@ -249,17 +258,31 @@ class App:
             stack.turn(stack.top.update(seconds))
 
     def _recovered(self) -> bool:
-        """A scene has failed: write it down, say so, begin again at the title; false: it is hopeless."""
-        log.exception("a scene failed")
+        """After a scene has failed: undo all that it may have left behind and begin again at the title; false: it is
+        hopeless."""
         self.house.stand_still()
         self.failures = self.failures + 1 if self.seconds - self.failed_at < QUIET else 1
         self.failed_at = self.seconds
-        if self.failures >= TROUBLES or self.options.alone or not self.stack.scenes:
+        if self.failures >= TROUBLES or self.options.alone or not self.stack.scenes or not self._begun_again():
             print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
             return False
-        self.stack.clear()
-        self.stack = Stack(_title(self.house))
         self.notices.say(self.house.words("app.error"))
+        return True
+
+    def _begun_again(self) -> bool:
+        """A new title on a clean screen; false if the title fails, too."""
+        try:
+            self.stack.clear()
+        except Exception:
+            log.exception("a scene failed when it was taken off the stack")
+        surfaces.clear()  # any of them may have been painted on
+        self.house.canvas.restore()
+        self._pin()
+        try:
+            self.stack = Stack(_title(self.house))
+        except Exception:
+            log.exception("a scene failed")
+            return False
         return True
 
     def _function_key(self, key: int) -> None:

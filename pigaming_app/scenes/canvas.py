@@ -117,6 +117,20 @@ class Canvas:
         pygame.display.flip()
         self._hide_pointer()
 
+    def restore(self) -> None:
+        """Undo what a scene that failed may have done to the surface that it painted on, and to the pointer."""
+        self._picture = None
+        pygame.event.set_grab(False)
+        window = pygame.display.get_surface()
+        if window is None:
+            return
+        for holder in window.get_locks():
+            if holder is window:
+                window.unlock()
+        window.set_clip(None)
+        window.set_alpha(None)
+        window.set_colorkey(None)
+
     def at(self, mouse: tuple[float, float]) -> tuple[float, float]:
         """Where on the 1920 x 1080 canvas a position in the window lies; in a black bar, that is outside of it."""
         window = pygame.display.get_surface()

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import cycle
 
 import pygame
 
@@ -69,30 +70,30 @@ class Countdown:
 
 
 def signs(go: str, *ends: str) -> Iterator[Job]:
-    """A job for every sign of a match, in the order in which they are shown."""
+    """A job for every sign of a match, in the order in which they are shown.
+
+    Those of the end come again and again, which keeps them in the cache until they are needed.
+    """
     for number in (3, 2, 1):
         yield partial(arcs, number)
-        yield from (partial(popped, str(number), ICE, pop) for pop in range(POPS))
-    yield from (partial(popped, go, FOCUS, pop) for pop in range(POPS))
-    yield from (partial(popped, go, FOCUS, POPS - 1, level) for level in range(LEVELS - 1, 0, -1))
-    yield from (partial(popped, end, ALARM, pop) for end in ends for pop in range(POPS))
+        yield partial(_word, str(number), ICE)
+    yield partial(_word, go, FOCUS)
+    yield from (partial(_word, end, ALARM) for end in cycle(ends))
+
+
+def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
+    """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
+    sign = _word(text, color)
+    if pop < POPS - 1:
+        scale = 1.0 + 0.7 * (1 - (pop + 1) / POPS) ** 2
+        image = pygame.transform.smoothscale_by(sign.image, scale)  # half a millisecond
+        sign = Sprite(image, round(sign.dx * scale), round(sign.dy * scale))
+    return sign if level == LEVELS else faded(sign, level / LEVELS)
 
 
 @cached
-def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
-    """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
-    if level < LEVELS:
-        return faded(popped(text, color, pop), level / LEVELS)
-    if pop == POPS - 1:
-        return _whole(text, color)
-    whole = popped(text, color, POPS - 1)
-    scale = 1.0 + 0.7 * (1 - (pop + 1) / POPS) ** 2
-    image = pygame.transform.smoothscale_by(whole.image, scale)
-    return Sprite(image, round(whole.dx * scale), round(whole.dy * scale))
-
-
 @sliced
-def _whole(text: str, color: Color) -> Steps[Sprite]:
+def _word(text: str, color: Color) -> Steps[Sprite]:
     edge = font("hero", HUGE).render(text, True, BLACK)
     w, h = edge.get_width() + 128, HUGE + 128
     out = pygame.Surface((w, h), pygame.SRCALPHA)

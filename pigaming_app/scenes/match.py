@@ -8,6 +8,7 @@ import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
+from weakref import proxy
 
 import pygame
 
@@ -34,7 +35,7 @@ RESUME = 0.5  # seconds for each number after an interruption
 FREEZE = 1.5  # seconds between the last tick and the results
 STILL = 60.0  # seconds without a hand on anything
 NOTICE = 3.0  # seconds for which a line over the match stays
-SIGNS, WARM = 1.0, 7.0  # ms of a frame for signs, and for other sprites while nobody moves
+WARM = 7.0  # ms of a frame for sprites while nobody moves
 STAND_IN = "normal"  # the brain that drives on for somebody
 
 
@@ -98,7 +99,7 @@ class MatchScene:
             return self._end(seconds)
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
-        self.signs.work(SIGNS)
+        self.signs.work(0.0)
         self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
             self.house.sounds.play(sound)
@@ -197,7 +198,8 @@ class MatchScene:
 
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
-        brain = Hands(lambda: self._held(device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        scene = proxy(self)  # a cycle would keep the surfaces of a match that is over
+        brain = Hands(lambda: scene._held(device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
         self.stage.players[seat] = "human" if device else STAND_IN
 
@@ -219,7 +221,8 @@ class MatchScene:
         self.frozen += seconds
         self.stage.wait(seconds)
         if ready and (self.stopped or self.frozen >= FREEZE):
-            return Swap(self.results)
+            results, self.results = self.results, None  # which hold this scene, for a rematch
+            return Swap(results)
         return None
 
 

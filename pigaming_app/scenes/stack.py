@@ -98,13 +98,19 @@ class Stack:
             self.top.entered()
 
     def clear(self) -> None:
-        """Take every scene off."""
+        """Take every scene off. What one of them raises as it lets go is raised after all have."""
         before = self.scenes[:]
         self.scenes.clear()
         self._leave(before)
 
     def _leave(self, before: list[Scene]) -> None:
-        """Tell the scenes that are gone, the topmost first."""
+        """Let the scenes that are gone let go, the topmost first; then raise the first error among them."""
+        errors: list[Exception] = []
         for scene in reversed(before):
             if scene not in self.scenes and isinstance(scene, Holding):
-                scene.left()
+                try:
+                    scene.left()
+                except Exception as error:
+                    errors.append(error)
+        if errors:
+            raise errors[0]

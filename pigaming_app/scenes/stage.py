@@ -4,6 +4,7 @@ What a match, a demonstration and a replay have in common; who drives and what m
 """
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 
 import pygame
 
@@ -15,6 +16,7 @@ from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.pace import Pace
 from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Device
+from pigaming_app.scenes.surface_cache import surfaces
 from pigaming_app.scenes.views import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -31,7 +33,8 @@ class Stage:
         self.house, self.match, self.loud = house, match, loud
         self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
         kind = VIEWS[match.setup.game]
-        self.view = kind(match.arena, match.state, self.players, house.settings, house.words)
+        with self._making():
+            self.view = kind(match.arena, match.state, self.players, house.settings, house.words)
         self.brain = BrainOverlay(match, self.view, house.words)
         self.pace = Pace()
         self.unseen = 0.0  # seconds of real time since the last picture
@@ -39,7 +42,8 @@ class Stage:
 
     def warm(self, milliseconds: float) -> bool:
         """Build sprites for so long; true when all are there."""
-        return bool(self.view.warm(milliseconds))
+        with self._making():
+            return bool(self.view.warm(milliseconds))
 
     def advance(self, seconds: float, speed: float = 1.0) -> None:
         """Let the match run on for `seconds` of real time."""
@@ -48,7 +52,9 @@ class Stage:
             if self.match.over:
                 break
             self.match.tick()
-            for name, player, x in self.view.watch(self.match.state):
+            with self._making():
+                heard = self.view.watch(self.match.state)
+            for name, player, x in heard:
                 if self.loud:
                     self.house.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
         self._count_down()
@@ -61,8 +67,9 @@ class Stage:
         """Paint the match, between its last two ticks."""
         blend = 1.0 if self.match.over else self.pace.blend
         unseen, self.unseen = self.unseen, 0.0
-        self.view.draw(screen, self.match.state, blend, unseen)
-        self.brain.draw(screen, blend, unseen)
+        with self._making():
+            self.view.draw(screen, self.match.state, blend, unseen)
+            self.brain.draw(screen, blend, unseen)
 
     def picture(self) -> pygame.Surface:
         """The match as it stands, as dark as it lies behind a page."""
@@ -99,6 +106,10 @@ class Stage:
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"
         return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
+
+    def _making(self) -> AbstractContextManager[None]:
+        """Sprites that are made within are released once the game is over and the title is back."""
+        return surfaces.made_for(self.match.setup.game)
 
     def _count_down(self) -> None:
         second = int(self.match.seconds_left) + 1

@@ -7,6 +7,7 @@ its pixels, once for all entries that hold it; a subsurface counts as the whole 
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from functools import wraps
 from typing import ParamSpec, TypeVar
@@ -15,20 +16,20 @@ import pygame
 
 from pigaming_app.scenes.frame_budget import budget
 
-BUDGET = 128 << 20  # bytes
+BUDGET = 160 << 20  # bytes; a match of the race needs 140
 
 Args = ParamSpec("Args")
 Result = TypeVar("Result")
 
 
 class Entry:
-    """One result of a cached function, and the surfaces that it keeps alive."""
+    """One result of a cached function, the surfaces that it keeps alive, and the game for whose matches it was made."""
 
-    __slots__ = ("key", "surfaces", "table", "value")
+    __slots__ = ("game", "key", "surfaces", "table", "value")
 
-    def __init__(self, table: "dict[Hashable, Entry]", key: Hashable, value: object) -> None:
-        self.table, self.key, self.value = table, key, value
-        self.surfaces = {id(surface): surface for surface in surfaces_in(value)}
+    def __init__(self, table: "dict[Hashable, Entry]", key: Hashable, value: object, game: str | None) -> None:
+        self.table, self.key, self.value, self.game = table, key, value, game
+        self.surfaces = tuple({id(surface): surface for surface in surfaces_in(value)}.values())
 
 
 class SurfaceCache:
@@ -39,6 +40,7 @@ class SurfaceCache:
         self.bytes = 0
         self._order: OrderedDict[Entry, None] = OrderedDict()  # least recently used first
         self._holders: dict[int, int] = {}  # by id of a surface: how many entries keep it alive
+        self._game: str | None = None  # for whose match results are made now
 
     def __len__(self) -> int:
         return len(self._order)
@@ -58,36 +60,50 @@ class SurfaceCache:
             budget.claim()
             value = make(*args, **named)
             budget.note()
-            self._keep(Entry(table, key, value))
+            self._keep(Entry(table, key, value, self._game))
             return value
 
         return found_or_made
 
+    @contextmanager
+    def made_for(self, game: str) -> Iterator[None]:
+        """Results that are made within belong to matches of a game."""
+        before, self._game = self._game, game
+        try:
+            yield
+        finally:
+            self._game = before
+
+    def release_matches(self) -> None:
+        """Drop whatever was made for a match, of any game."""
+        for entry in [entry for entry in self._order if entry.game is not None]:
+            self._drop(entry)
+
     def clear(self) -> None:
         """Drop everything."""
-        while self._order:
-            self._drop(next(iter(self._order)))
+        for entry in list(self._order):
+            self._drop(entry)
 
     def _keep(self, entry: Entry) -> None:
-        if sum(map(pixel_bytes, entry.surfaces.values())) > self.budget:
+        if sum(map(pixel_bytes, entry.surfaces)) > self.budget:
             return
         if entry.key in entry.table:  # another thread was faster
             self._drop(entry.table[entry.key])
         self._order[entry] = None
         entry.table[entry.key] = entry
-        for name, surface in entry.surfaces.items():
-            holders = self._holders.get(name, 0)
-            self._holders[name] = holders + 1
+        for surface in entry.surfaces:
+            holders = self._holders.get(id(surface), 0)
+            self._holders[id(surface)] = holders + 1
             self.bytes += 0 if holders else pixel_bytes(surface)
         while self.bytes > self.budget:
             self._drop(next(iter(self._order)))
 
     def _drop(self, entry: Entry) -> None:
         del self._order[entry], entry.table[entry.key]
-        for name, surface in entry.surfaces.items():
-            self._holders[name] -= 1
-            if not self._holders[name]:
-                del self._holders[name]
+        for surface in entry.surfaces:
+            self._holders[id(surface)] -= 1
+            if not self._holders[id(surface)]:
+                del self._holders[id(surface)]
                 self.bytes -= pixel_bytes(surface)
 
 

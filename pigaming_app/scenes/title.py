@@ -3,6 +3,8 @@
 When nobody is there for a while, an AI match begins.
 """
 
+import gc
+
 import pygame
 
 from pigaming_app.games import GAMES
@@ -41,7 +43,7 @@ from pigaming_app.scenes.pane import LEFT, MARGIN, RIGHT, Lit, Pane, backdrop, f
 from pigaming_app.scenes.parade import dot_robot, parade
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Push, Quit, Scene, Turn
-from pigaming_app.scenes.surface_cache import cached
+from pigaming_app.scenes.surface_cache import cached, surfaces
 from pigaming_app.scenes.words import LANGUAGES
 
 TILE_Y, TILE_H = 416, 416
@@ -61,7 +63,9 @@ class Title:
         self.lab: Scene | None = None
 
     def entered(self) -> None:
-        """Shown, or shown again."""
+        """Shown, or shown again; matches that are over leave nothing behind."""
+        surfaces.release_matches()
+        gc.collect()  # scenes in reference cycles hold surfaces of many megabytes, unseen by its thresholds
         self.house.idle = 0.0
         self.house.sounds.music(True)
         self.focus.place(self._spots())

@@ -16,7 +16,7 @@ from pigaming_app.scenes.countdown import Countdown
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM
 from pigaming_app.scenes.mat import Mat, NoMat, exact, refused, unfit
-from pigaming_app.scenes.match import LEAD, NOTICE, SIGNS, MatchScene, new_seed
+from pigaming_app.scenes.match import LEAD, NOTICE, MatchScene, new_seed
 from pigaming_app.scenes.pace import Pace
 from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Device, Press
@@ -167,7 +167,7 @@ class RealMatch(MatchScene):
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
         gathering.update(seconds)
-        self.signs.work(SIGNS)
+        self.signs.work(0.0)
         self.stage.warm(4.0)
         for _ in range(self.waiting.due(seconds)):
             if self.plant.take_places():
