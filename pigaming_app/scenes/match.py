@@ -20,6 +20,8 @@ from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS, LABEL, PLAYERS
 from pigaming_app.scenes.limits import tagline
+from pigaming_app.scenes.page import text
+from pigaming_app.scenes.pane import lines_of
 from pigaming_app.scenes.pause import Pause
 from pigaming_app.scenes.plate import Plate, plate
 from pigaming_app.scenes.press import Act, Device, Drive, Press
@@ -121,15 +123,22 @@ class MatchScene:
             ending = "time" if self.match.seconds_left <= 0.0 else "finish"
             show(screen, popped(words(f"match.{ending}"), ALARM, pop))
         elif self.count.shown:
-            if self.match.setup.game == "race":
-                line = tagline(words, "race", self.match.setup.goal)
-                plate(line, FOCUS, FOCUS, LABEL, face="head").draw(screen, 960, 206)
+            if self.match.setup.game == "race" and self.match.seconds < 1.0:
+                self._draw_laps(screen)
             if self.count.locked:
                 self.stage.captions(screen, self.devices)
                 self.spot = clear_of(self.stage.robots())
             self.count.draw(screen, words("match.go"), self.spot)
         if self.notice and self.noticed > 0.0:
             self.notice.draw(screen, 960, 206)
+
+    def _draw_laps(self, screen: pygame.Surface) -> None:
+        """How many laps the race has, in the place of its clock, which stands still."""
+        box = self.stage.view.clock
+        screen.fill("black", box)
+        lines = lines_of(tagline(self.house.words, "race", self.match.setup.goal), LABEL, box.w, "head")
+        for i, line in enumerate(lines):
+            text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
 
     # ---- what the pages above it may do
 

@@ -20,7 +20,6 @@ from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
-from pigaming_app.scenes.limits import numbers
 from pigaming_app.scenes.page import blacked, heading
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, backdrop, span
 from pigaming_app.scenes.press import Act, Press
@@ -157,7 +156,7 @@ class SetupPage:
         if name == "minutes":
             return choice.chips(words("setup.minutes"), tuple(map(str, game.minutes)), str(now.minutes))
         if name == "rules":
-            line = words(f"setup.{now.variant}_line", **numbers(game.name, now.minutes, now.variant))
+            line = words(f"setup.{now.variant}_line")
             return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
         return choice.begin(words("setup.go"))
 

@@ -87,7 +87,7 @@ def test_the_race_says_how_many_laps_it_has(
     for scene in (Title(arcade.house), MatchScene(arcade.house, setup, KEYS)):
         with measuring(monkeypatch) as screen:
             scene.draw(screen)
-            assert "7 laps. Go!" in [mark.text for mark in screen.texts]
+            assert "7 laps. Go!" in " ".join(mark.text for mark in screen.texts)
 
 
 def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
@@ -137,7 +137,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
         with measuring(monkeypatch) as screen:
             SetupPage(arcade.house, "pitanks", seats("pitanks")).draw(screen)
             shown = " ".join(mark.text for mark in screen.texts)
-        assert words(f"setup.{variant}_line", **numbers("pitanks", 2, variant)) in shown
+        assert words(f"setup.{variant}_line") in shown
 
 
 def test_the_button_follows_the_question(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:

@@ -41,7 +41,14 @@ def test_numbers_have_the_decimal_sign_of_the_language() -> None:
     assert portuguese("robots.written", path="1.5/2.pdf") == "Criada: 1.5/2.pdf", "only numbers"
 
 
-FORMATTERS = {"told": "feats", "clock": "feats", "figure": "race_gaps", "signed": "race_hud", "cell": "results_page"}
+FORMATTERS = {
+    "told": "feats",
+    "clock": "feats",
+    "figure": "race_gaps",
+    "signed": "race_hud",
+    "cell": "results_page",
+    "numbers": "limits",
+}
 
 
 def test_every_decimal_number_on_a_screen_is_written_in_its_language() -> None:
