@@ -5,9 +5,11 @@ A mistake in a scene is written to the log and the title comes back with one sen
 
 import faulthandler
 import logging
+import math
 import signal
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -23,6 +25,7 @@ from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
+from pigaming_app.scenes.frame_budget import Unfinished, budget, clock
 from pigaming_app.scenes.heap import return_large_blocks
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import NoMat, RealMat
@@ -37,6 +40,8 @@ from pigaming_app.settings import Settings, folders
 
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
+PAINTING = 0.014  # s of a frame after which no missing piece is begun
+LATEST = 240  # frames after which a picture is completed at once, however long that takes
 SETTLING = 1.0  # s after the start in which a pointer that merely lies there does not take the focus
 TROUBLES, QUIET = 5, 10.0  # so many failures, each within so many s of the one before: the arcade gives up
 
@@ -63,6 +68,16 @@ class Options:
 
 def run(options: Options) -> int:
     """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
+    with opened(options) as app:
+        try:
+            return app.loop()
+        except KeyboardInterrupt:
+            return 0
+
+
+@contextmanager
+def opened(options: Options) -> "Iterator[App]":
+    """The arcade with its window and devices; afterwards all is closed and the settings are saved. Raises NoDisplay."""
     return_large_blocks()
     where = folders()
     settings, said = Settings.load(where.config)
@@ -77,14 +92,15 @@ def run(options: Options) -> int:
     house.sounds.volume(settings.music, settings.sounds)
     house.mat = mat = _mat(options, settings, canvas)
     house.stops.append(mat.close)
+    house.backstage.then = house.compiler.start
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
-        return App(options, house, [*said, *more]).loop()
-    except KeyboardInterrupt:
-        return 0
+        yield App(options, house, [*said, *more])
     finally:
         signal.signal(signal.SIGTERM, before)
         house.stand_still()
+        house.backstage.end()
+        house.compiler.end()
         mat.end()
         house.sounds.close()
         _keep(settings, where.config)
@@ -109,13 +125,14 @@ class App:
             self.notices.say(house.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
+        self.shown, self.unfinished = False, 0  # whether there was a picture; frames since in which there was none
         self.failures, self.failed_at = 0, -QUIET
         self.code = 0
         self.stack = self._begin()
 
     def loop(self) -> int:
         """Frame after frame, until no scene is left; the exit code."""
-        clock, last = pygame.time.Clock(), perf_counter()
+        ticker, last = pygame.time.Clock(), perf_counter()
         while self.stack.scenes:
             now = perf_counter()
             seconds = self.options.step or min(now - last, SLOWEST)
@@ -129,8 +146,8 @@ class App:
             if self.frames == self.options.frames:
                 break
             if self.options.step is None:
-                clock.tick(FRAMES)
-                self.gauge.fps = clock.get_fps()
+                ticker.tick(FRAMES)
+                self.gauge.fps = ticker.get_fps()
         return self.code
 
     def _begin(self) -> Stack:
@@ -158,29 +175,52 @@ class App:
             return True
         return False
 
-    def _frame(self, seconds: float) -> None:
-        """One picture: hear, move, paint."""
+    def compose(self, seconds: float) -> bool:
+        """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
+        began, started = clock(), perf_counter()
         events = pygame.event.get()
         if any(self._closes(event) for event in events) and not self.house.kiosk:
             self.stack.clear()
-            return
+            return False
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
-        began = perf_counter()
+        first = not self.shown
         self._play(events, seconds)
         played = perf_counter()
+        if not self.stack.scenes or not self._paint(began):
+            return False
+        self._say(self.house.canvas.screen, seconds)
+        if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
+            self.house.backstage.start()  # the title is there
+        self.gauge.note(seconds, played - started, perf_counter() - played)
+        return True
+
+    def _paint(self, began: float) -> bool:
+        """Paint the top scene in what is left of a frame that has begun then; false: it is not complete yet."""
+        screen = self.house.canvas.screen
+        limited = self.options.step is None and self.shown and self.unfinished < LATEST
+        try:
+            with budget.until(began + PAINTING if limited else math.inf):
+                self.stack.top.draw(screen)
+        except Unfinished:
+            screen.set_clip(None)
+            self.unfinished += 1
+            return False
+        self.shown, self.unfinished = True, 0
+        return True
+
+    def _frame(self, seconds: float) -> None:
+        """Compose one picture and show it."""
+        painted = self.compose(seconds)
         if not self.stack.scenes:
             return
-        screen = self.house.canvas.screen
-        self.stack.top.draw(screen)
-        self._say(screen, seconds)
-        self.gauge.note(seconds, played - began, perf_counter() - played)
-        if self.options.shot and self.options.shot_due():
+        if painted and self.options.shot and self.options.shot_due():
             self.code = self._shoot(self.options.shot)
             self.stack.clear()
             return
-        self.house.canvas.flip()
+        if painted:
+            self.house.canvas.flip()
         if self.window:
             self.window.update(seconds)
         if self.options.over():

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from pigaming_app.scenes.crates import TEAMS, emblem
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import (
     ARROWS,
     BODY,
@@ -54,17 +55,20 @@ UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and
 
 
 @cached
-def frame(player: int, said: str, bold: bool) -> Lit:
+@sliced
+def frame(player: int, said: str, bold: bool) -> Steps[Lit]:
     """The card of somebody."""
     pane = Pane(0, 0, W, H)
     panel(pane.hot, 0, 0, W, H, PLAYERS[player], LINE if bold else THIN)
     badge(pane.hot, player, 72, 76, 36)
     pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, ICE)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached
-def empty(player: int, said: str) -> Lit:
+@sliced
+def empty(player: int, said: str) -> Steps[Lit]:
     """The card of nobody."""
     pane, color = Pane(0, 0, W, H), PLAYERS[player]
     pane.hot.dashes(cut(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
@@ -72,7 +76,8 @@ def empty(player: int, said: str) -> Lit:
     pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, MIST)
     outline = [(MIDDLE + y * 84, 272 - x * 84) for x, y in shape_points(player, 1)]
     pane.hot.dashes(outline, dim(color, 0.7), LINE, 24, 18)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached

@@ -1,5 +1,6 @@
 """Rows in which something is chosen, and the small things round them, for the page before a match."""
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import (
     BODY,
     FOCUS,
@@ -100,11 +101,13 @@ def begin(said: str) -> Lit:
 
 
 @cached
-def frame(w: int, h: int) -> Lit:
+@sliced
+def frame(w: int, h: int) -> Steps[Lit]:
     """The frame of a picture; upper left at (0, 0)."""
     pane = Pane(0, 0, w, h)
     panel(pane.hot, 0, 0, w, h)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached

@@ -4,6 +4,7 @@ import math
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import (
     ALARM,
     BODY,
@@ -110,11 +111,13 @@ def hit(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | Non
 
 
 @cached
-def beside() -> Lit:
+@sliced
+def beside() -> Steps[Lit]:
     """The panel beside the rows; upper left at (0, 0)."""
     pane = Pane(0, 0, PANEL.w, PANEL.h)
     panel(pane.hot, 0, 0, PANEL.w, PANEL.h)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 def about(screen: pygame.Surface, said: str, line: str) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BLACK,
@@ -114,13 +115,15 @@ class HowTo:
 
 
 @cached
-def frame(number: int, w: int) -> Lit:
+@sliced
+def frame(number: int, w: int) -> Steps[Lit]:
     """An empty panel with its number; upper left at (0, 0)."""
     pane = Pane(0, 0, w, HIGH)
     panel(pane.hot, 0, 0, w, HIGH, STEEL)
     pane.hot.fill(regular(40, 32, 0, w / 2, 0), ICE)
     pane.hot.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached
@@ -143,7 +146,8 @@ def balanced(said: str, room: int) -> list[str]:
 
 
 @cached
-def keys(items: Sequence[tuple[str, str]]) -> Lit:
+@sliced
+def keys(items: Sequence[tuple[str, str]]) -> Steps[Lit]:
     """The row at the foot: all but the last from the left, the last at the right end."""
     pane = Pane(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
@@ -154,7 +158,8 @@ def keys(items: Sequence[tuple[str, str]]) -> Lit:
             x += button(pane.page, x, FOOT_Y, part) + 8
         pane.page.body(what, x + 10, FOOT_Y, MIST)
         x += 10 + text_width(what, BODY, "body") + 56
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 def _width(label: str) -> float:

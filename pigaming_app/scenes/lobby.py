@@ -17,6 +17,7 @@ from pigaming_app.scenes import card
 from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.focus import Focus
+from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.lobby_page import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.mat import unfit
@@ -29,7 +30,7 @@ from pigaming_app.scenes.stage import Stage
 IDLE = 60.0  # seconds without a press until the title
 ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
 SAID = 4.0  # seconds for which a message stays
-PAUSE = 1.0  # seconds without a press in which a slow piece of work may be done
+AHEAD = 3.0  # ms of a frame for pieces that will be needed
 POINTED = 4.0  # seconds after the mouse moved in which its focus shows
 
 
@@ -48,7 +49,7 @@ class Lobby:
         self.access = Access(house, self.seats.devices)
         self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game), self.access)
         self.focus = Focus(spots(self.seats))
-        self.ahead = card.ahead()
+        self.ahead = Ahead(card.ahead())
         self.rehearsal: Stage | None = None
 
     def entered(self) -> None:
@@ -117,15 +118,15 @@ class Lobby:
 
     def _make_ahead(self) -> None:
         """While people think: first what this page will need, then the sprites of the match."""
-        if piece := next(self.ahead, None):
-            piece()
-        elif self.rehearsal is None and self.house.idle > PAUSE:
+        if not self.ahead.work(AHEAD):
+            return
+        now = chosen(self.house, self.game)
+        if self.rehearsal is None and self.house.backstage.ready(self.game, now.arena):
             one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
-            now = chosen(self.house, self.game)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.rehearsal = Stage(self.house, Match(setup), loud=False)
         elif self.rehearsal:
-            self.rehearsal.warm(3.0)
+            self.rehearsal.warm(AHEAD)
 
     # ---- what presses do
 

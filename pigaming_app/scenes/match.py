@@ -19,6 +19,7 @@ from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.access import TAKE, Access
 from pigaming_app.scenes.countdown import CENTRE, Countdown, clear_of, popped, show, signs
+from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.hold import Holds
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS, LABEL, PLAYERS
@@ -41,6 +42,7 @@ RESUME = 0.5  # seconds for each number after an interruption
 FREEZE = 1.5  # seconds between the last tick and the results
 STILL = 60.0  # seconds without a hand on anything
 NOTICE = 3.0  # seconds for which a line over the match stays
+WARM = 7.0  # ms of a frame for sprites while nobody moves
 STAND_IN = "normal"  # the brain that drives on for somebody
 
 
@@ -66,7 +68,7 @@ class MatchScene:
         self.stage = Stage(house, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
-        self.signs = signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish")))
+        self.signs = Ahead(signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
         self.notice: Plate | None = None
@@ -128,8 +130,8 @@ class MatchScene:
             return Push(Reconnect(self, lost[0]))
         for press in self.joining.update(seconds):
             self._join(press.device)
-        next(self.signs, None)
-        self.warm = self.warm or self.stage.warm(14.0 if self.count.locked else 2.0)
+        self.signs.work(0.0)
+        self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
             self.house.sounds.play(sound)
         if self.count.locked:

@@ -13,6 +13,7 @@ import pygame
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import dials
 from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.ghosts import forget
 from pigaming_app.scenes.hold import Holds
 from pigaming_app.scenes.house import House
@@ -28,6 +29,7 @@ from pigaming_app.settings import folders
 IDLE = 90.0  # seconds without a press until the title
 SAID = 3.0  # seconds for which a sentence stays
 CLEAR = 2.0  # seconds for which a button is held to empty the tables
+AHEAD = 2.0  # ms of a frame for pieces that a move of the focus will need
 FLASHES = ("off", "soft", "full")
 ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
 FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
@@ -56,7 +58,7 @@ class OptionsPage:
         self.cleared = False
         self.clearing = Holds(house.controls, CLEAR)
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
-        self.ahead = self._ahead()
+        self.ahead = Ahead(self._ahead())
         self.prompts = Prompts(
             house, [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
         )
@@ -91,8 +93,7 @@ class OptionsPage:
             self._clear()
         self.said -= seconds
         self.focus.update(seconds)
-        if piece := next(self.ahead, None):
-            piece()
+        self.ahead.work(AHEAD)
         return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -216,7 +217,7 @@ class OptionsPage:
             case "language":
                 settings.language = LANGUAGES[chosen]
                 house.words.switch(settings.language)
-                self.ahead = self._ahead()
+                self.ahead = Ahead(self._ahead())
             case "music" | "sounds":
                 setattr(settings, name, chosen)
                 house.sounds.volume(settings.music, settings.sounds)

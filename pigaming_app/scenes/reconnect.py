@@ -81,7 +81,7 @@ class Reconnect:
     def draw(self, screen: pygame.Surface) -> None:
         """The page, the ring, the plug."""
         if self.found not in self.pictures:
-            self.pictures[self.found] = overlay(self.match.picture(), PLAYERS[self.seat], self._paint)
+            self.pictures[self.found] = overlay(self.match.picture(), PLAYERS[self.seat], self._paint, self.found)
         screen.blit(self.pictures[self.found], (0, 0))
         gap = 0 if self.found else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
         plug(MIST if not self.found else GREEN, self.found).draw(screen, PAD[0], PAD[1] - gap)

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from time import perf_counter
 
 import pygame
 
@@ -12,6 +11,8 @@ from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.scenes.feats import boards, clock, contest, told
 from pigaming_app.scenes.finale import Finale
+from pigaming_app.scenes.frame_budget import Unfinished, budget
+from pigaming_app.scenes.frame_budget import clock as frame_clock
 from pigaming_app.scenes.headline import headline, winning_color
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
@@ -80,11 +81,12 @@ class ResultsPage:
 
     def warm(self, milliseconds: float) -> bool:
         """Make pieces for so long; true when all are there."""
-        end = perf_counter() + milliseconds / 1000
-        while perf_counter() < end:
-            if next(self._making, None) is None:
-                return True
-        return False
+        with budget.until(frame_clock() + milliseconds / 1000):
+            try:
+                self._finish()
+            except Unfinished:
+                return False
+        return True
 
     def sounds(self, humans: Sequence[int]) -> list[tuple[float, str, int | None]]:
         """What is heard while the page comes: (seconds, name, player)."""
@@ -101,7 +103,7 @@ class ResultsPage:
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
         """Paint the page `age` seconds after it was opened."""
-        self.warm(2000.0)
+        self._finish()
         screen.blit(backdrop(), (0, 0))
         for part in self.parts:
             share = (age - part.begins) / part.takes
@@ -128,6 +130,11 @@ class ResultsPage:
                 self.finale.draw(screen)
 
     # ---- the pieces
+
+    def _finish(self) -> None:
+        """Make what is missing. Raises Unfinished where the budget of the frame is spent."""
+        for _ in self._making:
+            budget.pause()
 
     def _make(self) -> Iterator[bool]:
         """Make one piece at a time."""

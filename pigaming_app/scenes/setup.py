@@ -18,6 +18,7 @@ from pigaming_app.scenes import choice, effects
 from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.feats import contest, table_of, told
 from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.page import blacked, heading
@@ -56,19 +57,20 @@ class SetupPage:
         self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
         self.access = Access(house, seats.devices)
+        self.going = False  # a match was asked for
         hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
         self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
         self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
-        self.clock = 0.0
+        self.clock, self.going = 0.0, False
         self.house.sounds.music(True)
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
         admitted = self.access.admit(self.prompts.meant(press))
-        if admitted is None:
+        if admitted is None or self.going:
             return None
         press = admitted
         match press.act:
@@ -97,6 +99,8 @@ class SetupPage:
             return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
         self.focus.update(seconds)
+        if self.going:
+            return self._begin()
         return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -117,11 +121,18 @@ class SetupPage:
     # ---- inside
 
     def _go(self) -> Turn:
+        self._keep()
+        self.house.sounds.play("accept")
+        self.going = True
+        return self._begin()
+
+    def _begin(self) -> Turn:
+        """The match, unless what it needs is still being prepared."""
         from pigaming_app.scenes.match import new_seed
         from pigaming_app.scenes.robots.begin import match_of
 
-        self._keep()
-        self.house.sounds.play("accept")
+        if not self.house.backstage.ready(self.game.name, self.chosen.arena):
+            return None
         setup = replace(self._setup(), seed=new_seed())
         return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
 
@@ -232,9 +243,11 @@ class SetupPage:
 
 
 @cached
-def picture(game: str, name: str) -> Lit:
+@sliced
+def picture(game: str, name: str) -> Steps[Lit]:
     """A large picture of an arena, where the page shows it."""
-    return Lit(preview(load_kept(game, name), *PICTURE.size), PICTURE.topleft)
+    image = yield from preview(load_kept(game, name), *PICTURE.size)
+    return Lit(image, PICTURE.topleft)
 
 
 @lru_cache(maxsize=16)

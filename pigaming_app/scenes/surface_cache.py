@@ -14,6 +14,8 @@ from typing import ParamSpec, TypeVar
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import budget
+
 BUDGET = 160 << 20  # bytes; a match of the race needs 140
 
 Args = ParamSpec("Args")
@@ -55,7 +57,9 @@ class SurfaceCache:
             if entry is not None:
                 use(entry)
                 return entry.value  # type: ignore[return-value]  # it was made by `make`
+            budget.claim()
             value = make(*args, **named)
+            budget.note()
             self._keep(Entry(table, key, value, self._game))
             return value
 

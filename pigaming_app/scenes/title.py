@@ -9,6 +9,7 @@ import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BODY,
@@ -88,7 +89,7 @@ class Title:
 
             self.house.sounds.play("accept")
             return Push(OptionsPage(self.house, operator=True))
-        if self.house.idle > self.house.settings.attract_seconds:
+        if self.house.idle > self.house.settings.attract_seconds and not self.house.backstage.busy:
             from pigaming_app.scenes.attract import Attract
 
             return Push(Attract(self.house))
@@ -209,17 +210,20 @@ def tile_rect(i: int) -> pygame.Rect:
 
 
 @cached
-def ground() -> pygame.Surface:
+@sliced
+def ground() -> Steps[pygame.Surface]:
     """What never changes: the floor's dots, the name, and black where the tiles are."""
     pane = Pane(LEFT, 54, 1210, 260)
     logo(pane.hot, *LOGO)
+    name = yield from pane.lighting()
     out = backdrop().copy()
-    pane.done().draw(out)
+    name.draw(out)
     return blacked(out, *map(tile_rect, range(len(GAMES))))
 
 
 @cached
-def tile(game: str, name: str, line: str, hot: bool) -> Lit:
+@sliced
+def tile(game: str, name: str, line: str, hot: bool) -> Steps[Lit]:
     """A game's picture and name, its upper left at (0, 0)."""
     w = span(0, 4)[1]
     pane = Pane(0, 0, w, TILE_H)
@@ -228,13 +232,17 @@ def tile(game: str, name: str, line: str, hot: bool) -> Lit:
     color = FOCUS if hot else ICE
     pane.page.text(name, fitted(name, LABEL, w - 64), 32, 326, color)
     pane.page.body(line, 32, 380, ICE if hot else MIST, "l", fitted(line, BODY, w - 64, "body"))
-    lit = pane.done()
-    _picture(game).draw(lit.image, -lit.at[0], -lit.at[1])
+    picture = _picture(game)
+    lit = yield from pane.lighting()
+    picture.draw(lit.image, -lit.at[0], -lit.at[1])
     return lit
 
 
 @cached
-def _picture(game: str) -> Lit:
+@sliced
+def _picture(game: str) -> Steps[Lit]:
     pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
     vignette(game, pane.hot, MARGIN, MARGIN)
-    return Lit(pane.done().image, (-MARGIN, -MARGIN))
+    yield
+    lit = yield from pane.lighting()
+    return Lit(lit.image, (-MARGIN, -MARGIN))

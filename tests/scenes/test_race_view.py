@@ -10,6 +10,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.race.state import LINES
 from pigaming_app.keeping import keep
 from pigaming_app.scenes import ghosts
+from pigaming_app.scenes.frame_budget import finished
 from pigaming_app.scenes.ghosts import Ghost, call, file_of, ghost_of
 from pigaming_app.scenes.things import glyph
 from pigaming_app.scenes.views import VIEWS, race_cards
@@ -107,7 +108,7 @@ def test_the_road_is_black_and_beside_it_lies_mud(screen):
 def test_a_preview_shows_the_track_at_any_size(screen, track):
     arena = load("race", track)
     for w, h in ((320, 200), (1000, 640), (200, 300)):
-        image = preview(arena, w, h)
+        image = finished(preview(arena, w, h))
         assert image.get_size() == (w, h)
         assert max(pygame.transform.average_color(image)[:3]) > 8
 

@@ -183,7 +183,7 @@ class RealMatch(MatchScene):
             self.house.sounds.play("back")
             return Pop()
         gathering.update(seconds)
-        next(self.signs, None)
+        self.signs.work(0.0)
         self.stage.warm(4.0)
         for _ in range(self.waiting.due(seconds)):
             if self.plant.take_places():

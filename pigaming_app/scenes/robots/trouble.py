@@ -97,7 +97,8 @@ class Trouble:
         if self.picture is None:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
-            self.picture = overlay(self.match.picture(), color, self._paint)
+            shown = tuple((one.name, one.robot) for one in self.faults)
+            self.picture = overlay(self.match.picture(), color, self._paint, shown)
         screen.blit(self.picture, (0, 0))
         if self.match.plant.safety.stopped:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)

@@ -10,6 +10,7 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
+from pigaming_app.scenes.frame_budget import Job
 from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, Ink
 from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import glyph, number_width
@@ -20,7 +21,6 @@ from pigaming_app.scenes.views.picture import Words, decimal
 from pigaming_app.scenes.views.race_cards import ENDING, FIGURE, FOOT, OF, PLACE, Card, W, card_bits
 from pigaming_app.scenes.views.race_gaps import Gaps, figure
 from pigaming_app.scenes.views.race_happenings import SHOWN_FROM
-from pigaming_app.scenes.views.warming import Job
 from pigaming_app.sim.world import DT, HZ
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
@@ -51,13 +51,13 @@ class Cards:
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
             card = self._card(state, seat, i + 1)
             if self.said.get(x) != card:
-                self.said[x] = card
                 self.ground.bake(pygame.Rect(x - 8, 0, W + 16, HUD_HEIGHT), card_bits(card, x))
+                self.said[x] = card
         left = _left(state)
         clock = ("left", left) if left is not None else ("time", state.tick // HZ)
         if self.said.get("clock") != clock:
-            self.said["clock"] = clock
             self._bake_clock(*clock)
+            self.said["clock"] = clock
 
     def jobs(self, state: Race) -> Iterator[Job]:
         """The pieces of the cards, each made by one small job."""
