@@ -1,10 +1,11 @@
 """Who drives with what, in a pause: for each seat its device, the keys that steer, fire and turbo."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import pygame
 
 from pigaming_app.scenes.access import Access
+from pigaming_app.scenes.frame_budget import budget
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted
@@ -23,6 +24,7 @@ class DeviceTable:
         self.house, self.access = house, access
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[Lit] = []
+        self.pieces = self._make()
         self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
@@ -43,12 +45,19 @@ class DeviceTable:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the table."""
-        if not self.lit:
-            self.lit = [self._heading(), *(self._row(i, *row) for i, row in enumerate(self.rows))]
+        for piece in self.pieces:
+            self.lit.append(piece)
+            budget.pause()
         screen.blit(backdrop(), (0, 0))
         for lit in self.lit:
             lit.draw(screen)
         self.prompts.draw(screen)
+
+    def _make(self) -> Iterator[Lit]:
+        """One piece of the page after the other."""
+        yield self._heading()
+        for i, row in enumerate(self.rows):
+            yield self._row(i, *row)
 
     def _heading(self) -> Lit:
         pane = Pane(LEFT, 54, RIGHT - LEFT, 130)

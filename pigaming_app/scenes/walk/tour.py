@@ -15,7 +15,7 @@ BRAINS = 5  # presses of F4 that go round all AIs of a match
 
 
 class Visitor(Protocol):
-    """Who walks; see walk.py."""
+    """Who walks; see walker.py."""
 
     app: Any
     house: Any

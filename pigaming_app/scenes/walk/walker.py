@@ -6,21 +6,15 @@ itself has prepared. Time is made up, and keys are real events.
 """
 
 import json
-import os
-import subprocess
-import sys
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from time import thread_time
 from typing import Any
 
 import pygame
 
 from pigaming_app.scenes.app import App, Options, opened
-from pigaming_app.tour import tour
+from pigaming_app.scenes.walk.tour import tour
 
-ROOT = Path(__file__).resolve().parent.parent
 FPS = 30
 TAP = 2  # frames for which a key is held
 PATIENCE = 60.0  # s to wait for a screen
@@ -84,16 +78,6 @@ class Walker:
                 )
                 self.wait(TAP / FPS)
             self.wait(pause)
-
-
-def worst_frames() -> dict[str, float]:
-    """Walk in a fresh process: ms of the longest frame of each screen, the longest first."""
-    with tempfile.TemporaryDirectory() as home:
-        unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
-        command = [sys.executable, "-m", __name__]
-        done = subprocess.run(command, cwd=ROOT, env=unseen, stdout=subprocess.PIPE, check=True)
-    found: dict[str, float] = json.loads(done.stdout)
-    return dict(sorted(found.items(), key=lambda screen: -screen[1]))
 
 
 def walk() -> dict[str, float]:
