@@ -319,8 +319,9 @@ class MatchScene:
         """The last picture stands while the results are made."""
         if self.results is None:
             finished = self.match.over and not self.stopped
+            helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
             self.results = Results(
-                self.house, self.match.outcome(), self.setup, self.devices, self.again, finished, self.helped
+                self.house, self.match.outcome(), self.setup, self.devices, self.again, finished, helped
             )
             if finished:
                 self.house.sounds.play("go")

@@ -363,3 +363,9 @@ def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None
     assert len(plot.heads(0.1)) == 0
     assert len(plot.heads(1.0)) == 2, "who drove no lap has no line"
     assert LapPlot(100, 100, 800, 500, [Curve((0,), ())], 3).marked() == []
+
+
+@pytest.mark.parametrize(("brain", "records"), [("easy", 0), ("idle", 0), ("classic", 0), ("normal", 1), ("q2", 1)])
+def test_a_record_needs_an_opponent_no_weaker_than_normal(arcade: Arcade, brain: str, records: int) -> None:
+    results = opened(arcade, f"human {brain} off off", outcome({0: 4, 1: -4}, (0,)))
+    assert len(results.claims) == records
