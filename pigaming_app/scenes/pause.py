@@ -103,7 +103,8 @@ class Pause:
     def on(self, press: Press) -> Turn:
         """START and BACK go on, and so does F4, with a look into an AI; FIRE takes what has the focus."""
         admitted = self.access.admit(self.prompts.meant(press))
-        if admitted is None or (press.act is Act.BRAIN and press.device not in self.access.acting):
+        acting = self.access.acting
+        if admitted is None or (press.act is Act.BRAIN and acting and admitted.device not in acting):
             self.waits = WAITS
             return None
         press = admitted
