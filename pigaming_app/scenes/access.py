@@ -55,11 +55,11 @@ class Access:
         acting = self.acting
         if not acting or press.device.kind == "mouse" or press.act in ALWAYS or press.device in acting:
             return press
-        if press.act is Act.BRAIN and press.device.kind == "keys":
-            return press
         for cluster in press.among:
             if cluster in acting:
                 return replace(press, device=cluster)
+        if press.act is Act.BRAIN and press.device.kind == "keys":
+            return press
         if press.act is Act.BACK and press.device.kind == "keys":
             self.escape.begin(press)
         return None

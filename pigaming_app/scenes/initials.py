@@ -4,8 +4,9 @@ After ten seconds the letters are taken as they are; of somebody who has not cho
 """
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import pygame
 
@@ -18,7 +19,7 @@ from pigaming_app.scenes.feats import contest, counts, table_of, told
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, LABEL
 from pigaming_app.scenes.page import blacked, calling, heading, pulse
-from pigaming_app.scenes.pane import backdrop
+from pigaming_app.scenes.pane import Lit, backdrop
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.spelling import Spelling
 from pigaming_app.scenes.stack import Pop, Swap, Turn
@@ -97,6 +98,12 @@ class Initials:
         self.house, self.setup, self.claims = house, setup, sorted(claims, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
+        self.ahead = self._ahead()
+
+    def warm(self) -> None:
+        """Make one piece of the page, so that it does not come in one long frame."""
+        if piece := next(self.ahead, None):
+            piece()
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -140,9 +147,7 @@ class Initials:
 
     def _panel(self, screen: pygame.Surface, x: int, claim: Claim) -> None:
         words, spelling = self.house.words, self.spellings[claim.device]
-        page.frame(claim.seat, words("lobby.seat", player=claim.seat + 1), self._lines(claim), spelling.done).draw(
-            screen, x, page.TOP_Y
-        )
+        self._frame(claim, spelling.done).draw(screen, x, page.TOP_Y)
         page.letters(screen, x, claim.seat, spelling)
         if spelling.done:
             page.ready(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
@@ -153,6 +158,18 @@ class Initials:
         key = "done" if spelling.slot == 2 else "next_letter"
         label = words.printed(self.house.controls.label(claim.device, Act.FIRE))
         page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
+
+    def _frame(self, claim: Claim, done: bool) -> Lit:
+        return page.frame(claim.seat, self.house.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
+
+    def _ahead(self) -> Iterator[Callable[[], object]]:
+        words = self.house.words
+        yield partial(heading, words("results.high_score"), color=FOCUS)
+        for done in (False, True):
+            for claim in self.claims:
+                yield partial(self._frame, claim, done)
+        for claim in self.claims:
+            yield partial(page.ready, claim.seat, words("results.done"))
 
     def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
         """What the panel says about a claim: each feat with its value, and the places that it has."""

@@ -107,7 +107,8 @@ class Pause:
         if press.act is Act.ALT:
             press = replace(press, act=Act.BRAIN)
         admitted = self.access.admit(press)
-        if admitted is None or (press.act is Act.BRAIN and press.device not in self.access.acting):
+        acting = self.access.acting
+        if admitted is None or (press.act is Act.BRAIN and acting and admitted.device not in acting):
             self.waits = WAITS
             return None
         press = admitted

@@ -58,6 +58,7 @@ class Results:
         self.page = ResultsPage(house, outcome, setup, finished, absent)
         own = [None if seat in helped else device for seat, device in enumerate(devices)]
         self.claims = claims(house, outcome, setup, own) if finished else []
+        self.initials = Initials(house, setup, self.claims)
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = self.told = 0.0
         self.access = Access(house, lambda: self.ballot.devices)
@@ -115,9 +116,11 @@ class Results:
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
             self.house.sounds.play(name, player)
-        if self.claims and self.age >= CLAIMS:
-            claims, self.claims = self.claims, []
-            return Push(Initials(self.house, self.setup, claims))
+        if self.claims:
+            self.initials.warm()
+            if self.age >= CLAIMS:
+                self.claims = []
+                return Push(self.initials)
         if self.leaving.update(seconds) or self.access.update(seconds):
             return self._leave()
         for press in self.joining.update(seconds):

@@ -243,6 +243,19 @@ def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> Non
     assert arcade.stack.top is match
 
 
+def test_f4_of_the_keyboard_shows_thoughts_in_any_match_but_ends_no_pause_of_somebody_else(
+    arcade: Arcade, pads: ExitStack
+) -> None:
+    pad, first = plug(arcade, pads)
+    match = running(arcade, "human easy off off", [first])
+    key(arcade, pygame.KSCAN_F4)
+    assert match.stage.brain.seats == [1]
+    tap(arcade, pad, "start")
+    page = arcade.shown(Pause)
+    key(arcade, pygame.KSCAN_F4)
+    assert arcade.shown(Pause) is page
+
+
 def test_an_unplugged_pad_owns_no_pause(arcade: Arcade, pads: ExitStack) -> None:
     (_, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
     running(arcade, "human human off off", [first, second])
