@@ -186,10 +186,11 @@ class App:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
         first = not self.shown
-        self._play(events, seconds)
-        played = perf_counter()
-        if not self.stack.scenes or not self._paint(began):
-            return False
+        with budget.frame(self.unfinished > 0):
+            self._play(events, seconds)
+            played = perf_counter()
+            if not self.stack.scenes or not self._paint(began):
+                return False
         self._say(self.house.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
             self.house.backstage.start()  # the title is there

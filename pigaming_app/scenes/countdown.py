@@ -123,7 +123,8 @@ def show(screen: pygame.Surface, sign: Sprite, at: tuple[int, int] = CENTRE) -> 
 
 
 @cached
-def arcs(count: int) -> Sprite:
+@sliced
+def arcs(count: int) -> Steps[Sprite]:
     """Three arcs round a number, of which `count` are still lit."""
     half = 270
     ink = Ink(2 * half, 2 * half).to(half, half)
@@ -131,4 +132,7 @@ def arcs(count: int) -> Sprite:
         start = -math.pi / 2 + i * math.tau / 3 + 0.14
         lit = i < count
         ink.arc(0, 0, 215, start, start + math.tau / 3 - 0.28, FOCUS if lit else (58, 54, 16), BOLD if lit else 4)
-    return trim(ink.sprite(1.0), half, half)
+    yield
+    image = yield from ink.spriting(1.0)
+    yield
+    return trim(image, half, half)

@@ -29,21 +29,32 @@ class Unfinished(Exception):
 
 
 class FrameBudget:
-    """The time in which work may begin. At least one piece is made under each limit, so there is always progress."""
+    """The time in which work may begin. In each frame, or under each limit outside of one, one piece is always made."""
 
     def __init__(self) -> None:
         self._end = math.inf
-        self._made = False
+        self._made = self._in_frame = False
+        self.behind = False  # the last frame's picture was not completed, so this one has no time for anything else
+
+    @contextmanager
+    def frame(self, behind: bool) -> Iterator[None]:
+        """One frame of the arcade."""
+        self._in_frame, self._made, self.behind = True, False, behind
+        try:
+            yield
+        finally:
+            self._in_frame = self.behind = False
 
     @contextmanager
     def until(self, end: float) -> Iterator[None]:
         """Begin no more work after this time of `clock`."""
-        before = self._end, self._made
-        self._end, self._made = end, False
+        before = self._end
+        self._end = min(before, end)
+        self._made = self._made and self._in_frame
         try:
             yield
         finally:
-            self._end, self._made = before
+            self._end = before
 
     def claim(self) -> None:
         """Before a piece is made. Raises Unfinished where none may be begun any more."""
@@ -76,7 +87,9 @@ class Ahead:
         self._next = self._next or next(self._jobs, None)
 
     def work(self, milliseconds: float) -> bool:
-        """Work for so long; true when all is done."""
+        """Work for so long, unless the picture of this frame needs all the time; true when all is done."""
+        if budget.behind:
+            return self._next is None
         end = clock() + milliseconds / 1000.0
         with budget.until(end):
             while self._next:

@@ -325,7 +325,7 @@ class MatchScene:
             )
             if finished:
                 self.house.sounds.play("go")
-        ready = self.results.warm(12.0)
+        ready = self.results.warm(WARM)
         self.frozen += seconds
         self.stage.wait(seconds)
         if ready and (self.stopped or self.frozen >= FREEZE):

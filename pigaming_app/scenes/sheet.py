@@ -196,9 +196,9 @@ class Ink:
         """As `lighting`, at once."""
         return finished(self.lighting(glow, halos))
 
-    def sprite(self, glow: float = 1.0) -> pygame.Surface:
+    def spriting(self, glow: float = 1.0) -> Steps[pygame.Surface]:
         """Premultiplied: black where `solid` hides the ground, light everywhere else. One blit occludes and glows."""
-        light = self.lit(glow)
+        light = yield from self.lighting(glow)
         out = pygame.Surface((self.w, self.h), pygame.SRCALPHA)
         if self.covers:
             mask = pygame.Surface(self.sheet.get_size(), pygame.SRCALPHA)
@@ -207,6 +207,10 @@ class Ink:
             out.blit(pygame.transform.smoothscale(mask, (self.w, self.h)), (0, 0))
         out.blit(light, (0, 0), special_flags=ADD)
         return out
+
+    def sprite(self, glow: float = 1.0) -> pygame.Surface:
+        """As `spriting`, at once."""
+        return finished(self.spriting(glow))
 
 
 def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:

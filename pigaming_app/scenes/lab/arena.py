@@ -29,6 +29,7 @@ DOTS, DOT_EVERY = 14, 0.05  # of a trail; seconds
 LONGEST = 0.12  # seconds that a glide may take
 WAVE = 0.45  # seconds
 Pose = tuple[float, float, float]  # px of the arena, rad
+Wall = tuple[float, float, float, float, float, int, int]  # both ends, half its width (px), health when whole, and now
 
 
 class Arena:
@@ -37,7 +38,8 @@ class Arena:
     def __init__(self, ground: pygame.Surface) -> None:
         self.bare = ground.subsurface(MATCH).copy()
         self.floor = self.bare.copy()
-        self.health: list[int] = []
+        self.walls: list[Wall] = []
+        self.painted: list[Wall] = []  # the walls on the floor
         self.before: list[Pose] = []
         self.now: list[Pose] = []
         self.seats: list[int] = []
@@ -53,7 +55,8 @@ class Arena:
         """How the match stands now."""
         if not self.seats:
             self.jobs = Ahead(jobs(state))
-        self._walls(state)
+        walls = (state.walls[i] for i in range(state.wall_count))
+        self.walls = [(one.ax, one.ay, one.bx, one.by, one.half, one.whole, one.health) for one in walls]
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
         self.before = self.blended() or poses
@@ -97,6 +100,7 @@ class Arena:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint it where the page has room for it."""
+        self._paint_walls()
         screen.blit(self.floor, MATCH)
         under: Batch = []
         over: Batch = []
@@ -135,19 +139,16 @@ class Arena:
                 self.waves.append((x, y, seat, 0.0))
         self.taken = taken
 
-    def _walls(self, state: Any) -> None:
+    def _paint_walls(self) -> None:
         """Paint the walls again when one has been hit, or when another match has begun."""
-        health = [state.walls[i].health for i in range(state.wall_count)]
-        if health == self.health:
+        if self.walls == self.painted:
             return
-        self.health = health
-        self.floor.blit(self.bare, (0, 0))
         batch: Batch = []
-        for i in range(state.wall_count):
-            one = state.walls[i]
-            x, y = _at((one.ax + one.bx) / 2, (one.ay + one.by) / 2)
-            put(batch, little_wall(one.ax, one.ay, one.bx, one.by, one.half, one.whole, one.health), x, y)
+        for wall in self.walls:
+            put(batch, little_wall(*wall), *_at((wall[0] + wall[2]) / 2, (wall[1] + wall[3]) / 2))
+        self.floor.blit(self.bare, (0, 0))
         self.floor.fblits([(image, (x - MATCH.x, y - MATCH.y)) for image, (x, y) in batch], PRE)
+        self.painted = self.walls
 
 
 def jobs(state: Any) -> Iterator[Job]:
