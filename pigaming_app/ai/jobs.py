@@ -20,6 +20,7 @@ FREES = 300.0  # px that it is worth to free a machine
 HOME = 5000.0  # px by which waiting at home seems farther than where something will come out
 NOISE = 600.0  # px by which who reckons badly is wrong
 STALLED = 12.0  # s without a worker after which a pallet is taken out of a machine's input again
+SLOW = 6.0  # s without one that count against a machine at all; less is common
 SHUN = 2000.0  # px by which a slot seems farther that could not be got at
 LATER = 260.0  # px by which a raw pallet seems farther: what is nearer to the exit comes first
 
@@ -69,7 +70,13 @@ def hindrance(slot: Any) -> float:
     """The px that it costs to put something into a slot whose machine cannot begin at once."""
     if slot.kind != INPUT:
         return 0.0
-    return slot.stalled * SPEED + (BLOCKED if slot.output_blocked else 0.0)  # type: ignore[no-any-return]
+    return delay(slot) + (BLOCKED if slot.output_blocked else 0.0)
+
+
+@kernel
+def delay(slot: Any) -> float:
+    """The px that the time weighs for which nobody has come to the machine of an input."""
+    return slot.stalled * SPEED if slot.stalled > SLOW else 0.0
 
 
 @kernel
@@ -195,7 +202,7 @@ def waiting_place(view: Any, mind: Any) -> int:
         else:
             good = slot.mine == 1 or (slot.kind == OUTPUT and slot.ours == 1)
         if good and not taken(view, s):
-            cost = away(view, s) + (slot.wait + slot.stalled) * SPEED + shyness(mind, s)
+            cost = away(view, s) + slot.wait * SPEED + delay(slot) + shyness(mind, s)
             if slot.mine == 1:
                 cost += HOME
             if cost < least:

@@ -117,7 +117,7 @@ def ended(floor, brains, pose=None):
 
 @pytest.mark.parametrize(("floor", "m"), EVERY)
 def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floor, m):
-    """The longest of 4992 such matches took 119 s; 60 s without anybody in the way."""
+    """The longest of 4992 such matches took 117 s; 60 s without anybody in the way."""
     poses = against(begun(floor, (PARK, None, None, None)).state, m)
     match = ended(floor, ("hard", MANNERS[("push", "shake")[m % 2]], "hard", "hard"), poses[m % len(poses)])
     assert match.state.winner
