@@ -31,6 +31,7 @@ WEAK = 40.0  # px/s that friction may take from a wheel, on top of the deadband
 CLEAR, STANDS = 8.0, 0.2  # px that a wheel must have turned in LONG, and the share of it below which it is stuck
 SOON = 0.08  # s over which it is found to leave the arena
 STRONG, NUDGE = 1.3, 3.0  # share of the way outwards that it was told, and px, beyond which it leaves by itself
+STEADY = 0.6  # share of what a wheel must have turned at most, below which it depends too much on how late it hears
 COASTS = 0.3  # s of motion still to come when a stop is decided: dead time of camera and radio, and the motors' lag
 EDGES = (((-1.0, 0.0), 0.0), ((1.0, 0.0), WIDTH), ((0.0, -1.0), 0.0), ((0.0, 1.0), HEIGHT))  # outwards, px
 SETTLES = 0.3  # s from the first command until motion can come from it alone
@@ -191,7 +192,10 @@ class Watch:
             told = [one[2 + wheel] for one in ways]
             for sign in (1.0, -1.0):
                 least = min(sign * one for one in told)
-                if least > CLEAR and sign * turned[wheel] < STANDS * least:
+                if (
+                    least > max(CLEAR, STEADY * max(sign * one for one in told))
+                    and sign * turned[wheel] < STANDS * least
+                ):
                     return True
         return False
 
