@@ -21,6 +21,7 @@ from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.robots.checkup import Checkup, worst
 from pigaming_app.scenes.robots.discs import Discs, tag
+from pigaming_app.scenes.robots.flood import Flood
 from pigaming_app.scenes.stack import Home, Pop, Turn
 from pigaming_app.settings import folders
 from pigaming_app.sim.world import ROBOTS
@@ -45,6 +46,8 @@ class RobotsPage:
         assert house.mat is not None
         self.house = house
         self.check = Checkup(house.mat, house.settings)
+        self.flood = Flood()
+        self.flood.level = 0.0
         self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
         self.focus = Focus(rows.spots(self.names), "pair")
         self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
@@ -92,8 +95,9 @@ class RobotsPage:
                 self.check.end()
                 self.entered()
         pairing = self.check.pairing is not None
+        self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
-            self._found() if pairing else self._say(words("fleet.measured"))
+            self._found() if pairing else self._say(words("fleet.measured" if self.check.late else "fleet.nobody"))
             self.house.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
@@ -103,6 +107,9 @@ class RobotsPage:
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page; the discs on top."""
         words = self.house.words
+        if self.flood.whole:
+            self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
+            return
         screen.blit(backdrop(), (0, 0))
         heading(words("fleet.title"), self._state()).draw(screen)
         blacked(screen, dials.PANEL)
@@ -121,6 +128,7 @@ class RobotsPage:
         for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
             line.draw(screen, 960, 896 + 44 * i)
         self.prompts.draw(screen)
+        self.flood.draw(screen, "")
         if self.check.rig is not None:
             Discs(self.check.rig).draw(screen, set(range(ROBOTS)))
 
