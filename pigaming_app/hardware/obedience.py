@@ -26,11 +26,13 @@ SHORT, LONG = 0.15, 0.4  # s over which motion is compared: to find a robot astr
 LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s by which a command may act later than the drivetrain's dead time
 STRONGEST = 1.5  # gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the way of the faster wheel: errors of sight, of the wheel base, and slip
+UNEVEN = 0.15  # share of the ways of both wheels that they may differ by, once the tracker has learnt their gains
 SIDEWAYS = 7.0  # px in SHORT: no wheel can do that
 WEAK = 40.0  # px/s that friction may take from a wheel, on top of the deadband
 CLEAR, STANDS = 8.0, 0.2  # px that a wheel must have turned in LONG, and the share of it below which it is stuck
 SOON = 0.08  # s over which it is found to leave the arena
 STRONG, NUDGE = 1.3, 3.0  # share of the way outwards that it was told, and px, beyond which it leaves by itself
+STEADY = 0.6  # share of what a wheel must have turned at most, below which it depends too much on how late it hears
 COASTS = 0.3  # s of motion still to come when a stop is decided: dead time of camera and radio, and the motors' lag
 EDGES = (((-1.0, 0.0), 0.0), ((1.0, 0.0), WIDTH), ((0.0, -1.0), 0.0), ((0.0, 1.0), HEIGHT))  # outwards, px
 SETTLES = 0.3  # s from the first command until motion can come from it alone
@@ -181,7 +183,7 @@ class Watch:
             told = [one[wheel] for one in ways]
             if not STRONGEST * min(0.0, *told) - slack <= way <= STRONGEST * max(0.0, *told) + slack:
                 return True
-        return abs(side) > SIDEWAYS + SHARE * most
+        return abs(side) > SIDEWAYS + SHARE * most or _turned_against(left, right, ways)
 
     def _stuck(self, since: Sight, now: Sight) -> bool:
         """Whether a wheel stands that even the weakest would have turned."""
@@ -191,7 +193,10 @@ class Watch:
             told = [one[2 + wheel] for one in ways]
             for sign in (1.0, -1.0):
                 least = min(sign * one for one in told)
-                if least > CLEAR and sign * turned[wheel] < STANDS * least:
+                if (
+                    least > max(CLEAR, STEADY * max(sign * one for one in told))
+                    and sign * turned[wheel] < STANDS * least
+                ):
                     return True
         return False
 
@@ -201,12 +206,14 @@ class Watch:
         if dt <= 0.0:
             return False
         heading = 0.5 * (since.heading + now.heading)
-        ways = [0.5 * (way[0] + way[1]) for way in self._told_ways(since, now)[:-1]]
+        told_ways = self._told_ways(since, now)[:-1]
+        ways = [0.5 * (way[0] + way[1]) for way in told_ways]
+        nudge = NUDGE + 0.5 * UNEVEN * max(abs(way[0] - way[1]) for way in told_ways)  # uneven wheels spin off the spot
         for (out_x, out_y), edge in EDGES:
             gone = out_x * (now.x - since.x) + out_y * (now.y - since.y)
             told = max(0.0, *((out_x * cos(heading) + out_y * sin(heading)) * way for way in ways))
             over = out_x * now.x + out_y * now.y + RADIUS - edge
-            if gone > STRONG * told + NUDGE and over + COASTS * gone / dt > 0.0:
+            if gone > STRONG * told + nudge and over + COASTS * gone / dt > 0.0:
                 return True
         return False
 
@@ -241,3 +248,14 @@ class Watch:
         before, after = sent[at - 1], sent[at]
         share = (time - before.time) / (after.time - before.time)
         return tuple(a + share * (b - a) for a, b in zip(before[1:], after[1:], strict=True))
+
+
+def _turned_against(left: float, right: float, told: Sequence[tuple[float, ...]]) -> bool:
+    """Whether it turned the other way than it was told, by far more than uneven wheels can make of that, px."""
+    turns = [one[0] - one[1] for one in told]
+    least, most = min(turns), max(turns)
+    if least * most <= 0.0:
+        return False
+    sign, clear = (1.0, least) if least > 0.0 else (-1.0, -most)
+    uneven = UNEVEN * max(abs(one[0]) + abs(one[1]) for one in told)
+    return clear > 2.0 * SLACK and sign * (left - right) < -SLACK - uneven

@@ -61,6 +61,11 @@ class Rule:
     lasts: bool = False  # until somebody has looked: see Safety.forgive. Meanwhile nobody moves
 
 
+def _disobeys(signs: Signs) -> bool:
+    """Whether a robot does not do as it is told; one that stands and was not heard lately may just be switched off."""
+    return signs.leaving or signs.astray > 0.4 or (signs.stuck > 0.4 and signs.silence < 0.35)
+
+
 RULES = (
     Rule("stopped", lambda s: s.stopped, Does.STOP, everyone=True, pauses=True),
     Rule("radio", lambda s: s.unlinked, Does.STOP, everyone=True, pauses=True),
@@ -69,13 +74,7 @@ RULES = (
     Rule("twice", lambda s: s.doubled, Does.STOP, pauses=True),
     Rule("held", lambda s: s.unseen > 1.000 and s.refused in IN_A_HAND, Does.STOP, pauses=True),
     Rule("lost", lambda s: s.unseen > 1.000 and s.refused not in (*IN_A_HAND, BEYOND), Does.STOP, pauses=True),
-    Rule(
-        "disobeys",
-        lambda s: s.leaving or s.astray > 0.4 or (s.stuck > 0.4 and s.silence < 0.35),
-        Does.STOP,
-        pauses=True,
-        lasts=True,
-    ),
+    Rule("disobeys", _disobeys, Does.STOP, pauses=True, lasts=True),
     Rule("unseen", lambda s: s.unseen > 0.250, Does.STOP),
     Rule("unseen", lambda s: s.unseen > 0.100, Does.HALF),
     Rule("empty", lambda s: s.battery < 4.0 or s.refuses, Does.OFF, pauses=True),

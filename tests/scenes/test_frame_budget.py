@@ -80,8 +80,7 @@ def test_a_piece_longer_than_the_budget_is_still_made(watch: Watch) -> None:
     made, piece = pieces(watch, 5 * FRAME)
     for _ in range(3):
         with pytest.raises(Unfinished), budget.until(watch.now + FRAME):
-            for number in range(4):
-                piece(number)
+            list(map(piece, range(4)))
     assert made == [0, 1, 2]
 
 

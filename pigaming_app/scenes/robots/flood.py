@@ -10,6 +10,7 @@ import pygame
 
 from pigaming_app.scenes.ink import BODY
 from pigaming_app.scenes.page import text
+from pigaming_app.scenes.words import Words
 
 LIGHT = 128  # grey level: bright enough for markers in the dark, and not dazzling
 UNSEEN = 1.0  # s after which a robot that was seen is looked for again
@@ -55,6 +56,6 @@ def written(screen: pygame.Surface, said: str, size: int, y: int) -> None:
     screen.blit(lit.image, (960 + lit.at[0], y + lit.at[1]), special_flags=pygame.BLEND_RGB_SUB)
 
 
-def robots(missing: Sequence[int]) -> str:
-    """The numbers of robots as a list."""
-    return ", ".join(str(robot + 1) for robot in missing)
+def looking(words: Words, missing: Sequence[int]) -> str:
+    """Which robots are looked for, and what to do about it."""
+    return words("mat.looking", robots=", ".join(words("mat.robot", robot=robot + 1) for robot in missing))

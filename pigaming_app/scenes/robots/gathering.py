@@ -22,7 +22,7 @@ from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.robots.discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.robots.flood import UNSEEN as UNSEEN_AFTER
-from pigaming_app.scenes.robots.flood import Flood, robots
+from pigaming_app.scenes.robots.flood import Flood, looking
 from pigaming_app.scenes.robots.trouble import named, shown
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.scenes.surface_cache import cached
@@ -68,7 +68,7 @@ class Gathering:
         if self.flood.whole:
             hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
             faults = [named(fault, words, "") for fault in self._faults()]
-            self.flood.draw(screen, " ".join(faults[:1]) or self._looking(), hints)
+            self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
             return
         screen.fill((0, 0, 0))
         frame().draw(screen)
@@ -95,10 +95,6 @@ class Gathering:
     def _faults(self) -> list[Fault]:
         """What is wrong, but for what happens to robots that are carried to their places."""
         return [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
-
-    def _looking(self) -> str:
-        """Which robots are looked for, and what to do about it."""
-        return self.house.words("mat.looking", robots=robots(self.missing)) if self.missing else ""
 
     def _outline(self, screen: pygame.Surface, place: Place) -> None:
         x, y, heading = place.pose

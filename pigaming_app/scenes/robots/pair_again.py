@@ -16,7 +16,7 @@ from pigaming_app.scenes.page import text
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.robots.checkup import worst
-from pigaming_app.scenes.robots.flood import UNSEEN, Flood, robots
+from pigaming_app.scenes.robots.flood import UNSEEN, Flood, looking
 from pigaming_app.scenes.stack import Pop, Turn
 from pigaming_app.sim.world import ROBOTS
 
@@ -37,14 +37,15 @@ class PairAgain:
         self.pairing: Pairing | None = None
         self.sentence = ""  # what is wrong, once all have spun
         self.clock = 0.0
-        self.prompts = Prompts(self.house, [(Act.FIRE, "mat.hint_pair"), (Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
+        self.stop = Prompts(self.house, [(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
+        self.after = Prompts(self.house, [(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
 
     def entered(self) -> None:
         """Nothing moves yet."""
 
     def on(self, press: Press) -> Turn:
         """FIRE begins anew once all have spun; before, as BACK, START and STOP at any time, it stops the robots."""
-        press = self.prompts.meant(press)
+        press = (self.after if self.sentence else self.stop).meant(press)
         if press.act is Act.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0
         elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.STOP):
@@ -72,14 +73,13 @@ class PairAgain:
     def draw(self, screen: pygame.Surface) -> None:
         """A dark page with the discs, or grey light while a robot is not seen."""
         words = self.house.words
-        title = words("mat.looking", robots=robots(self.missing)) if self.missing else words("mat.pairing")
         if self.flood.whole:
-            self.flood.draw(screen, title, words("mat.pairing"))
+            self.flood.draw(screen, looking(words, self.missing), words("mat.pairing"))
             self.match.watch.draw(screen)
             return
         screen.fill((0, 0, 0))
         text(words("mat.pairing"), BODY, ICE, "body", "c", 1728).draw(screen, 960, TITLE_Y)
-        self.prompts.draw(screen)
+        (self.after if self.sentence else self.stop).draw(screen)
         for i, line in enumerate(paragraph(self.sentence, 1300, 3, ALARM, "c") if self.sentence else ()):
             line.draw(screen, 960, SAID_Y + 60 * i)
         self.flood.draw(screen, "")

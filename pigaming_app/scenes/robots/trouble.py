@@ -41,7 +41,10 @@ class Trouble:
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
-        self.prompts = self._prompts()
+        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        mending = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry")]
+        self.mending = Prompts(self.house, mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
@@ -53,11 +56,12 @@ class Trouble:
         """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
         robot did not do as it was told, FIRE pairs robots and radios again, and ALT lets it try again.
         """
-        admitted = self.match.access.admit(self.prompts.meant(press))
+        admitted = self.match.access.admit(press)
         if admitted is None:
             return None
         press = admitted
         lasting = self.match.plant.safety.lasting
+        press = self.prompts.meant(self.mending.meant(press) if lasting else press)
         if press.act is Act.EXTRA:
             self._simulate()
         elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
@@ -87,7 +91,6 @@ class Trouble:
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
             self.faults, self.picture = now, None
-            self.prompts = self._prompts()
         if self.house.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
@@ -104,15 +107,11 @@ class Trouble:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
             screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         self.prompts.draw(screen)
+        if self.match.plant.safety.lasting:
+            self.mending.draw(screen)
         self.match.shine(screen)
 
     # ---- inside
-
-    def _prompts(self) -> Prompts:
-        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
-        if self.match.plant.safety.lasting:
-            hints = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry"), *hints]
-        return Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.match.access.voice)
 
     def _releasing(self) -> list[Device]:
         """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
@@ -138,8 +137,9 @@ class Trouble:
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         title(pane, first.robot, about, ICE)
         sign(pane.hot, first.name, *ICON, 76, ALARM)
-        ending = words("mat.waits_for_you" if self.match.plant.safety.lasting else "mat.goes_on")
-        pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
+        if not self.match.plant.safety.lasting:
+            ending = words("mat.goes_on")
+            pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
         fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
         y = write(pane, named(first, words, fire), HEAD + 56, ICE)
         detail = exact(self.match.plant.rig, first.name)
