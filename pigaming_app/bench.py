@@ -16,7 +16,7 @@ from statistics import median
 from time import perf_counter, time
 from typing import Any
 
-from pigaming_app import bench_memory
+from pigaming_app import bench_memory, bench_walk
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.rollout import Batch
 from pigaming_app.games import GAMES
@@ -43,6 +43,7 @@ def measure(game: str) -> dict[str, Any]:
         one = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
         both = max(1.0 / one, *(_two_processes(game) for _ in range(3)))
     frames = _frames(game)
+    slowest = bench_walk.measure()
     return {
         "game": game,
         "plain_us_per_tick": 1e6 * plain,
@@ -51,6 +52,8 @@ def measure(game: str) -> dict[str, Any]:
         "real_time_factor_plain": 1.0 / (HZ * plain),
         "real_time_factor_compiled": None if one is None else 1.0 / (HZ * one),
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
+        "worst_frame_ms": max(slowest.values()),
+        "worst_frame_ms_by_screen": slowest,
         "start_s": min(_start() for _ in range(STARTS)),
         "rss_mb": bench_memory.measure(),
         "machine": machine(),

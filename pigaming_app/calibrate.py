@@ -7,29 +7,25 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from pigaming_app.option_types import path, real, whole
+
 
 class NotCalibrated(Exception):
     """What was asked for cannot be done; the text is one sentence."""
 
 
-def seed(text: str) -> int:
-    """The seed of an emulated arena: a whole number from 0 on."""
-    value = int(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError(f"{text} is less than 0")
-    return value
-
-
 def options(job: argparse.ArgumentParser) -> None:
     """What may be asked for."""
-    job.add_argument("--camera", type=int, help="its number, other than in the settings")
-    job.add_argument("--display", type=int, help="which display, from 1 on")
-    job.add_argument("--emulate", type=seed, nargs="?", const=1, metavar="SEED", help="an emulated arena, no hardware")
+    job.add_argument("--camera", type=whole(0), help="its number, other than in the settings")
+    job.add_argument("--display", type=whole(high=64), help="which display, from 1 on")
+    job.add_argument(
+        "--emulate", type=whole(0), nargs="?", const=1, metavar="SEED", help="an emulated arena, no hardware"
+    )
     job.add_argument("--headless", action="store_true", help="with --emulate: nobody looks on, the errors are printed")
     job.add_argument("--robot", action="store_true", help="with --headless: a robot tells the camera's height")
     job.add_argument("--json", action="store_true", help="as --headless, and print one JSON object")
-    job.add_argument("--sheet", type=Path, metavar="FILE", help="write the page of markers to print (PDF), no more")
-    job.add_argument("--edge", type=float, default=50.0, help="of a marker on that page, in mm")
+    job.add_argument("--sheet", type=path, metavar="FILE", help="write the page of markers to print (PDF), no more")
+    job.add_argument("--edge", type=real(1.0, 1000.0), default=50.0, help="of a marker on that page, in mm")
 
 
 def run(arguments: argparse.Namespace, show: Callable[[Any], int]) -> int:
@@ -43,7 +39,7 @@ def run(arguments: argparse.Namespace, show: Callable[[Any], int]) -> int:
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.calibration.page import CalibrationPage
 
-    display = None if arguments.display is None else max(0, arguments.display - 1)
+    display = None if arguments.display is None else arguments.display - 1
     first = lambda house: CalibrationPage(house, camera=arguments.camera)  # noqa: E731
     return show(Options(first=first, alone=True, display=display, emulate=arguments.emulate))
 
@@ -51,16 +47,15 @@ def run(arguments: argparse.Namespace, show: Callable[[Any], int]) -> int:
 def _write(path: Path, edge: float) -> int:
     from pigaming_app.hardware.markers import NoVision
     from pigaming_app.hardware.sheet import sheet
+    from pigaming_app.keeping import check_target, write
 
     if path.suffix.lower() != ".pdf":
         raise NotCalibrated(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     try:
-        page = sheet(edge)
-        path.write_bytes(page)
+        check_target(path)
+        write(path, sheet(edge))
     except (NoVision, ValueError) as trouble:
         raise NotCalibrated(str(trouble)) from None
-    except OSError as trouble:
-        raise NotCalibrated(f"{path} cannot be written: {trouble.strerror or trouble}.") from None
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")
     return 0
 

@@ -7,38 +7,75 @@ import sys
 from dataclasses import asdict
 from typing import Any
 
+from pigaming_app import streams
+from pigaming_app.parsing import one_line, reason
 from pigaming_app.usage import Wrong, parser
 
 OF_ROBOTS = ("robots", "calibrate", "fidelity")
+FOLDERS = ("ghosts", "pictures", "robots")  # of files, in that for data
 
 
 def main(argv: list[str]) -> int:
     """Do what the arguments say; the exit code."""
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # standard output belongs to the job
+    streams.prepare()
+    try:
+        code = _refused_in_one_line(argv)
+    except SystemExit as end:  # argparse, after --help
+        code = int(end.code or 0)
+    except BrokenPipeError:
+        code = 1
+    except KeyboardInterrupt:
+        code = 130
+    return streams.flushed(code)
+
+
+def _refused_in_one_line(argv: list[str]) -> int:
+    """Do what the arguments say; the exit code, 2 after a line on standard error."""
     from pigaming_app.ai.tables import TableError
     from pigaming_app.games.choices import ChoiceError
     from pigaming_app.games.replay import ReplayError
     from pigaming_app.sim.arena import ArenaError
 
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # standard output belongs to the job
     try:
-        if argv and argv[0] == "test":
-            from pigaming_app.checks import run as check
-
-            return check(argv[1:])
-        arguments = parser().parse_args(argv)
-        return int(JOB[arguments.job or "arcade"](arguments))
-    except (Wrong, ChoiceError, ArenaError, ReplayError, TableError) as wrong:
-        print(f"PiGaming: {wrong}", file=sys.stderr)
-        if argv and argv[0] in OF_ROBOTS:
-            from pigaming_app.logbook import note
-            from pigaming_app.settings import folders
-
-            note(folders().data, str(wrong))
-        return 2
+        return _do(argv)
     except BrokenPipeError:
-        return 1
-    except KeyboardInterrupt:
-        return 130
+        raise
+    except (Wrong, ChoiceError, ArenaError, ReplayError, TableError) as wrong:
+        refusal = str(wrong)
+    except OSError as trouble:  # NotSaved, or a full standard output
+        refusal = str(trouble) if trouble.strerror is None else _named(trouble)
+    streams.say(refusal)
+    if argv and argv[0] in OF_ROBOTS:
+        from pigaming_app.logbook import note
+        from pigaming_app.settings import folders
+
+        note(folders().data, one_line(refusal))
+    return 2
+
+
+def _do(argv: list[str]) -> int:
+    if argv and argv[0] == "test":
+        from pigaming_app.checks import run as check
+
+        return check(argv[1:])
+    arguments = parser().parse_args(argv)
+    if arguments.job != "doctor":  # which changes nothing
+        _sweep()
+    return int(JOB[arguments.job or "arcade"](arguments))
+
+
+def _sweep() -> None:
+    """Delete what a process that was killed left among the user's files."""
+    from pigaming_app.keeping import sweep
+    from pigaming_app.settings import folders
+
+    where = folders()
+    sweep(where.config, where.data, *(where.data / folder for folder in FOLDERS))
+
+
+def _named(trouble: OSError) -> str:
+    return f"{trouble.filename or 'the output cannot be written'}: {reason(trouble)}"
 
 
 def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """The job `doctor`: what is there, what is missing, and what to do about it. It changes nothing and never hangs."""
 
+import contextlib
 import json
 import os
 import platform
@@ -12,6 +13,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from pigaming_app import ASSETS
+from pigaming_app.parsing import json_of, one_line
+from pigaming_app.scores import migrations
 from pigaming_app.settings import folders
 from pigaming_app.start import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
 
@@ -49,14 +52,15 @@ def run(as_json: bool) -> int:
         print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
         return int(not well)
     for line in lines:
-        print(f"{line.state:8} {line.what:24} {line.found}{'  ->  ' + line.advice if line.advice else ''}")
+        advice = f"  ->  {line.advice}" if line.advice else ""
+        print(one_line(f"{line.state:8} {line.what:24} {line.found}{advice}"))
     print("All is well." if well else "Something prevents playing: see the lines that begin with problem.")
     return int(not well)
 
 
 def report() -> list[Line]:
     """Everything worth looking at. It never raises: what fails becomes a line."""
-    return [*_system(), *_packages(), *_folders(), *_assets(), *_devices(), _engine()]
+    return [*_system(), *_packages(), *_folders(), *_older_scores(), *_assets(), *_devices(), _engine()]
 
 
 def _system() -> Iterator[Line]:
@@ -91,7 +95,7 @@ def _packages() -> Iterator[Line]:
 def _folders() -> Iterator[Line]:
     where = folders()
     for what, folder in (("settings", where.config), ("scores", where.data), ("cache", where.cache)):
-        there = next(place for place in (folder, *folder.parents) if place.exists())
+        there = _nearest(folder)
         try:
             tempfile.TemporaryFile(dir=there).close()
         except OSError as error:
@@ -100,6 +104,29 @@ def _folders() -> Iterator[Line]:
         room = shutil.disk_usage(there).free
         full = f"only {room // 1_000_000} MB are free: make room, or nothing will be kept" if room < ROOM else ""
         yield Line(what, "note" if full else "ok", str(folder), full)
+
+
+def _older_scores() -> Iterator[Line]:
+    """What was carried over from version 1.3.0, when, and where its backup lies."""
+    data = folders().data
+    done, waits = migrations(data)
+    for one in done:
+        games = ", ".join(f"{one_line(game, 20)} {rows}" for game, rows in one.rows.items()) or "none"
+        day, backup = f"{one.when:%Y-%m-%d %H:%M}", data / one.backup
+        found = f"rows of version 1.3.0 carried over on {day}: {games}; shown as older, backup {backup}"
+        lost = "" if backup.is_file() else f"the backup has gone: keep a copy of {data / one.file}"
+        yield Line("older scores", "note" if lost else "ok", found, lost)
+    if waits:
+        yield Line("older scores", "note", "those of version 1.3.0 wait to be carried over", "start the arcade once")
+
+
+def _nearest(folder: Path) -> Path:
+    """The folder, or the first one above it that is there."""
+    for place in (folder, *folder.parents):
+        with contextlib.suppress(OSError):  # a name that is too long
+            if place.exists():
+                return place
+    return Path()
 
 
 def _assets() -> Iterator[Line]:
@@ -144,8 +171,12 @@ def _probed() -> dict[str, tuple[str, str]]:
         ).stdout
     except subprocess.TimeoutExpired as stopped:
         said = stopped.stdout or b""
-    answers = (json.loads(line) for line in said.decode().splitlines() if line.endswith("]"))
-    return {name: (found, wrong) for name, found, wrong in answers}
+    answers: dict[str, tuple[str, str]] = {}
+    for line in said.decode(errors="replace").splitlines():
+        with contextlib.suppress(ValueError):  # a driver may print as well
+            name, found, wrong = json_of(line)
+            answers[str(name)] = str(found), str(wrong)
+    return answers
 
 
 def _engine() -> Line:

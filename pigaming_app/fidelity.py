@@ -6,13 +6,15 @@ run again in the simulator.
 """
 
 import json
+import os
 from argparse import Namespace
 from dataclasses import asdict
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.workshop import kept_robots, open_workshop
+from pigaming_app.parsing import reason
+from pigaming_app.workshop import kept_robots, open_workshop, wiring
 
 HZ = 50
 LOST = 5.0  # s of robots that cannot drive after which a recording is given up
@@ -37,19 +39,28 @@ def record(arguments: Namespace) -> dict[str, Any]:
     """Let the robots dance for a while on an empty mat, and write the run."""
     from pigaming_app.hardware.markers import NoVision
     from pigaming_app.hardware.runs import Recorder
+    from pigaming_app.hardware.stock import NO_DEADMAN
+    from pigaming_app.keeping import check_target
 
+    if arguments.emulate is None and wiring().radio == "stock":
+        raise NotDone(NO_DEADMAN)
+    check_target(arguments.file)
     try:
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
     except (ValueError, ImportError, NoVision) as trouble:
         raise NotDone(str(trouble)) from None
     try:
         present = _present(shop)
-        shop.rig.recorder = recorder = Recorder(arguments.file, shop.mm, arguments.emulate is not None)
-        _dance(shop, present, arguments.seconds)
-        shop.rig.recorder = None
-        recorder.close()
+        recorder = Recorder(arguments.file, shop.mm, arguments.emulate is not None)
+        try:
+            shop.rig.recorder = recorder
+            _dance(shop, present, arguments.seconds)
+            shop.rig.recorder = None
+            recorder.close()
+        finally:
+            recorder.discard()
     except OSError as trouble:
-        raise NotDone(f"{arguments.file}: cannot be written ({trouble.strerror})") from None
+        raise NotDone(f"{arguments.file}: cannot be written ({reason(trouble)})") from None
     finally:
         shop.close()
     robots = ", ".join(str(robot + 1) for robot in present)
@@ -137,7 +148,7 @@ def replay(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.sim.drivetrain import DrivetrainError
 
     run = _load(arguments.file)
-    if arguments.robots and not arguments.robots.exists():
+    if arguments.robots and not os.path.exists(arguments.robots):
         raise NotDone(f"{arguments.robots}: there is no such file")
     try:
         drivetrains = measured(arguments.robots or kept_robots(run.emulated))
@@ -169,5 +180,3 @@ def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
         return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
     except NoPlots as missing:
         return [str(missing)]
-    except OSError as trouble:
-        raise NotDone(f"{folder}: cannot be written ({trouble.strerror})") from None

@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 from typing import IO
 
+from pigaming_app.keeping import write
 from pigaming_app.start import (
     Trouble,
     lacks,
@@ -140,7 +141,7 @@ def install(place: Path, groups: set[str]) -> None:
         code, said = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], tell=True)
         if code:
             raise Trouble(_cause(said, place, wanted))
-        (place / "ready").write_text("\n".join([standing_on(place), *sorted(groups)]), encoding="utf-8")
+        write(place / "ready", "\n".join([standing_on(place), *sorted(groups)]).encode())
     except OSError as error:
         raise Trouble(_cause(str(error), place, wanted)) from error
 

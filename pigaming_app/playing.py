@@ -14,12 +14,16 @@ from pigaming_app.games.choices import choose
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import save
+from pigaming_app.keeping import NotSaved, check_target
+from pigaming_app.parsing import ParseError, read_text, reason, shown
+from pigaming_app.settings import Settings, folders
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS
 
 HELD_UP = 4.0  # s after which a picture is taken of what holds up real robots
 FASTEST = 64.0  # times real time that a window shows
+SLOWEST_RATE, FASTEST_RATE = 0.01, 10_000.0  # times real time that can be asked for
 WATCHED = 150  # ticks before a picture in which shots, sparks and treads of it begin
 
 
@@ -39,20 +43,31 @@ def play(
         try:
             teams = [int(team) for team in arguments.teams.split(",")]
         except ValueError:
-            raise wrong(f"--teams: {arguments.teams!r}; numbers such as 0,0,1,1 are needed") from None
+            raise wrong(f"--teams: {shown(arguments.teams)}; numbers such as 0,0,1,1 are needed") from None
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
     names = list(BRAINS.get(arguments.game, {}))
     arena, minutes, seed, variant = arguments.arena, arguments.minutes, arguments.seed, arguments.variant
     setup = choose(arguments.game, seats, arena, minutes, seed, variant, teams, names, goal)
     speed = _speed(arguments.speed, wrong)
-    for path in (arguments.record, arguments.screenshot):
-        if path is not None and not path.absolute().parent.is_dir():
-            raise wrong(f"{path}: there is no such folder")
     real = _real(arguments, setup, speed, wrong)
+    if real:
+        _check_radio(chosen, wrong)
     plant = _plant(arguments, real, wrong)
+    _check_targets(arguments.record, arguments.screenshot, wrong)
     if arguments.headless and not real:
-        return _headless(arguments, setup, speed, plant, wrong)
-    return _on_screen(arguments, setup, min(speed, FASTEST), real, plant, chosen, show)
+        return _headless(arguments, setup, speed, plant)
+    return _on_screen(arguments, setup, min(speed, FASTEST), real, plant, chosen, show, wrong)
+
+
+def _check_targets(record: Path | None, screenshot: Path | None, wrong: type[Exception]) -> None:
+    """Refuse before the match what could not be written after it. Raises `wrong` or NotSaved."""
+    if screenshot is not None and screenshot.suffix.lower() != ".png":
+        raise wrong(f"--screenshot: {screenshot}: the name of a picture ends in .png")
+    if record is not None and screenshot is not None and os.path.realpath(record) == os.path.realpath(screenshot):
+        raise wrong(f"--record: {record}: the picture has that name")
+    for path in (record, screenshot):
+        if path is not None:
+            check_target(path)
 
 
 def _plant(arguments: argparse.Namespace, real: list[int], wrong: type[Exception]) -> Callable[[Any], Plant]:
@@ -62,11 +77,11 @@ def _plant(arguments: argparse.Namespace, real: list[int], wrong: type[Exception
     if real or arguments.record is not None:
         raise wrong("--robots: goes without --real and --record")
     try:
-        drivetrains = parse(arguments.robots.read_text(encoding="utf-8"), arguments.robots.name)
-    except (OSError, UnicodeDecodeError):
-        raise wrong(f"{arguments.robots}: cannot be read") from None
+        drivetrains = parse(read_text(arguments.robots), arguments.robots.name)
     except DrivetrainError as error:
         raise wrong(str(error)) from None
+    except (OSError, ParseError) as error:
+        raise wrong(f"{arguments.robots}: cannot be read ({reason(error)})") from None
     return lambda world: SimPlant(world, drivetrains)
 
 
@@ -77,9 +92,9 @@ def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type
     try:
         seats = there if text == "all" else sorted({int(one) - 1 for one in text.split(",") if one})
     except ValueError:
-        raise wrong(f"--real: {text!r}; numbers such as 1,3, or all, are needed") from None
+        raise wrong(f"--real: {shown(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in there]:
-        raise wrong(f"--real: nobody sits on seat {stray[0]}")
+        raise wrong(f"--real: nobody sits on seat {shown(stray[0])}")
     if seats and arguments.record is not None:
         raise wrong("--record: what real robots do cannot be played out again; record it with `fidelity record`")
     if seats and speed != 1.0 and not arguments.headless:
@@ -89,14 +104,26 @@ def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type
     return seats
 
 
+def _check_radio(chosen: dict[str, Any], wrong: type[Exception]) -> None:
+    """Refuse robots whose motors would not stop by themselves, whether the command line or the settings name them."""
+    from pigaming_app.scenes.mat import unfit
+
+    settings, _ = Settings.load(folders().config)
+    settings.radio = chosen.get("radio", settings.radio)
+    if reason := unfit(settings):
+        raise wrong(f"--radio: {reason}")
+
+
 def _speed(text: str, wrong: type[Exception]) -> float:
     """How many times real time; infinity for "max"."""
+    if text == "max":
+        return float("inf")
     try:
-        speed = float("inf") if text == "max" else float(text)
+        speed = float(text)
     except ValueError:
         speed = 0.0
-    if not speed > 0.0:
-        raise wrong(f"--speed: {text!r}; a number above 0, or max, is needed")
+    if not SLOWEST_RATE <= speed <= FASTEST_RATE:
+        raise wrong(f"--speed: {shown(text)}; a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}, or max, is needed")
     return speed
 
 
@@ -105,27 +132,57 @@ def _headless(
     setup: Setup,
     speed: float,
     plant: Callable[[Any], Plant],
-    wrong: type[Exception],
 ) -> int:
     match = seated(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):
         print("PiGaming: nobody can steer without a window; the human seat stands still", file=sys.stderr)
     began = perf_counter()
-    shot_at = min(round(arguments.at / DT), match.state.rules.ticks) if arguments.screenshot else -1
-    camera: Any = None
+    photographer = Photographer(match, arguments.screenshot, arguments.at) if arguments.screenshot else None
     while not match.over:
         match.tick()
-        if shot_at - WATCHED <= match.state.tick <= shot_at:
-            camera = camera or _camera(match)
-            camera.watch()
-        if match.state.tick == shot_at:
-            _picture(camera, arguments.screenshot, wrong)
+        if photographer:
+            photographer.watch()
         ahead = match.seconds / speed - (perf_counter() - began)
         if ahead > 0.0:
             sleep(ahead)
-    _record(match, arguments.record, wrong)
-    _tell(match, arguments.json, perf_counter() - began)
+    try:
+        if arguments.record:
+            save(match, arguments.record)
+    finally:
+        _tell(match, arguments.json, perf_counter() - began)
+    if photographer and photographer.trouble:
+        raise photographer.trouble
     return 0
+
+
+class Photographer:
+    """Takes one picture of a match at `at` s, or of its end if that comes first. `trouble`: why it was not saved."""
+
+    def __init__(self, match: Match, path: Path, at: float) -> None:
+        self.match, self.path, self.due = match, path, round(at / DT)
+        self.trouble: NotSaved | None = None
+        self._camera: Any = None
+        self._taken = False
+        if self.due == 0:
+            self._take()
+
+    def watch(self) -> None:
+        """A tick has been played."""
+        tick, over = self.match.state.tick, self.match.over
+        if self._taken or (tick < self.due - WATCHED and not over):
+            return
+        self._camera = self._camera or _camera(self.match)
+        self._camera.watch()
+        if tick >= self.due or over:
+            self._take()
+
+    def _take(self) -> None:
+        self._taken = True
+        self._camera = self._camera or _camera(self.match)
+        try:
+            self._camera.picture(self.path)
+        except NotSaved as trouble:
+            self.trouble = trouble
 
 
 def _on_screen(
@@ -136,6 +193,7 @@ def _on_screen(
     plant: Callable[[Any], Plant],
     chosen: dict[str, Any],
     show: Callable[[Any], int],
+    wrong: type[Exception],
 ) -> int:
     """In a window; or, with emulated robots, without one and as fast as this machine can."""
     from pigaming_app.scenes.app import Options
@@ -146,7 +204,7 @@ def _on_screen(
     from pigaming_app.scenes.stack import Scene
 
     made: list[MatchScene] = []
-    began = perf_counter()
+    began, shot = perf_counter(), False
 
     def scene(house: House) -> Scene:
         """People take the pads that are there, then the key clusters."""
@@ -163,9 +221,12 @@ def _on_screen(
 
     def due() -> bool:
         """The time of the picture has come, or will not come because real robots are missing."""
+        nonlocal shot
         if made and not made[0].stuck:
-            return bool(made[0].match.over or made[0].match.seconds >= arguments.at)
-        return bool(perf_counter() - began > arguments.at + HELD_UP)
+            shot = bool(made[0].match.over or made[0].match.seconds >= arguments.at)
+        else:
+            shot = perf_counter() - began > arguments.at + HELD_UP
+        return shot
 
     def over() -> bool:
         return bool(arguments.headless and (not made or made[0].match.over))
@@ -187,7 +248,9 @@ def _on_screen(
     if made and arguments.headless and not arguments.screenshot:
         _tell(made[0].match, arguments.json, made[0].match.seconds)
     if made and arguments.record:
-        _record(made[0].match, arguments.record, OSError)
+        save(made[0].match, arguments.record)
+    if code == 0 and arguments.screenshot and not shot:
+        raise wrong("--screenshot: the match was left before its time, so there is no picture")
     return code if made or not arguments.headless else 2  # no match: why not has been said
 
 
@@ -197,22 +260,6 @@ def _camera(match: Match) -> Any:
     from pigaming_app.scenes.still import Still
 
     return Still(match)
-
-
-def _picture(camera: Any, path: Path, wrong: type[Exception]) -> None:
-    try:
-        camera.picture(path)
-    except OSError as trouble:
-        raise wrong(f"{path}: the picture cannot be saved ({trouble})") from None
-
-
-def _record(match: Match, path: Path | None, wrong: type[Exception]) -> None:
-    if path is None:
-        return
-    try:
-        save(match, path)
-    except OSError as trouble:
-        raise wrong(f"{path}: the replay cannot be saved ({trouble.strerror})") from None
 
 
 def _tell(match: Match, as_json: bool, seconds: float) -> None:

@@ -1,19 +1,26 @@
 """What an operator may change, and where the arcade keeps its files.
 
 Settings are one TOML file in the platform's own place. It may be edited by hand: whatever in it is wrong is named,
-with file, key and reason, and its default is used instead.
+with file, key and reason, and its default is used instead. Several copies of the arcade may share it: each writes only
+the settings that it has changed itself.
 """
 
+import logging
 import os
-import tomllib
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, Protocol
 
 from pigaming_app.keeping import keep, recall
+from pigaming_app.locking import locked
+from pigaming_app.parsing import one_line, shown, toml_of
 
 FILE = "settings.toml"
 FORMER = ("arena", "minutes", "variant")  # stood alone when there was one game
+LONGEST = 60  # characters of a name
+MOST_GAMES = 64
+MOST_SENTENCES = 5  # about one file
+log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
@@ -77,7 +84,8 @@ class Name:
     """A name of something that may have gone since: who uses it looks whether it is there."""
 
     def wrong(self, value: object) -> str | None:
-        return None if isinstance(value, str) and len(value) <= 60 else "not a short text"
+        short = isinstance(value, str) and len(value) <= LONGEST and value.isprintable()
+        return None if short else "not a short text"
 
 
 @dataclass(frozen=True)
@@ -97,7 +105,7 @@ class Corners:
     """Nothing, or eight whole numbers: where the corners of the picture are, px of the canvas."""
 
     def wrong(self, value: object) -> str | None:
-        whole = isinstance(value, list) and all(isinstance(one, int) and abs(one) < 10000 for one in value)
+        whole = isinstance(value, list) and all(type(one) is int and abs(one) < 10000 for one in value)
         return None if whole and len(value) in (0, 8) else "neither empty nor eight whole numbers"  # type: ignore[arg-type]
 
 
@@ -113,6 +121,11 @@ class Choice:
     minutes: int = _setting(0, Range(0, 60))
     variant: str = _setting("", Name())
     goal: int = _setting(0, Range(0, 99))
+
+
+_DEFAULT = Choice()
+Key = tuple[str | None, str]  # game, or None, and name of a setting
+Flat = dict[Key, Any]
 
 
 @dataclass
@@ -141,21 +154,17 @@ class Settings:
     radios: list[int] = field(default_factory=lambda: [1, 2, 3, 4], metadata={"fit": Numbers(True)})  # of each marker
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
+    def __post_init__(self) -> None:
+        self._base: Flat | None = None  # as this copy loaded or saved it last; None: all of it is chosen here
+        self._seen: Flat = {}  # the file as it was then
+
     @classmethod
     def load(cls, folder: Path) -> "tuple[Settings, list[str]]":
         """The settings kept in the folder, and one sentence for everything that was wrong with them."""
-        path = folder / FILE
-        found, said = recall(path, tomllib.loads)
-        settings, table = cls(), dict(found or {})
-        games = table.pop("games", {})
-        former = {key: table.pop(key) for key in FORMER if key in table}
-        said += _fill(settings.choice("pitanks"), former, f"{path}: ") if former else []
-        said += _fill(settings, table, f"{path}: ")
-        for game, entries in games.items() if isinstance(games, dict) else [("games", games)]:
-            if isinstance(entries, dict):
-                said += _fill(settings.choice(game), entries, f"{path}: games.{game}.")
-            else:
-                said.append(f"{path}: {game} is not a table; it is ignored.")
+        found, said = recall(folder / FILE, toml_of)
+        settings = cls()
+        said += _fill_all(settings, dict(found or {}), folder / FILE)
+        settings._base = settings._seen = _flat(settings)
         return settings, said
 
     def choice(self, game: str) -> Choice:
@@ -169,10 +178,69 @@ class Settings:
         setattr(self, name, value)
 
     def save(self, folder: Path) -> None:
-        """Keep the settings in the folder. Raises NotSaved; then the settings kept before are intact."""
+        """Merge what was changed here into the file. Raises NotSaved; then the settings kept before are intact."""
         import tomli_w
 
-        keep(folder / FILE, tomli_w.dumps(asdict(self)))
+        path, own = folder / FILE, _flat(self)
+        with locked(path):
+            there, said = Settings.load(folder)
+            for sentence in [*said, *self._foreign(_flat(there))]:
+                log.warning("%s", sentence)
+            for key in self._changed():
+                there._set(key, own[key])
+            keep(path, tomli_w.dumps(asdict(there)))
+        self._base, self._seen = own, _flat(there)
+
+    def _changed(self) -> list[Key]:
+        """What was changed here since it was loaded or saved."""
+        own = _flat(self)
+        return [*own] if self._base is None else _differing(own, self._base)
+
+    def _foreign(self, there: Flat) -> list[str]:
+        """What another copy of the arcade has changed in the file, in sentences for the log."""
+        foreign = _differing(there, self._seen) if self._base is not None else []
+        own = self._changed()
+        kept, lost = [key for key in foreign if key not in own], [key for key in foreign if key in own]
+        said = [f"settings of another copy of the arcade kept: {_names(kept)}."] if kept else []
+        return [*said, f"settings of another copy of the arcade replaced: {_names(lost)}."] if lost else said
+
+    def _set(self, key: Key, value: object) -> None:
+        game, name = key
+        setattr(self.choice(game) if game is not None else self, name, value)
+
+
+def _flat(settings: Settings) -> Flat:
+    """Every setting by its key, those of the games too."""
+    flat: Flat = {(None, name): value for name, value in asdict(settings).items() if name != "games"}
+    for game, choice in settings.games.items():
+        flat |= {(game, name): value for name, value in asdict(choice).items()}
+    return flat
+
+
+def _differing(now: Flat, before: Flat) -> list[Key]:
+    """The keys whose values differ; a game that was not there had its defaults."""
+    return [key for key, value in now.items() if before.get(key, getattr(_DEFAULT, key[1], None)) != value]
+
+
+def _names(keys: list[Key]) -> str:
+    return ", ".join(one_line(name if game is None else f"games.{game}.{name}") for game, name in keys[:MOST_SENTENCES])
+
+
+def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str]:
+    """Set what fits in the tables of a file; sentences for what does not."""
+    games = table.pop("games", {})
+    former = {key: table.pop(key) for key in FORMER if key in table}
+    said = _fill(settings.choice("pitanks"), former, f"{path}: ") if former else []
+    said += _fill(settings, table, f"{path}: ")
+    for game, entries in games.items() if isinstance(games, dict) else [("games", games)]:
+        if not isinstance(entries, dict):
+            said.append(f"{path}: {one_line(game, LONGEST)} is not a table; it is ignored.")
+        elif len(game) > LONGEST or (game not in settings.games and len(settings.games) >= MOST_GAMES):
+            said.append(f"{path}: games.{one_line(game, LONGEST)} is one game too many, or its name is; it is ignored.")
+        else:
+            said += _fill(settings.choice(game), entries, f"{path}: games.{one_line(game, LONGEST)}.")
+    more = len(said) - MOST_SENTENCES
+    return said if more <= 1 else [*said[:MOST_SENTENCES], f"{path}: {more} more lines are wrong; they are ignored."]
 
 
 def _fill(target: Any, table: dict[str, Any], where: str) -> list[str]:
@@ -181,9 +249,9 @@ def _fill(target: Any, table: dict[str, Any], where: str) -> list[str]:
     fits = {one.name: one.metadata["fit"] for one in fields(target) if "fit" in one.metadata}
     for key, value in table.items():
         if key not in fits:
-            said.append(f"{where}{key} is not a setting; it is ignored.")
+            said.append(f"{where}{one_line(key, LONGEST)} is not a setting; it is ignored.")
         elif wrong := fits[key].wrong(value):
-            said.append(f"{where}{key} = {value!r} is {wrong}; {getattr(target, key)!r} is used.")
+            said.append(f"{where}{key} = {shown(value)} is {wrong}; {getattr(target, key)!r} is used.")
         else:
             setattr(target, key, float(value) if isinstance(getattr(target, key), float) else value)
     return said

@@ -9,12 +9,12 @@ import csv
 import json
 import signal
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
 from importlib.util import find_spec
-from pathlib import Path
+from io import BytesIO, StringIO
+from os.path import realpath
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -23,6 +23,7 @@ from pigaming_app.ai.rewards import RECIPES, Recipe
 from pigaming_app.ai.tables import load
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.choices import LEAST_MINUTES, MOST_MINUTES, ChoiceError
+from pigaming_app.keeping import check_target, write
 from pigaming_app.sim.kernel import can_compile, engine_hash
 from pigaming_app.sim.world import HZ
 
@@ -46,7 +47,7 @@ class Point(NamedTuple):
 
 
 def train(arguments: argparse.Namespace) -> int:
-    """Train as asked. Raises ChoiceError, ArenaError or TableError."""
+    """Train as asked. Raises ChoiceError, ArenaError, TableError or NotSaved."""
     _check(arguments)
     course = _begin(arguments)
     points: list[Point] = []
@@ -56,14 +57,11 @@ def train(arguments: argparse.Namespace) -> int:
     with _interrupts() as stopped:
         print("Ctrl-C ends it after the match that is being played, and keeps what has been learned", file=sys.stderr)
         seconds = _train(course, arguments, points, stopped)
-        with _blamed(arguments.out):
-            course.save(arguments.out, arguments.out.stem)
+        course.save(arguments.out, arguments.out.stem)
         if arguments.csv:
-            with _blamed(arguments.csv):
-                _write_csv(points, arguments.csv)
+            write(arguments.csv, _csv_of(points))
         if arguments.curve:
-            with _blamed(arguments.curve):
-                _draw_curve(points, arguments)
+            write(arguments.curve, _curve_of(points, arguments))
     _tell(course, arguments, points, seconds, bool(stopped))
     return 130 if stopped else 0
 
@@ -79,29 +77,19 @@ def _check(arguments: argparse.Namespace) -> None:
         raise ChoiceError(f"--out: {arguments.out}: the name of a table ends in .npz")
     if arguments.curve and arguments.curve.suffix.lower() != ".png":
         raise ChoiceError(f"--curve: {arguments.curve}: the name of a picture ends in .png")
-    taken: set[Path] = set()
+    taken: set[str] = set()
     for option in ("out", "csv", "curve"):
         path = getattr(arguments, option)
         if path is None:
             continue
         if path.is_dir() or not path.absolute().parent.is_dir():
             raise ChoiceError(f"--{option}: {path}: there is no such folder, or it is one itself")
-        if path.resolve() in taken:
+        if realpath(path) in taken:
             raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
-        taken.add(path.resolve())
-        with _blamed(path), tempfile.TemporaryFile(dir=path.absolute().parent):
-            pass  # something can be written there
+        taken.add(realpath(path))
+        check_target(path)
     if arguments.curve and find_spec("matplotlib") is None:
         raise ChoiceError("--curve: matplotlib is missing; `pip install matplotlib`, or use --csv")
-
-
-@contextmanager
-def _blamed(path: Path) -> Iterator[None]:
-    """Whatever goes wrong with a file meanwhile is said in one line with its name. Raises ChoiceError."""
-    try:
-        yield
-    except OSError as error:
-        raise ChoiceError(f"{path}: cannot be written ({error.strerror})") from None
 
 
 def _recipe(arguments: argparse.Namespace) -> Recipe:
@@ -191,15 +179,16 @@ def _interrupts() -> Iterator[list[int]]:
             signal.signal(kind, handler)
 
 
-def _write_csv(points: list[Point], path: Path) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(Point._fields)
-        writer.writerows(points)
+def _csv_of(points: list[Point]) -> bytes:
+    text = StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(Point._fields)
+    writer.writerows(points)
+    return text.getvalue().encode()
 
 
-def _draw_curve(points: list[Point], arguments: argparse.Namespace) -> None:
-    """The learning curve: what it scored, what it had seen, how daring it was."""
+def _curve_of(points: list[Point], arguments: argparse.Namespace) -> bytes:
+    """The learning curve as a PNG file: what it scored, what it had seen, how daring it was."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -218,8 +207,10 @@ def _draw_curve(points: list[Point], arguments: argparse.Namespace) -> None:
     heat.plot(matches, [point.temperature for point in points], color="tab:orange", label="temperature")
     heat.set(ylabel="temperature")
     figure.legend(loc="outside lower center", ncols=2, handles=[*seen.lines, *heat.lines])
-    figure.savefig(arguments.curve, dpi=110)
+    picture = BytesIO()
+    figure.savefig(picture, dpi=110, format="png")
     pyplot.close(figure)
+    return picture.getvalue()
 
 
 def _tell(

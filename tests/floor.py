@@ -36,10 +36,11 @@ def pitanks(
     teams: Sequence[int] = (0, 1, 2, 3),
     health: int = 5,
     minutes: float = 1.0,
+    half: float = 15.0,
 ) -> PiTanks:
     """A match of PiTanks before its first tick, with as many robots as poses."""
     match = PiTanks()
     one, two, three, four = (Seat("random" if i < len(poses) else "off", teams[i]) for i in range(4))
     setup = Setup("pitanks", "test", (one, two, three, four), minutes, 1, variant)
-    PITANKS.start(match, arena(walls, poses, health), setup)
+    PITANKS.start(match, arena(walls, poses, health, half), setup)
     return match

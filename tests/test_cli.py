@@ -6,6 +6,7 @@ import os
 import pytest
 
 from pigaming_app.cli import main
+from pigaming_app.settings import Settings, folders
 
 SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--seats", "fsm,easy,off,off"]
 
@@ -33,6 +34,25 @@ def test_a_picture_is_taken(tmp_path):
     picture = tmp_path / "a.png"
     assert main(["play", *SHORT, "--screenshot", str(picture), "--at", "3"]) == 0
     assert picture.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("emulated", [[], ["--emulate"], ["--emulate", "--headless"]])
+@pytest.mark.parametrize("where", ["option", "settings"])
+def test_robots_without_a_deadman_are_refused_for_matches(where, emulated, capsys):
+    radio = ["--radio", "stock"]
+    if where == "settings":
+        Settings(radio="stock").save(folders().config)
+        radio = []
+    assert main(["play", "--seats", "fsm,easy,off,off", "--real", "1", *radio, *emulated]) == 2
+    told = capsys.readouterr().err.strip()
+    assert "no deadman" in told
+    assert "\n" not in told
+
+
+def test_robots_without_a_deadman_do_not_dance_either(tmp_path, capsys):
+    Settings(radio="stock").save(folders().config)
+    assert main(["fidelity", "record", str(tmp_path / "run.jsonl")]) == 2
+    assert "no deadman" in capsys.readouterr().err
 
 
 def test_a_duel_prints_one_object(capsys):

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from pigaming_app import doctor
+from pigaming_app.scores import Scores
 from pigaming_app.start import Trouble
 
 WELL = [
@@ -128,3 +129,18 @@ def test_a_broken_arena_is_named(monkeypatch):
     said = [one for one in doctor.report() if one.what == "arena"]
     assert said
     assert "walls[0].ax" in said[0].found
+
+
+def test_what_was_carried_over_from_an_older_version_is_named_with_its_backup(home):
+    (home / "data").mkdir(parents=True)
+    old = home / "data" / "scores.toml"
+    old.write_text('[pitanks]\nclassic = [{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }]\n')
+    assert line("older scores").advice == "start the arcade once"
+    assert sorted(path.name for path in old.parent.iterdir()) == ["scores.toml"], "it changes nothing"
+    Scores.load(old.parent)
+    carried = line("older scores")
+    assert carried.state == "ok"
+    assert "pitanks 1" in carried.found
+    assert str(old.with_name("scores-1.3.0.toml")) in carried.found
+    old.with_name("scores-1.3.0.toml").unlink()
+    assert line("older scores").state == "note"

@@ -9,18 +9,20 @@ import pytest
 
 PACKAGE = Path(__file__).resolve().parent.parent / "pigaming_app"
 MAY = {
-    "sim": {"sim"},
-    "games": {"games", "sim"},
-    "ai": {"ai", "games", "sim"},
-    "hardware": {"hardware", "sim"},
-    "scenes": {"scenes", "games", "ai", "hardware", "sim", "settings", "scores", "keeping", "logbook"},
-    "settings": {"keeping"},
-    "scores": {"keeping"},
-    "keeping": set(),
+    "sim": {"sim", "parsing"},
+    "games": {"games", "sim", "keeping", "parsing"},
+    "ai": {"ai", "games", "sim", "keeping", "parsing"},
+    "hardware": {"hardware", "sim", "keeping", "parsing"},
+    "scenes": {"scenes", "games", "ai", "hardware", "sim", "settings", "scores", "keeping", "logbook", "parsing"},
+    "settings": {"keeping", "locking", "parsing"},
+    "scores": {"scores", "keeping", "locking", "parsing"},
+    "locking": {"keeping"},
+    "keeping": {"parsing"},
+    "parsing": set(),
     "logbook": set(),
     "start": {"install", "cli"},
-    "install": {"start"},
-    "doctor": {"settings", "start", "games", "sim", "ai"},
+    "install": {"start", "keeping"},
+    "doctor": {"settings", "scores", "parsing", "start", "games", "sim", "ai"},
 }
 ONLY_IN = {"pygame": {"scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))

@@ -21,6 +21,7 @@ from pigaming_app import install, start
 ROOT = Path(__file__).resolve().parent.parent
 BARE = sys._base_executable
 FILES = ("main.py", "pyproject.toml", "pigaming_app/__init__.py", "pigaming_app/start.py", "pigaming_app/install.py")
+FILES += ("pigaming_app/keeping.py", "pigaming_app/parsing.py")
 JOB = """
 import sys
 

@@ -112,7 +112,7 @@ def test_where_nothing_can_be_written_the_old_file_is_intact(tmp_path, monkeypat
     with pytest.raises(NotSaved, match=f"^.*{FILE} was not saved: {reason}.$"):
         Settings(music=3).save(tmp_path)
     assert Settings.load(tmp_path) == (Settings(music=2), [])
-    assert sorted(path.name for path in tmp_path.iterdir()) == [FILE, f"{FILE}.bak"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f".{FILE}.lock", FILE, f"{FILE}.bak"]
 
 
 def test_a_plug_pulled_before_the_last_step_leaves_the_old_file(tmp_path, monkeypatch):

@@ -3,6 +3,10 @@
 One match after the other, by the rules of the training; every seed twice, with the sides swapped.
 """
 
+import os
+import sys
+from threading import Thread
+
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.rewards import Recipe
@@ -77,5 +81,16 @@ def compile_all() -> None:
             exam.play(1)
 
 
+def exit_with_parent() -> None:
+    """End this process as soon as the one that started it closes the pipe to it, for whatever reason."""
+
+    def wait() -> None:
+        sys.stdin.buffer.read()
+        os._exit(1)
+
+    Thread(target=wait, daemon=True).start()
+
+
 if __name__ == "__main__":  # a process of its own that only compiles, so that no picture waits for it
+    exit_with_parent()
     compile_all()

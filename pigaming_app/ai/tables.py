@@ -6,8 +6,7 @@ checksum of itself and the table, and the hash of the engine: figures that were 
 
 import hashlib
 import json
-import os
-import tempfile
+import warnings
 import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
@@ -21,6 +20,9 @@ from pigaming_app.ai.brain import Kind
 from pigaming_app.ai.qlearning import ACTIONS, PAIRS, Learned, Table, player
 from pigaming_app.ai.rewards import Recipe
 from pigaming_app.ai.sectors import STATES
+from pigaming_app.games.choices import LEAST_MINUTES, MOST_MINUTES
+from pigaming_app.keeping import write
+from pigaming_app.parsing import json_of, read, reason
 from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import dtype
 
@@ -54,7 +56,7 @@ class Trained:
 
 
 def save(trained: Trained, path: Path) -> None:
-    """Write a trained table, whole or not at all. Raises OSError."""
+    """Write a trained table, whole or not at all. Raises NotSaved."""
     import numpy as np
 
     table = trained.rows[0]
@@ -69,15 +71,7 @@ def save(trained: Trained, path: Path) -> None:
     head["check"] = _check(head, q, n)
     packed = BytesIO()
     np.savez_compressed(packed, head=np.array(json.dumps(head)), q=q, n=n)
-    handle, unfinished = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent)
-    try:
-        with open(handle, "wb") as file:
-            file.write(packed.getvalue())
-        os.chmod(unfinished, 0o644)
-        os.replace(unfinished, path)
-    except BaseException:
-        os.unlink(unfinished)
-        raise
+    write(path, packed.getvalue())
 
 
 def load(path: Path) -> Trained:
@@ -105,11 +99,9 @@ def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:
     import numpy as np
 
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise TableError("not a trained table: it is too big")
-        raw = path.read_bytes()
+        raw = read(path, MOST_BYTES)
     except OSError as error:
-        raise TableError(f"cannot be read ({error.strerror})") from None
+        raise TableError(f"cannot be read ({reason(error)})") from None
     if not raw.startswith(b"PK"):
         raise TableError("not a trained table")
     try:
@@ -121,8 +113,9 @@ def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:
                 raise TableError("not a trained table: a part of it is too big")
             if archive.testzip() is not None:
                 raise TableError("truncated or damaged")
-        with np.load(BytesIO(raw), allow_pickle=False) as file:
-            head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
+        with warnings.catch_warnings(), np.load(BytesIO(raw), allow_pickle=False) as file:
+            warnings.simplefilter("error")  # NumPy warns of some headers
+            head, q, n = json_of(str(file["head"])), file["q"], file["n"]
         form = q.dtype.str, q.shape, n.dtype.str, n.shape  # NumPy hands out bytes for a part that is no array
     except TableError:
         raise
@@ -165,7 +158,7 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
             rows=rows,
             engine=str(head["engine"]),
         )
-        if trained.matches < 0 or not trained.minutes > 0.0:
+        if trained.matches < 0 or not LEAST_MINUTES <= trained.minutes <= MOST_MINUTES:
             raise TableError("the table contradicts itself")
         return trained
     except TableError:

@@ -168,7 +168,7 @@ class Training:
         return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
 
     def save(self, path: Path, name: str) -> None:
-        """Keep what has been learned so far as a file. Raises OSError."""
+        """Keep what has been learned so far as a file. Raises NotSaved."""
         reward = next((number for number, recipe in RECIPES.items() if recipe == self.recipe), 0)
         rows = self._tables.copy() if self.fast else packed(self._tables)
         tables.save(Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash()), path)

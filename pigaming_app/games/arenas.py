@@ -4,8 +4,11 @@ from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.games import GAMES
+from pigaming_app.parsing import ParseError, read_text, reason
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_by
+
+MOST_BYTES = 100_000  # of a file; replays hold a copy
 
 
 def arenas(game: str) -> list[str]:
@@ -17,13 +20,12 @@ def arenas(game: str) -> list[str]:
 def load(game: str, name: str) -> Arena:
     """An arena of a game by its name, or by the path of a file that ends in .toml. Raises ArenaError."""
     path = Path(name) if name.endswith(".toml") else ASSETS / "arenas" / game / f"{name}.toml"
-    if not path.is_file():
-        there = ", ".join(arenas(game))
-        raise ArenaError(f"{name}: no such arena for {game}; there are {there}")
     try:
-        source = path.read_bytes().decode("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ArenaError(f"{path.name}: file: cannot be read ({error})") from None
+        if not path.exists():
+            raise ArenaError(f"{name}: no such arena for {game}; there are {', '.join(arenas(game))}")
+        source = read_text(path, MOST_BYTES)
+    except (OSError, ParseError) as error:
+        raise ArenaError(f"{path.name}: file: cannot be read ({reason(error)})") from None
     return parse(game, source, path.name)
 
 

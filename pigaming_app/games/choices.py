@@ -37,6 +37,8 @@ def choose(
     teams = list(rules.teams if teams is None else teams)
     if len(teams) != ROBOTS:
         raise ChoiceError(f"--teams needs {ROBOTS} numbers, one for each seat")
+    if not {*teams} <= {*range(ROBOTS)}:
+        raise ChoiceError(f"teams are numbers from 0 to {ROBOTS - 1}")
     check_teams(rules, [team for brain, team in zip(brains, teams, strict=True) if brain != "off"])
     minutes = float(rules.default_minutes if minutes is None else minutes)
     if not LEAST_MINUTES <= minutes <= MOST_MINUTES:
@@ -55,8 +57,6 @@ def check_teams(rules: Game, playing: Sequence[int]) -> None:
     """Whether these teams of the robots that play can play. Raises ChoiceError."""
     if len(playing) < 2:
         raise ChoiceError("at least two seats must be taken")
-    if not {*playing} <= {*range(ROBOTS)}:
-        raise ChoiceError(f"teams are numbers from 0 to {ROBOTS - 1}")
     if len(set(playing)) < 2:
         raise ChoiceError("there must be at least two teams")
     if rules.sides == ALONE and len(set(playing)) < len(playing):

@@ -18,6 +18,8 @@ from pigaming_app.games.arenas import parse
 from pigaming_app.games.choices import check_teams
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.keeping import write
+from pigaming_app.parsing import ParseError, json_of, one_line, read, reason, shown
 from pigaming_app.sim.action import STEPS, press
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import engine_hash
@@ -27,7 +29,8 @@ from pigaming_app.sim.world import HZ, ROBOTS
 MAGIC = "pigaming-replay-1"
 BYTES = 3 * ROBOTS  # a tick
 MOST_TICKS = 60 * 60 * HZ
-MOST_HEAD = 100_000
+MOST_HEAD = 1_000_000  # bytes; an arena's file has at most 100,000, which JSON escapes
+MOST_BYTES = MOST_HEAD + BYTES * MOST_TICKS  # hardly ever: ticks are packed
 
 
 class ReplayError(ValueError):
@@ -45,7 +48,7 @@ class Replay:
 
 
 def save(match: Match, path: Path) -> None:
-    """Write the replay of a match as far as it has been played. Raises OSError."""
+    """Write the replay of a match as far as it has been played, whole or not at all. Raises NotSaved."""
     ticks = bytes(match.log.ticks)
     columns = b"".join(ticks[i::BYTES] for i in range(BYTES))
     packed = zlib.compress(columns, 9)
@@ -58,15 +61,15 @@ def save(match: Match, path: Path) -> None:
         "digest": digest(match.state),
     }
     head["check"] = _check(head, packed)
-    path.write_bytes(json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed)
+    write(path, json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed)
 
 
 def load(path: Path) -> Replay:
     """Read and check a replay. Raises ReplayError."""
     try:
-        raw = path.read_bytes()
+        raw = read(path, MOST_BYTES)
     except OSError as error:
-        raise ReplayError(f"{path.name}: cannot be read ({error.strerror})") from None
+        raise ReplayError(f"{path.name}: cannot be read ({reason(error)})") from None
     try:
         return _read(raw)
     except ReplayError as error:
@@ -113,13 +116,13 @@ def _check(head: Mapping[str, Any], packed: bytes) -> str:
 def _read(raw: bytes) -> Replay:
     line, newline, packed = raw.partition(b"\n")
     try:
-        head = json.loads(line) if newline and len(line) < MOST_HEAD else None
-    except (ValueError, RecursionError):
+        head = json_of(line) if newline and len(line) < MOST_HEAD else None
+    except ParseError:
         head = None
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
     if head["format"] != MAGIC:
-        raise ReplayError(f"a replay of another format ({str(head['format'])[:40]}); this engine reads {MAGIC}")
+        raise ReplayError(f"a replay of another format ({shown(head['format'])}); this engine reads {MAGIC}")
     if head.get("check") != _check(head, packed):
         raise ReplayError("damaged: it has been cut short or edited")
     if head.get("engine") != engine_hash():
@@ -132,7 +135,7 @@ def _read(raw: bytes) -> Replay:
             raise ValueError("ticks")
         columns = zlib.decompressobj().decompress(packed, BYTES * MOST_TICKS)
     except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
-        raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {error})") from None
+        raise ReplayError(one_line(f"not a replay that makes sense ({type(error).__name__}: {error})")) from None
     if len(columns) != count * BYTES:
         raise ReplayError("not a replay that makes sense (the number of ticks)")
     ticks = bytearray(len(columns))
@@ -144,7 +147,7 @@ def _read(raw: bytes) -> Replay:
 def _setup(table: Mapping[str, Any]) -> Setup:
     """Raises KeyError, TypeError or ValueError for what no match can be made of."""
     seats = [Seat(str(seat["brain"]), int(seat["team"])) for seat in table["seats"]]
-    if len(seats) != ROBOTS:
+    if len(seats) != ROBOTS or not {seat.team for seat in seats} <= {*range(ROBOTS)}:
         raise ValueError("seats")
     one, two, three, four = seats
     game, minutes, variant, goal = (

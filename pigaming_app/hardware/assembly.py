@@ -4,7 +4,6 @@ What is missing or broken at first may be plugged in later: camera and link say 
 """
 
 import time
-import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -20,6 +19,7 @@ from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.stock import BAUD as STOCK_BAUD
 from pigaming_app.hardware.stock import Stock
 from pigaming_app.hardware.tracker import Tracker
+from pigaming_app.parsing import ParseError, read_text, reason, toml_of
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
 
@@ -55,24 +55,24 @@ def linked(wiring: Wiring) -> Link:
 def measured(path: Path) -> tuple[Drivetrain, ...]:
     """The robots that `fidelity` measured, and unmeasured ones for the rest. Raises DrivetrainError."""
     try:
-        found = parse(path.read_text(encoding="utf-8"), path.name)
+        found = parse(read_text(path), path.name)
     except FileNotFoundError:
         found = ()
-    except (OSError, UnicodeDecodeError):
-        raise DrivetrainError(f"{path.name}: cannot be read") from None
+    except (OSError, ParseError) as error:
+        raise DrivetrainError(f"{path.name}: cannot be read ({reason(error)})") from None
     return (*found, *(UNMEASURED,) * (ROBOTS - len(found)))
 
 
 def ground_of(path: Path) -> Ground:
     """The calibration in a file, whichever display it was made on. Raises NoGround."""
     try:
-        text = path.read_text(encoding="utf-8")
-        entries = tomllib.loads(text)
+        text = read_text(path)
+        entries = toml_of(text)
         wide, high = entries["lens"]["size"]
         return read(text, str(entries["display"]), (int(wide), int(high)))
     except FileNotFoundError:
         raise NoGround(Said("There is no calibration yet: calibrate first.", "none")) from None
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, KeyError, TypeError, ValueError) as error:
+    except (OSError, KeyError, TypeError, ValueError, OverflowError) as error:
         if isinstance(error, NoGround):
             raise
         raise NoGround(Said(f"The calibration {path.name} cannot be read: calibrate again.", "damaged")) from None

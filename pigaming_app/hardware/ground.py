@@ -4,10 +4,9 @@ A calibration is found by `boards`, kept as a text (the caller owns the file) an
 display, camera or version, or one that somebody edited by hand, is refused in one sentence.
 """
 
-import tomllib
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from math import atan2, hypot, isfinite
+from math import atan2, hypot
 from zlib import crc32
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.lens import Lens
 from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.signals import Fix, Mark
+from pigaming_app.parsing import ParseError, shown, toml_of
 from pigaming_app.sim.table import Table, Wrong
 from pigaming_app.sim.world import WIDTH
 
@@ -126,11 +126,11 @@ def written(ground: Ground) -> str:
 def read(text: str, display: str, camera: tuple[int, int]) -> Ground:
     """The calibration that a file holds, for this display and a camera of this size. Raises NoGround."""
     try:
-        entries = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+        entries = toml_of(text)
+    except ParseError as error:
         raise NoGround(Said(f"The calibration cannot be read ({error}): calibrate again.", "damaged")) from error
     if entries.get("version") != VERSION:
-        sentence = f"The calibration is of version {entries.get('version')!r}, not {VERSION}: calibrate again."
+        sentence = f"The calibration is of version {shown(entries.get('version'))}, not {VERSION}: calibrate again."
         raise NoGround(Said(sentence, "version"))
     check = entries.pop("check", None)
     if check != _check(entries):
@@ -175,17 +175,23 @@ def _ground(table: Table) -> Ground:
     width, height = lens.numbers("size", 2, 16, 16384)
     plane = table.numbers("plane", 9, -1e6, 1e6)
     foot = table.numbers("foot", 2, -1e5, 1e5)
-    if not all(isfinite(value) for value in plane):
-        raise table.wrong("plane", "not a number")
+    if not np.isfinite(np.linalg.inv(np.array(plane).reshape(3, 3))).all():
+        raise table.wrong("plane", "not a plane that can be seen")
     cx, cy = lens.numbers("centre", 2, 0, 16384)
+    display = table.entries.get("display")
+    if not isinstance(display, str):
+        raise table.wrong("display", "a text is missing")
+    lid, above = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
+    if lid >= above:
+        raise table.wrong("lid", "as high as the camera")
     return Ground(
-        str(table.entries.get("display", "")),
+        display,
         Lens((int(width), int(height)), lens.number("k1"), lens.number("k2"), (cx, cy)),
         plane,
         table.number("width_mm", None, 100.0, 20000.0, " mm"),
         (foot[0], foot[1]),
-        table.number("height", None, 200.0, 20000.0, " mm"),
-        table.number("lid", None, 0.0, 500.0, " mm"),
+        above,
+        lid,
         table.number("marker", None, 5.0, 500.0, " mm"),
         table.number("mean_mm", None, 0.0),
         table.number("max_mm", None, 0.0),

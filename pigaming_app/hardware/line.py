@@ -1,14 +1,16 @@
 """A serial line to a radio, which may be absent, in use, forbidden or pulled out at any moment.
 
 Opening says in one sentence what is wrong. A `Line` never raises: it reads and writes what it can, and when the port
-is gone it tries again, at longer and longer intervals. pyserial is imported when a port is opened, not before.
+is gone it tries again, at longer and longer intervals. A write that times out, because this computer or the radio is
+busy, leaves the port open; only a port that has taken nothing for STUCK seconds is reported. pyserial is imported when
+a port is opened, not before.
 """
 
 import errno
 import re
 from collections.abc import Callable
 from contextlib import suppress
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, runtime_checkable
 
 from pigaming_app.hardware.signals import Clock, Port
 
@@ -27,8 +29,17 @@ CANNOT_OPEN: tuple[type[Exception], ...] = (
 BAUD = 57600  # bit/s, of the radios and of our firmware
 FIRST, LONGEST = 0.25, 2.0  # s between two attempts to open: doubled every time
 WRITE_TIMEOUT = 0.05  # s
+STUCK = 1.0  # s without a successful write after which a port is reported
 
 OpenPort = Callable[[], Port]
+
+
+@runtime_checkable
+class Buffered(Protocol):
+    """A port whose unsent bytes can be dropped, as pyserial's can."""
+
+    def reset_output_buffer(self) -> None: ...
+
 
 SENTENCES = {  # by reason; {port} and {detail} are filled in
     "missing": "The package pyserial is missing, so no radio can be used.",
@@ -127,6 +138,7 @@ class Line:
         self._lost = False  # whether it was open before
         self._again = float("-inf")  # s, when opening may be tried
         self._pause = FIRST
+        self._held_up: float | None = None  # s, when writes began to time out
 
     @property
     def is_open(self) -> bool:
@@ -144,7 +156,7 @@ class Line:
             self.trouble = Trouble("unplugged", self.name) if gone else trouble
             self._wait()
             return False
-        self.trouble, self._lost, self._pause = None, True, FIRST
+        self.trouble, self._lost, self._pause, self._held_up = None, True, FIRST, None
         return True
 
     def read(self) -> bytes:
@@ -153,8 +165,8 @@ class Line:
             return b""
         try:
             return self._port.read(waiting) if (waiting := self._port.in_waiting) else b""
-        except FAILURES as error:
-            self._lose(error)
+        except FAILURES:
+            self._lose()
             return b""
 
     def write(self, data: bytes) -> None:
@@ -164,7 +176,12 @@ class Line:
         try:
             self._port.write(data)
         except FAILURES as error:
-            self._lose(error)
+            if type(error).__name__ == "SerialTimeoutException":
+                self._hold_up(self._port)
+            else:
+                self._lose()
+            return
+        self._held_up = self.trouble = None
 
     def close(self) -> None:
         """Close the port; it may be opened again."""
@@ -173,10 +190,22 @@ class Line:
             with suppress(*FAILURES):
                 port.close()
 
-    def _lose(self, error: Exception) -> None:
-        timeout = type(error).__name__ == "SerialTimeoutException"
+    def _hold_up(self, port: Port) -> None:
+        """A write timed out. What waits in the buffer is dropped: by the time it got through, it would be stale."""
+        now = self._clock()
+        if self._held_up is None:
+            self._held_up = now
+        if now - self._held_up >= STUCK:
+            self.trouble = Trouble("stuck", self.name)
+        if isinstance(port, Buffered):
+            try:
+                port.reset_output_buffer()
+            except FAILURES:
+                self._lose()
+
+    def _lose(self) -> None:
         self.close()
-        self.trouble = Trouble("stuck" if timeout else "unplugged", self.name)
+        self.trouble = Trouble("unplugged", self.name)
         self._wait()
 
     def _wait(self) -> None:

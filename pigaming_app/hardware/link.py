@@ -34,6 +34,7 @@ class Link:
         self._clock = clock
         self._mail: tuple[float, Sequence[Wheels | None]] = (float("-inf"), NOBODY)
         self._due = float("-inf")  # s, when to send again
+        self._listened = float("-inf")  # s: silence since then is this computer's, not the radio's
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
 
@@ -63,7 +64,7 @@ class Link:
             return Trouble("failed", self._line.name, "the program has a fault; its log has more")
         if self._line.trouble is not None or not self._line.is_open:
             return self._line.trouble
-        told = self._dialect.trouble(self._clock())
+        told = self._dialect.trouble(self._listened)
         return Trouble(told[0], self._line.name, told[1]) if told else None
 
     def pump(self) -> None:
@@ -74,6 +75,7 @@ class Link:
             self._line.write(self._dialect.open(self._clock()))
         now = self._clock()
         self._dialect.hear(self._line.read(), now)
+        self._listened = now
         if now >= self._due:
             self._due = self._due + BEAT if now < self._due + BEAT else now + BEAT
             posted, wheels = self._mail

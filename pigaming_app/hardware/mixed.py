@@ -10,7 +10,7 @@ from typing import Any
 
 from pigaming_app.hardware.plant import RealPlant
 from pigaming_app.hardware.rig import Rig
-from pigaming_app.sim.contact import ROUNDS, keep_out, part, settle
+from pigaming_app.sim.contact import ROUNDS, SLOP, keep_out, part, settle
 from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robots import RADIUS, roll
 from pigaming_app.sim.sweep import off_wall
@@ -93,11 +93,11 @@ def drive_among(world: Any, simulated: Sequence[int]) -> None:
     for i in simulated:
         roll(robots[i])
     for _ in range(2 * ROUNDS):  # each takes back half of what a robot overlaps one that cannot be pushed
-        moved = part(robots)
+        moved = part(robots) > SLOP
         for robot, x, y in fixed:
             robot.x, robot.y = x, y
         for i in simulated:
-            moved = keep_out(world, robots[i]) or moved
+            moved = bool(keep_out(world, robots[i])) or moved
         if not moved:
             break
     for robot, x, y in from_where:

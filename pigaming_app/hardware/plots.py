@@ -1,11 +1,13 @@
 """Pictures of how true the simulator is. They need the extra `plots` (matplotlib), which is imported only here."""
 
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.fidelity import HELD_OUT, HORIZONS, Verdict, predictions
 from pigaming_app.hardware.runs import Run
+from pigaming_app.keeping import write
 from pigaming_app.sim.drivetrain import NOMINAL
 
 SHOWN = 6  # predictions drawn for each robot
@@ -16,17 +18,18 @@ class NoPlots(Exception):
 
 
 def draw(run: Run, verdicts: Sequence[Verdict], folder: Path) -> list[Path]:
-    """Write horizon.png and paths.png into the folder; their paths. Raises NoPlots, OSError."""
+    """Write horizon.png and paths.png into the folder; their paths. Raises NoPlots, NotSaved."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
         raise NoPlots("The package matplotlib is missing, so there are no plots; everything else works.") from None
-    folder.mkdir(parents=True, exist_ok=True)
     made = []
     for name, paint in (("horizon.png", _horizons), ("paths.png", _paths)):
         figure = Figure(figsize=(10, 6), layout="constrained")
         paint(figure, run, verdicts)
-        figure.savefig(folder / name, dpi=120)
+        picture = BytesIO()
+        figure.savefig(picture, dpi=120, format="png")
+        write(folder / name, picture.getvalue())
         made.append(folder / name)
     return made
 

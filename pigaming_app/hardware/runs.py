@@ -9,19 +9,26 @@ monotonic clock, poses arena px and rad.
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.signals import Fix, Wheels
+from pigaming_app.keeping import Draft
+from pigaming_app.parsing import json_of, one_line, read, reason, shown
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import ROBOTS
 
 FORMAT = "pigaming-run-1"
+MOST_BYTES = 400_000_000  # of a file; an hour has about 100 million
+LATEST = 1e10  # s of a clock
+LONGEST = 7200.0  # s of a run
+FARTHEST = 100_000.0  # px from the corner of the arena, or rad
 Floats = NDArray[np.float64]
+Told = tuple[float, list[list[float]]]  # s, the shares of both wheels of every robot
+Sight = tuple[float, float, float, float]  # s, px, px, rad
 
 
 class RunError(ValueError):
@@ -53,10 +60,10 @@ class Run:
 
 
 class Recorder:
-    """Writes a run, line by line, so that a run that breaks off is still there. Raises OSError."""
+    """Writes a run, line by line; the file appears when it is closed. Raises OSError."""
 
     def __init__(self, path: Path, mm: float, emulated: bool = False) -> None:
-        self._file: TextIO = path.open("w", encoding="utf-8")
+        self._draft = Draft(path)
         self._seq = 0
         self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
 
@@ -75,67 +82,96 @@ class Recorder:
         self._write({"kind": "pose", "time": now, "poses": [list(one[:3]) for one in sightings]})
 
     def close(self) -> None:
-        """The run is over."""
-        self._file.close()
+        """The run is whole: put it in its place."""
+        self._draft.finish()
+
+    def discard(self) -> None:
+        """The run broke off: an earlier one at its place stays. After `close` this does nothing."""
+        self._draft.discard()
 
     def _write(self, line: dict[str, Any]) -> None:
-        self._file.write(json.dumps(line, separators=(",", ":")) + "\n")
+        self._draft.write(f"{json.dumps(line, separators=(',', ':'))}\n".encode())
 
 
 def load(path: Path, fewest: int = 50) -> Run:
     """The run in a file; robots that were seen in fewer than `fewest` pictures are left out. Raises RunError."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not text"
-        raise RunError(f"{path.name}: cannot be read ({reason})") from None
-    told: list[tuple[float, list[Any]]] = []
-    seen: list[list[tuple[float, float, float, float]]] = [[] for _ in range(ROBOTS)]
-    mm = 0.0
+        lines = read(path, MOST_BYTES).splitlines()
+    except OSError as error:
+        raise RunError(f"{path.name}: cannot be read ({reason(error)})") from None
+    run = _Lines()
     for number, line in enumerate(lines, 1):
         try:
-            mm = _take_in(json.loads(line), told, seen) or mm
-        except (ValueError, KeyError, TypeError, IndexError) as error:
+            run.take_in(json_of(line))
+        except (ValueError, KeyError, TypeError) as error:
             if number == len(lines) and number > 1:
                 break  # a run that broke off in the middle of a line
-            raise RunError(f"{path.name}: line {number}: not a line of a run ({error})") from None
-        if number == 1 and not mm:
+            told = f"{type(error).__name__} {error}" if isinstance(error, KeyError) else str(error)
+            raise RunError(one_line(f"{path.name}: line {number}: not a line of a run ({told})")) from None
+        if number == 1 and not run.mm:
             raise RunError(f"{path.name}: not a run of PiGaming")
-    courses = {robot: _course(robot, told, fixes) for robot, fixes in enumerate(seen) if len(fixes) >= fewest}
-    if not mm or not courses or not told:
+    courses = {robot: _course(robot, run.told, fixes) for robot, fixes in enumerate(run.seen) if len(fixes) >= fewest}
+    if not courses or not run.told:
         raise RunError(f"{path.name}: too little was seen or sent to tell anything from it")
-    return Run(mm, courses, emulated=json.loads(lines[0]).get("emulated") is True)
+    times = [*(time for time, _ in run.told), *(fix[0] for fixes in run.seen for fix in fixes)]
+    if max(times) - min(times) > LONGEST:
+        raise RunError(f"{path.name}: its times are more than {LONGEST:g} s apart")
+    return Run(run.mm, courses, run.emulated)
 
 
-def _take_in(
-    entry: Any, told: list[tuple[float, list[Any]]], seen: list[list[tuple[float, float, float, float]]]
-) -> float:
-    """Take in one line; the scale if it is the head, else 0. Raises ValueError, KeyError, TypeError, IndexError."""
-    match entry["kind"]:
-        case "head":
-            if entry["format"] != FORMAT or not 0.1 < entry["mm"] < 100.0:
-                raise ValueError("another format")
-            return float(entry["mm"])
-        case "sent":
-            told.append(
-                (_number(entry["time"]), [one and [_number(one[0]), _number(one[1])] for one in entry["wheels"]])
-            )
-        case "seen":
-            captured = _number(entry["captured"])
-            for robot, x, y, heading in entry["fixes"]:
-                seen[int(robot)].append((captured, _number(x), _number(y), _number(heading)))
-    return 0.0
+class _Lines:
+    """What the lines of a run hold: `told` of all robots, `seen` of each, and the scale once its head was there."""
+
+    def __init__(self) -> None:
+        self.mm, self.emulated = 0.0, False
+        self.told: list[Told] = []
+        self.seen: list[list[Sight]] = [[] for _ in range(ROBOTS)]
+
+    def take_in(self, entry: Any) -> None:
+        """Take in one line. Raises ValueError, KeyError, TypeError."""
+        match entry["kind"]:
+            case "head":
+                if self.mm or entry["format"] != FORMAT:
+                    raise ValueError("another format")
+                self.mm, self.emulated = _number(entry["mm"], 0.1, 100.0), entry.get("emulated") is True
+            case "sent":
+                wheels = _list(entry["wheels"], ROBOTS)
+                both = [[0.0, 0.0] if pair is None else _shares(pair) for pair in wheels]
+                self.told.append((_time(entry["time"]), both))
+            case "seen":
+                captured = _time(entry["captured"])
+                for fix in _list(entry["fixes"]):
+                    robot, x, y, heading = _list(fix, 4)
+                    if robot not in range(ROBOTS) or not isinstance(robot, int) or isinstance(robot, bool):
+                        raise ValueError(f"{shown(robot)} is no robot; there are 0 to {ROBOTS - 1}")
+                    place = _number(x, -FARTHEST, FARTHEST), _number(y, -FARTHEST, FARTHEST)
+                    self.seen[robot].append((captured, *place, _number(heading, -FARTHEST, FARTHEST)))
 
 
-def _number(value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-        raise ValueError(f"{value!r} is no number")
+def _list(value: Any, count: int | None = None) -> list[Any]:
+    if not isinstance(value, list) or (count is not None and len(value) != count):
+        raise ValueError(f"{shown(value)} is no list{'' if count is None else f' of {count}'}")
+    return value
+
+
+def _shares(pair: Any) -> list[float]:
+    return [_number(one, -2.0, 2.0) for one in _list(pair, 2)]
+
+
+def _time(value: Any) -> float:
+    return _number(value, -LATEST, LATEST)
+
+
+def _number(value: Any, low: float, high: float) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
+        raise ValueError(f"{shown(value)} is no number from {low:g} to {high:g}")
     return float(value)
 
 
-def _course(robot: int, told: list[tuple[float, list[Any]]], fixes: list[tuple[float, float, float, float]]) -> Course:
-    wheels = np.array([one[robot] or (0.0, 0.0) for _, one in told])
+def _course(robot: int, told: list[Told], fixes: list[Sight]) -> Course:
     seen = np.array(sorted(fixes))
     seen = seen[np.concatenate(([True], np.diff(seen[:, 0]) > 0.0))]
     poses = np.column_stack([seen[:, 1], seen[:, 2], np.unwrap(seen[:, 3])])
-    return Course(np.array([time for time, _ in told]), wheels.reshape(-1, 2), seen[:, 0], poses)
+    told = sorted(told, key=lambda one: one[0])
+    wheels = np.array([one[robot] for _, one in told])
+    return Course(np.array([time for time, _ in told]), wheels, seen[:, 0], poses)

@@ -4,10 +4,13 @@ A mistake in a scene is written to the log and the title comes back with one sen
 """
 
 import faulthandler
+import gc
 import logging
+import math
 import signal
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -17,11 +20,13 @@ from typing import IO, Any
 import pygame
 
 from pigaming_app.keeping import NotSaved
-from pigaming_app.logbook import log_file
+from pigaming_app.logbook import log_file, require_file
+from pigaming_app.parsing import reason
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
+from pigaming_app.scenes.frame_budget import Unfinished, budget, clock
 from pigaming_app.scenes.heap import return_large_blocks
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import NoMat, RealMat
@@ -36,6 +41,8 @@ from pigaming_app.settings import Settings, folders
 
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
+PAINTING = 0.014  # s of a frame after which no missing piece is begun
+LATEST = 240  # frames after which a picture is completed at once, however long that takes
 SETTLING = 1.0  # s after the start in which a pointer that merely lies there does not take the focus
 TROUBLES, QUIET = 5, 10.0  # so many failures, each within so many s of the one before: the arcade gives up
 
@@ -62,6 +69,16 @@ class Options:
 
 def run(options: Options) -> int:
     """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
+    with opened(options) as app:
+        try:
+            return app.loop()
+        except KeyboardInterrupt:
+            return 0
+
+
+@contextmanager
+def opened(options: Options) -> "Iterator[App]":
+    """The arcade with its window and devices; afterwards all is closed and the settings are saved. Raises NoDisplay."""
     return_large_blocks()
     where = folders()
     settings, said = Settings.load(where.config)
@@ -76,17 +93,20 @@ def run(options: Options) -> int:
     house.sounds.volume(settings.music, settings.sounds)
     house.mat = mat = _mat(options, settings, canvas)
     house.stops.append(mat.close)
+    house.backstage.then = house.compiler.start
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
-        return App(options, house, [*said, *more]).loop()
-    except KeyboardInterrupt:
-        return 0
+        yield App(options, house, [*said, *more])
     finally:
         signal.signal(signal.SIGTERM, before)
         house.stand_still()
+        house.backstage.end()
+        house.compiler.end()
         mat.end()
         house.sounds.close()
         _keep(settings, where.config)
+        if scores.unsaved:
+            _keep(scores, where.data)
         canvas.close()
         _close_log(crash_file)
 
@@ -106,12 +126,15 @@ class App:
             self.notices.say(house.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
+        self.shown, self.unfinished = False, 0  # whether there was a picture; frames since in which there was none
         self.failures, self.failed_at = 0, -QUIET
+        self.code = 0
         self.stack = self._begin()
+        self.lying = self._lying()  # which scenes lay on the stack in the last frame
 
     def loop(self) -> int:
         """Frame after frame, until no scene is left; the exit code."""
-        clock, last = pygame.time.Clock(), perf_counter()
+        ticker, last = pygame.time.Clock(), perf_counter()
         while self.stack.scenes:
             now = perf_counter()
             seconds = self.options.step or min(now - last, SLOWEST)
@@ -125,9 +148,9 @@ class App:
             if self.frames == self.options.frames:
                 break
             if self.options.step is None:
-                clock.tick(FRAMES)
-                self.gauge.fps = clock.get_fps()
-        return 0
+                ticker.tick(FRAMES)
+                self.gauge.fps = ticker.get_fps()
+        return self.code
 
     def _begin(self) -> Stack:
         if self.options.first and self.options.alone:
@@ -154,33 +177,77 @@ class App:
             return True
         return False
 
-    def _frame(self, seconds: float) -> None:
-        """One picture: hear, move, paint."""
+    def compose(self, seconds: float) -> bool:
+        """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
+        began, started = clock(), perf_counter()
+        self._free_scenes()
         events = pygame.event.get()
         if any(self._closes(event) for event in events) and not self.house.kiosk:
             self.stack.clear()
-            return
+            return False
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
-        began = perf_counter()
+        first = not self.shown
         self._play(events, seconds)
         played = perf_counter()
+        if not self.stack.scenes or not self._paint(began):
+            return False
+        self._say(self.house.canvas.screen, seconds)
+        if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
+            self.house.backstage.start()  # the title is there
+        self.gauge.note(seconds, played - started, perf_counter() - played)
+        return True
+
+    def _paint(self, began: float) -> bool:
+        """Paint the top scene in what is left of a frame that has begun then; false: it is not complete yet."""
+        screen = self.house.canvas.screen
+        limited = self.options.step is None and self.shown and self.unfinished < LATEST
+        try:
+            with budget.until(began + PAINTING if limited else math.inf):
+                self.stack.top.draw(screen)
+        except Unfinished:
+            screen.set_clip(None)
+            self.unfinished += 1
+            return False
+        self.shown, self.unfinished = True, 0
+        return True
+
+    def _free_scenes(self) -> None:
+        """Free the scenes that have been taken off the stack. Most are in reference cycles, whose canvases of 8 MB each
+        would pile up: Python collects cycles by the number of objects."""
+        before, self.lying = self.lying, self._lying()
+        if before - self.lying:
+            gc.collect()
+
+    def _lying(self) -> frozenset[int]:
+        return frozenset(map(id, self.stack.scenes))
+
+    def _frame(self, seconds: float) -> None:
+        """Compose one picture and show it."""
+        painted = self.compose(seconds)
         if not self.stack.scenes:
             return
-        screen = self.house.canvas.screen
-        self.stack.top.draw(screen)
-        self._say(screen, seconds)
-        self.gauge.note(seconds, played - began, perf_counter() - played)
-        if self.options.shot and self.options.shot_due():
-            self.house.canvas.screenshot(self.options.shot)
+        if painted and self.options.shot and self.options.shot_due():
+            self.code = self._shoot(self.options.shot)
             self.stack.clear()
             return
-        self.house.canvas.flip()
+        if painted:
+            self.house.canvas.flip()
         if self.window:
             self.window.update(seconds)
         if self.options.over():
             self.stack.clear()
+
+    def _shoot(self, path: Path) -> int:
+        """Save the picture that was asked for; the exit code."""
+        try:
+            self.house.canvas.screenshot(path)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            print(f"PiGaming: {trouble}", file=sys.stderr)
+            return 2
+        return 0
 
     def _closes(self, event: pygame.Event) -> bool:
         """Whether an event closes the arcade: with a second window, closing the first one no longer says QUIT."""
@@ -243,7 +310,7 @@ class App:
             try:
                 house.canvas.screenshot(path)
                 self.notices.say(f"{house.words('app.picture')}: {path.name}")
-            except OSError as trouble:
+            except NotSaved as trouble:
                 log.warning("%s", trouble)
                 self.notices.say(house.words("app.unsaved"))
 
@@ -279,11 +346,12 @@ def _title(house: House) -> Scene:
     return Title(house)
 
 
-def _keep(settings: Settings, folder: Path) -> None:
+def _keep(kept: Settings | Scores, folder: Path) -> None:
     try:
-        settings.save(folder)
+        kept.save(folder)
     except NotSaved as trouble:
         log.warning("%s", trouble)
+        print(f"PiGaming: {trouble}", file=sys.stderr)
 
 
 def _keep_log(data: Path) -> "IO[Any] | None":
@@ -291,8 +359,10 @@ def _keep_log(data: Path) -> "IO[Any] | None":
     try:
         log.handlers[:] = [log_file(data)]
         log.propagate = False
+        require_file(data / "crash.log")
         crash_file = (data / "crash.log").open("a", encoding="utf-8")
-    except OSError:
+    except OSError as trouble:
+        print(f"PiGaming: {data} cannot be written: {reason(trouble)}. There is no log.", file=sys.stderr)
         return None
     faulthandler.enable(crash_file)
     return crash_file

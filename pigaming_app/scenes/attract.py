@@ -13,7 +13,7 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.scenes.best import Best
-from pigaming_app.scenes.feats import boards
+from pigaming_app.scenes.feats import contests
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, FOCUS, LABEL, dim
 from pigaming_app.scenes.match import new_seed
@@ -25,7 +25,7 @@ from pigaming_app.scenes.stage import Stage
 MINUTES = 1.0  # of a match
 AFTER = 2.5  # seconds for which its end is shown
 PAGE = 12.0  # seconds for a page
-PROMPT_Y, PAGE_PROMPT_Y = 984, 1014  # px; a page's own row ends above
+PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; a page's own row ends above
 LEVELS = 6  # brightnesses of the prompt
 
 
@@ -88,16 +88,11 @@ class Attract:
         return Page(page, page.draw)
 
     def _best(self, game: str) -> Scene | None:
-        """The tables of an arena in which somebody has scored."""
-        scores = self.house.scores
-        there = [
-            (game, arena, GAMES[game].default_goal)
-            for arena in arenas(game)
-            if any(scores.best(game, board.table) for board in boards(game, arena, GAMES[game].default_goal))
-        ]
+        """Tables of the game in which somebody has scored."""
+        there = [one for one in contests(self.house.scores) if one.game == game]
         if not there:
             return None
-        best = Best(self.house, *secrets.choice(there))
+        best = Best(self.house, secrets.choice(there))
         return Page(best, best.paint)
 
 

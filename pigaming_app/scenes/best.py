@@ -1,43 +1,65 @@
-"""The best of an arena, in two tables: today's beside that of all time, or of two feats, such as lap and race."""
+"""The page of the best scores: two tables, today's beside that of all time, or of two feats such as lap and race.
+
+Left and right show other rules, lengths and numbers of people in the same arena, up and down another arena or game.
+"""
 
 from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.games.arenas import load
-from pigaming_app.games.game import Feat
-from pigaming_app.scenes.feats import boards, told
+from pigaming_app.games import GAMES
+from pigaming_app.scenes.feats import Board, boards, contests, older_boards, told
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, TITLE, icon, panel
-from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
+from pigaming_app.scenes.ink import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
+from pigaming_app.scenes.page import heading, sign, text
+from pigaming_app.scenes.pane import RIGHT, Lit, backdrop, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.setup import load_kept, measure, playable, title
 from pigaming_app.scenes.stack import Pop, Turn
-from pigaming_app.scores import Score
+from pigaming_app.scenes.surface_cache import cached
+from pigaming_app.scenes.words import Words
+from pigaming_app.scores import Score, Table
 
 ROWS = 8
-TOP, PITCH = 316, 72
-STAY = 12.0  # seconds
+WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px
+HIGH = 24 + PITCH * ROWS  # px of a table
+STAY = 12.0  # seconds without a press
 DEAF = 0.4  # seconds in which presses are ignored
-APART, WIPE = 0.07, 0.25  # seconds from row to row, for one row
+APART, WIPE = 0.05, 0.25  # seconds from row to row, for one row
+ARROW = 20  # px from the middle of an arrow to its tip
+ROOM, WHERE_ROOM = 1360, 800  # px for the conditions, and for game and arena
+STEPS = {Act.LEFT: -1, Act.RIGHT: 1, Act.UP: -1, Act.DOWN: 1}
 
 
 class Best:
-    """Both tables; `fresh`: the rows that have just come in, shown in yellow."""
+    """The tables of a contest; if they are empty, of the first one that has rows. `fresh`: rows shown in yellow."""
 
-    def __init__(self, house: House, game: str, arena: str, goal: int, fresh: Sequence[Score] = ()) -> None:
-        self.house, self.game, self.arena, self.goal, self.fresh = house, game, arena, goal, list(fresh)
-        self.age = 0.0
-        self.lit: list[tuple[float, Lit]] = []
+    def __init__(self, house: House, contest: Table, fresh: Sequence[Score] = ()) -> None:
+        self.house, self.fresh = house, list(fresh)
+        self.shelf = [one for one in contests(house.scores) if one.arena in playable(one.game)]
+        self._show(nearest(contest, self.shelf))
+        self.age = self.idle = 0.0
         self.prompts = Prompts(house, [(Act.FIRE, "results.on")])
+
+    @property
+    def game(self) -> str:
+        """The game whose tables are shown."""
+        return self.contest.game
 
     def entered(self) -> None:
         """Nothing to begin."""
 
     def on(self, press: Press) -> Turn:
-        """Any button leads on."""
+        """Directions and arrows show other tables; any button leads on."""
         press = self.prompts.meant(press)
-        if self.age > DEAF and press.act in (Act.FIRE, Act.START, Act.BACK, Act.ALT, Act.CLICK):
+        self.idle = 0.0
+        if press.act is Act.CLICK and press.at:
+            near = (act for act, at in self.arrows.items() if hit(at, press.at))
+            press = Press(next(near, Act.CLICK), press.device)
+        if press.act in STEPS:
+            self._step(press.act)
+        elif self.age > DEAF and press.act in (Act.FIRE, Act.START, Act.BACK, Act.ALT, Act.CLICK):
             self.house.sounds.play("back")
             return Pop()
         return None
@@ -45,53 +67,133 @@ class Best:
     def update(self, seconds: float) -> Turn:
         """Stay a while."""
         self.age += seconds
-        return Pop() if self.age > STAY else None
+        self.turned += seconds
+        self.idle += seconds
+        return Pop() if self.idle > STAY else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the tables and what leads on."""
         self.paint(screen)
+        for act, (x, y) in self.arrows.items():
+            sign(act.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
         self.prompts.draw(screen)
 
     def paint(self, screen: pygame.Surface) -> None:
         """Paint the tables alone; their rows come in one after the other."""
-        if not self.lit:
-            self.lit = list(self._make())
+        words, contest = self.house.words, self.contest
         screen.blit(backdrop(), (0, 0))
-        for begins, lit in self.lit:
-            share = min(1.0, (self.age - begins) / WIPE)
-            lit.draw(screen, share=1 - (1 - share) ** 2)
+        heading(words("results.scores")).draw(screen)
+        text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
+        text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
+        shown = older_boards(contest, self.house.scores) if contest.older else boards(contest)
+        for column, board in zip((0, 6) if len(shown) > 1 else (3,), shown, strict=False):
+            self._board(screen, board, *span(column, 6))
 
-    def _make(self) -> list[tuple[float, Lit]]:
-        words = self.house.words
-        pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
-        pane.page.text(words("results.scores"), TITLE, LEFT, 112)
-        title = load(self.game, self.arena).title.get(words.language, self.arena)
-        where = f"{words('games.' + self.game)}  ·  {title}"
-        pane.page.body(where, RIGHT, 112, MIST, "r", fitted(where, 40, 800, "body"))
-        pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], FOCUS, LINE)
-        out = [(0.0, pane.done())]
-        for first, board in zip((0, 6), boards(self.game, self.arena, self.goal), strict=True):
-            x, w = span(first, 6)
-            rows = self.house.scores.best(self.game, board.table, board.days)[:ROWS]
-            head = Pane(x, 216, w, 670)
-            panel(head.hot, x, 276, w, 24 + PITCH * ROWS + 8, STEEL, THIN)
-            head.page.text(words(board.heading, goal=self.goal), LABEL, x, 236, ICE)
-            out.append((0.1, head.done()))
-            for i in range(ROWS):
-                row = rows[i] if i < len(rows) else None
-                out.append((0.2 + APART * i, self._row(row, board.feat, i, x, w)))
-        return out
+    # ---- inside
 
-    def _row(self, row: Score | None, feat: Feat, i: int, x: int, w: int) -> Lit:
-        y = TOP + PITCH * i + PITCH // 2 - 20
-        pane = Pane(x, y - 36, w, 72)
-        color = FOCUS if row in self.fresh else ICE if i == 0 and row else MIST
-        pane.page.cold.text(str(i + 1), LABEL, x + 84, y, color, "head", "r")
-        if row is None:
-            pane.page.cold.line([(x + 150, y), (x + 300, y)], STEEL, THIN)
-            return pane.done()
-        pane.page.text(row.initials, SUB, x + 150, y, color, "hero")
+    def _step(self, act: Act) -> None:
+        """Show the next table that way, round and round."""
+        ring = self._ring(act)
+        if len(ring) > 1:
+            self._show(ring[(ring.index(self.contest) + STEPS[act]) % len(ring)])
+            self.house.sounds.play("move")
+
+    def _show(self, contest: Table) -> None:
+        """Show the tables of a contest, and arrows wherever there are others."""
+        self.contest, self.turned = contest, 0.0
+        where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
+        line = min(ROOM, text_width(conditions(self.house.words, contest), LABEL, "head")) / 2
+        self.arrows: dict[Act, tuple[float, float]] = {}
+        if len(self._ring(Act.UP)) > 1:
+            self.arrows[Act.UP] = RIGHT - where - 52, WHERE_Y - 24
+            self.arrows[Act.DOWN] = RIGHT - where - 52, WHERE_Y + 24
+        if len(self._ring(Act.LEFT)) > 1:
+            self.arrows[Act.LEFT] = 960 - line - 60, LINE_Y
+            self.arrows[Act.RIGHT] = 960 + line + 60, LINE_Y
+
+    def _ring(self, act: Act) -> list[Table]:
+        """The contests left and right of the one shown, or above and below: one in each arena."""
+        here = place_of(self.contest)
+        if act in (Act.LEFT, Act.RIGHT):
+            return [one for one in self.shelf if place_of(one) == here]
+        firsts: dict[tuple[str, str], Table] = {}
+        for one in self.shelf:
+            firsts.setdefault(place_of(one), self.contest if place_of(one) == here else one)
+        return list(firsts.values())
+
+    def _where(self) -> str:
+        """Game and arena."""
+        words, contest = self.house.words, self.contest
+        there = contest.arena in playable(contest.game)
+        arena = title(load_kept(contest.game, contest.arena), words.language) if there else contest.arena
+        return f"{words('games.' + contest.game)}  ·  {arena}"
+
+    def _board(self, screen: pygame.Surface, board: Board, x: int, w: int) -> None:
+        """A table under its heading."""
+        said = self.house.words(board.heading, goal=f"{board.table.length:g}")
+        text(said, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
+        frame(w).draw(screen, x, TOP)
+        rows = self.house.scores.best(board.table, board.days)[:ROWS]
+        if not rows:
+            text(self.house.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
+                screen, x + w / 2, TOP + HIGH / 2
+            )
+        for i, row in enumerate(rows):
+            share = (self.turned - APART * i) / WIPE
+            if share > 0.0:
+                self._row(screen, row, board, i, x, w, 1 - (1 - min(1.0, share)) ** 2)
+
+    def _row(self, screen: pygame.Surface, row: Score, board: Board, i: int, x: int, w: int, share: float) -> None:
+        """Place, initials and value, of whose width only `share` is shown."""
+        y = TOP + 12 + PITCH * i + PITCH / 2
+        color = FOCUS if row in self.fresh else ICE if i == 0 else MIST
+        before = screen.get_clip()
+        screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
+        text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
+        text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
+        value = self.house.words.decimal(told(row.score, board.table))
+        text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
         if row in self.fresh:
-            icon(pane.hot, "left", x + 420, y, 20, FOCUS, LINE)
-        pane.page.text(told(row.score, feat), SUB, x + w - 48, y, color, "hero", "r")
-        return pane.done()
+            sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
+        screen.set_clip(before)
+
+
+def nearest(contest: Table, shelf: Sequence[Table]) -> Table:
+    """The contest itself if it has rows or nothing has; else one of its arena, of its game, or any other."""
+    near = [one for one in shelf if place_of(one) == place_of(contest)] or [
+        one for one in shelf if one.game == contest.game
+    ]
+    return contest if contest in shelf or not shelf else next(iter(near or shelf))
+
+
+def hit(arrow: tuple[float, float], at: tuple[float, float]) -> bool:
+    """Whether a click at a point means an arrow."""
+    return abs(at[0] - arrow[0]) <= 48 and abs(at[1] - arrow[1]) <= ARROW + 4
+
+
+def place_of(contest: Table) -> tuple[str, str]:
+    """Game and arena."""
+    return contest.game, contest.arena
+
+
+def conditions(words: Words, contest: Table) -> str:
+    """The rules, the length and the people of a contest in one line."""
+    game = GAMES[contest.game]
+    parts = [words("best.older")] if contest.older else []
+    if len(game.variants) > 1 and contest.rules:
+        parts.append(words(f"setup.{contest.rules}"))
+    if contest.length:
+        parts.append(measure(words, game, contest.length, round(contest.length)))
+    if contest.people:
+        parts.append(words("best.person") if contest.people == 1 else words("best.people", count=contest.people))
+    if contest.side == contest.people and contest.side:
+        parts.append(words("best.team"))
+    elif contest.side:
+        parts.append(words("best.against", side=contest.side, others=contest.people - contest.side))
+    return "  ·  ".join(parts)
+
+
+@cached
+def frame(w: int) -> Lit:
+    """The outline of a table, its upper left at (0, 0)."""
+    return Lit(Ink(w + 8, HIGH + 8).to(4, 4).line(cut(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4))

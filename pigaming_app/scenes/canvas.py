@@ -14,6 +14,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
+from pigaming_app.keeping import write
+from pigaming_app.scenes.png import png_of
+
 if TYPE_CHECKING:
     from pigaming_app.hardware.warp import Warp
 
@@ -184,12 +187,8 @@ class Canvas:
         return [f"{number}: {w} × {h}" for number, (w, h) in enumerate(pygame.display.get_desktop_sizes(), 1)]
 
     def screenshot(self, path: Path) -> None:
-        """Save what was painted last as a PNG file; missing folders are made. Raises OSError."""
-        path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            pygame.image.save(self.screen, str(path))
-        except pygame.error as reason:
-            raise OSError(f"{path}: {reason}") from reason
+        """Save what was painted last as a PNG file; missing folders are made. Raises NotSaved."""
+        write(path, png_of(self.screen))
 
     def close(self) -> None:
         """Take the window away."""

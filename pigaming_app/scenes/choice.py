@@ -1,5 +1,6 @@
 """Rows in which something is chosen, and the small things round them, for the page before a match."""
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import (
     BODY,
     FOCUS,
@@ -36,8 +37,10 @@ def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
     pane.page.text(value, size, W / 2, 94, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
         icon(pane.hot, sign, x, 94, 20, MIST, LINE)
-    for i, part in enumerate(lines_of(line, BODY, W - 2 * PAD)[:2] if line else []):
-        pane.page.body(part, PAD, 156 + 48 * i, MIST)
+    room = W - 2 * PAD
+    size = next(size for size in range(BODY, 0, -2) if len(lines_of(line, size, room)) <= 2)
+    for i, part in enumerate(lines_of(line, size, room)):
+        pane.page.body(part, PAD, 156 + 48 * i, MIST, "l", size)
     return pane.done()
 
 
@@ -98,11 +101,13 @@ def begin(said: str) -> Lit:
 
 
 @cached
-def frame(w: int, h: int) -> Lit:
+@sliced
+def frame(w: int, h: int) -> Steps[Lit]:
     """The frame of a picture; upper left at (0, 0)."""
     pane = Pane(0, 0, w, h)
     panel(pane.hot, 0, 0, w, h)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached

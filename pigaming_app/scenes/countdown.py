@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import cycle
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Job, Steps, sliced
 from pigaming_app.scenes.ink import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
 from pigaming_app.scenes.palette import CAPITALS
 from pigaming_app.scenes.sprites import Sprite, faded, trim
@@ -67,16 +69,16 @@ class Countdown:
             show(screen, arcs(self.number), at)
 
 
-def signs(go: str, *ends: str) -> Iterator[Sprite]:
-    """Every sign of a match, made one at a time, in the order in which they are shown.
+def signs(go: str, *ends: str) -> Iterator[Job]:
+    """A job for every sign of a match, in the order in which they are shown.
 
     Those of the end come again and again, which keeps them in the cache until they are needed.
     """
     for number in (3, 2, 1):
-        yield arcs(number)
-        yield _word(str(number), ICE)
-    yield _word(go, FOCUS)
-    yield from (_word(end, ALARM) for end in cycle(ends))
+        yield partial(arcs, number)
+        yield partial(_word, str(number), ICE)
+    yield partial(_word, go, FOCUS)
+    yield from (partial(_word, end, ALARM) for end in cycle(ends))
 
 
 def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
@@ -90,7 +92,8 @@ def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
 
 
 @cached
-def _word(text: str, color: Color) -> Sprite:
+@sliced
+def _word(text: str, color: Color) -> Steps[Sprite]:
     edge = font("hero", HUGE).render(text, True, BLACK)
     w, h = edge.get_width() + 128, HUGE + 128
     out = pygame.Surface((w, h), pygame.SRCALPHA)
@@ -98,8 +101,10 @@ def _word(text: str, color: Color) -> Sprite:
     for i in range(24):
         angle = i * math.tau / 24
         out.blit(edge, (64 + MOAT * math.cos(angle), top + MOAT * math.sin(angle)))
-    light = Ink(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lit(0.8)
+    yield
+    light = yield from Ink(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    yield
     return trim(out, w / 2, h / 2)
 
 

@@ -1,9 +1,11 @@
 """Who drives with what, in a pause: for each seat its device, the keys that steer, fire and turbo."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import pygame
 
+from pigaming_app.scenes.access import Access
+from pigaming_app.scenes.frame_budget import budget
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted
@@ -12,40 +14,50 @@ from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Turn
 
 TOP, PITCH, HIGH = 236, 164, 140
-NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 560, LEFT + 1000, LEFT + 1370
+NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
 
 
 class DeviceTable:
-    """One row for every seat that a device drives; None: an AI, or nobody."""
+    """One row for every seat that a device drives; None: an AI, or nobody. `access`: whose presses count."""
 
-    def __init__(self, house: House, devices: Sequence[Device | None]) -> None:
-        self.house = house
+    def __init__(self, house: House, devices: Sequence[Device | None], access: Access) -> None:
+        self.house, self.access = house, access
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[Lit] = []
-        self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")])
+        self.pieces = self._make()
+        self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""
 
     def on(self, press: Press) -> Turn:
         """Any button leads back."""
-        if self.prompts.meant(press).act in (Act.FIRE, Act.START, Act.BACK):
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted and admitted.act in (Act.FIRE, Act.START, Act.BACK):
             self.house.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Nothing moves."""
+        """Nothing moves, but a pause belongs to somebody only for a while."""
+        self.access.update(seconds)
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the table."""
-        if not self.lit:
-            self.lit = [self._heading(), *(self._row(i, *row) for i, row in enumerate(self.rows))]
+        for piece in self.pieces:
+            self.lit.append(piece)
+            budget.pause()
         screen.blit(backdrop(), (0, 0))
         for lit in self.lit:
             lit.draw(screen)
         self.prompts.draw(screen)
+
+    def _make(self) -> Iterator[Lit]:
+        """One piece of the page after the other."""
+        yield self._heading()
+        for i, row in enumerate(self.rows):
+            yield self._row(i, *row)
 
     def _heading(self) -> Lit:
         pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
@@ -62,7 +74,7 @@ class DeviceTable:
         badge(pane.hot, seat, LEFT + 84, y, 40)
         icon(pane.hot, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
         name = words(f"devices.{controls.name(device)}")
-        pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 290, "body"))
+        pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 264, "body"))
         self._moves(pane, device, y)
         for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
             wide = button(pane.page, x, y, words.printed(controls.label(device, act)))

@@ -11,18 +11,21 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from pathlib import Path
 from threading import Thread
 from typing import Any
 
 from pigaming_app.games.race.state import LINES
 from pigaming_app.keeping import NotSaved, keep, recall
+from pigaming_app.parsing import json_of, shown
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.kernel import engine_hash
 
 RATE = 10.0  # poses in a second
 FOLDER = "ghosts"
 LONGEST = 600.0  # s
+FARTHEST = 10_000.0  # px from the middle, or rad
 Pose = tuple[float, float, float]  # px, px, rad
 log = logging.getLogger(__name__)
 
@@ -115,21 +118,25 @@ def forget(folder: Path) -> None:
 
 def _parsed(text: str) -> tuple[str, Ghost]:
     """Engine and ghost of a file. Raises ValueError."""
-    match json.loads(text):
+    match json_of(text):
         case {"engine": str(engine), "line": int(line), "seconds": seconds, "crossed": crossed, "poses": poses}:
             pass
         case _:
             raise ValueError("it is no ghost")
-    ways = tuple(_numbers(pose, 3) for pose in poses) if isinstance(poses, list) else ()
-    lap = _numbers([seconds], 1)[0]
-    if not 0 <= line < LINES or not 1.0 <= lap <= LONGEST or len(ways) != int(lap * RATE) + 1:
+    (lap,) = _numbers([seconds], 1, 1.0, LONGEST)
+    if line is True or not 0 <= line < LINES or not isinstance(poses, list) or len(poses) != int(lap * RATE) + 1:
         raise ValueError("its lap is not whole")
-    return engine, Ghost(line, lap, _numbers(crossed, LINES), tuple((x, y, heading) for x, y, heading in ways))
+    lines = _numbers(crossed, LINES, 0.0, lap)
+    if lines[0] != 0.0 or any(before >= after for before, after in pairwise((*lines, lap))):
+        raise ValueError("its lap does not cross one line after the other")
+    ways = (_numbers(pose, 3, -FARTHEST, FARTHEST) for pose in poses)
+    return engine, Ghost(line, lap, lines, tuple((x, y, heading) for x, y, heading in ways))
 
 
-def _numbers(found: Any, count: int) -> tuple[float, ...]:
+def _numbers(found: Any, count: int, low: float, high: float) -> tuple[float, ...]:
+    """So many numbers from `low` to `high`. Raises ValueError."""
     if not isinstance(found, list) or len(found) != count:
-        raise ValueError(f"{found!r} should be {count} numbers")
-    if not all(isinstance(one, int | float) and math.isfinite(one) for one in found):
-        raise ValueError(f"{found!r} are not all numbers")
+        raise ValueError(f"{shown(found)} should be {count} numbers")
+    if not all(isinstance(one, int | float) and not isinstance(one, bool) and low <= one <= high for one in found):
+        raise ValueError(f"{shown(found)} are not all numbers from {low:g} to {high:g}")
     return tuple(float(one) for one in found)

@@ -5,8 +5,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from pigaming_app.scenes.backstage import Backstage
 from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.scenes.sounds import Sounds
 from pigaming_app.scenes.words import Words
 from pigaming_app.scores import Scores
@@ -29,6 +31,8 @@ class House:
     kiosk: bool = False
     idle: float = 0.0  # seconds since anyone pressed anything
     mat: "Mat | None" = None  # where real robots drive
+    compiler: Compiler = field(default_factory=Compiler)  # of the Lab's training
+    backstage: Backstage = field(default_factory=Backstage)
     stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
 
     @property

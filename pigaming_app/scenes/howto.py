@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BLACK,
@@ -19,6 +20,7 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.lessons import LESSONS
+from pigaming_app.scenes.limits import kept_minutes, limits
 from pigaming_app.scenes.page import blacked, button_light, chip, chip_width, heading, text
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, lines_of, span
 from pigaming_app.scenes.press import Act, Press
@@ -26,7 +28,7 @@ from pigaming_app.scenes.stack import Home, Pop, Turn
 from pigaming_app.scenes.surface_cache import cached
 
 TOP, HIGH = 220, 620
-CAPTION_Y, FOOT_Y = TOP + 546, 924
+CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without a press until the title
 FIRES = {"pitanks": "hint_fire", "factory": "hint_lift"}  # what FIRE does, in games in which it does something
 LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
@@ -79,6 +81,8 @@ class HowTo:
             if said:
                 text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
+        said = limits(words, self.game, kept_minutes(self.house.settings, self.game))
+        text(said, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
         keys(self._keys()).draw(screen)
 
     def _show(self, game: str) -> None:
@@ -111,13 +115,15 @@ class HowTo:
 
 
 @cached
-def frame(number: int, w: int) -> Lit:
+@sliced
+def frame(number: int, w: int) -> Steps[Lit]:
     """An empty panel with its number; upper left at (0, 0)."""
     pane = Pane(0, 0, w, HIGH)
     panel(pane.hot, 0, 0, w, HIGH, STEEL)
     pane.hot.fill(regular(40, 32, 0, w / 2, 0), ICE)
     pane.hot.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached
@@ -140,7 +146,8 @@ def balanced(said: str, room: int) -> list[str]:
 
 
 @cached
-def keys(items: Sequence[tuple[str, str]]) -> Lit:
+@sliced
+def keys(items: Sequence[tuple[str, str]]) -> Steps[Lit]:
     """The row at the foot: all but the last from the left, the last at the right end."""
     pane = Pane(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
@@ -151,7 +158,8 @@ def keys(items: Sequence[tuple[str, str]]) -> Lit:
             x += button(pane.page, x, FOOT_Y, part) + 8
         pane.page.body(what, x + 10, FOOT_Y, MIST)
         x += 10 + text_width(what, BODY, "body") + 56
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 def _width(label: str) -> float:

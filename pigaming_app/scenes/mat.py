@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.ground import Ground
     from pigaming_app.hardware.link import Link
     from pigaming_app.hardware.rig import Rig, Talks
+    from pigaming_app.hardware.said import Said
 
 LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
 
@@ -113,6 +114,15 @@ class RealMat:
 
         chosen = self.settings
         return Wiring(chosen.camera, chosen.port, chosen.baud, chosen.radio)
+
+
+def unfit(settings: Settings) -> "Said | None":
+    """Why no match may begin with real robots on the radio of these settings, emulated ones included; None: it may."""
+    if settings.radio != "stock":
+        return None
+    from pigaming_app.hardware.stock import NO_DEADMAN
+
+    return NO_DEADMAN
 
 
 def kept_ground(file: str, projection: str) -> "Ground":

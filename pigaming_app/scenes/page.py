@@ -8,6 +8,7 @@ import math
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import (
     BODY,
     FOCUS,
@@ -46,7 +47,8 @@ def dimmed(lit: Lit, share: float) -> Lit:
 
 
 @cached
-def heading(title: str, right: str = "", color: Color = ICE) -> Lit:
+@sliced
+def heading(title: str, right: str = "", color: Color = ICE) -> Steps[Lit]:
     """The head of a page, with a line below it and a fact at its right end."""
     pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
     size = fitted(title, TITLE, 1000)
@@ -55,7 +57,8 @@ def heading(title: str, right: str = "", color: Color = ICE) -> Lit:
         room = RIGHT - LEFT - 60 - text_width(title, size)
         pane.page.body(right, RIGHT, 112, MIST, "r", fitted(right, BODY, room, "body"))
     pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, finished
 from pigaming_app.scenes.ink import Color, Ink, Page, text_width
 from pigaming_app.scenes.surface_cache import cached
 
@@ -47,9 +48,14 @@ class Pane:
         """The sheet whose lines glow."""
         return self.page.hot
 
-    def done(self) -> Lit:
+    def lighting(self) -> Steps[Lit]:
         """The pane, lit. Costs about 0.1 µs a pixel; not for a steady frame."""
-        return Lit(self.page.done(), self.at)
+        image = yield from self.page.lighting()
+        return Lit(image, self.at)
+
+    def done(self) -> Lit:
+        """As `lighting`, at once."""
+        return finished(self.lighting())
 
 
 @cached

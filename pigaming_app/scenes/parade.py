@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import ADD, LINE, PLAYERS, WHITE, Ink, Point, mix
 from pigaming_app.scenes.logo import seat_robot, trail_path
 from pigaming_app.scenes.page import stamp
@@ -51,13 +52,15 @@ def _dot_robot(turn: int, scale: float) -> Sprite:
 
 
 @cached
-def line(player: int) -> Lit:
+@sliced
+def line(player: int) -> Steps[Lit]:
     """The whole line that a robot draws."""
     path = trail_path(player)
     ys = [y for _, y in path]
     pane = Pane(0, min(ys), 1920, max(ys) - min(ys))
     pane.hot.line(path, PLAYERS[player], LINE)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 @cached

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.scenes.ink import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix
+from pigaming_app.scenes.ink import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix, text_width
 from pigaming_app.scenes.pane import Lit, Pane
 
 Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
@@ -33,10 +33,11 @@ class Plot:
 
     def __init__(self, x: int, y: int, w: int, h: int, curves: Sequence[Curve], seconds: float) -> None:
         badges = max((len(curve.players) for curve in curves), default=1)
-        self.x, self.y, self.w, self.h = x + 84, y + 8, w - 84 - 30 - 50 * badges, h - 76
+        self.low, self.high, self.step = self.scale([value for curve in curves for _, value in curve.series])
+        left = 20 + max(64.0, *(text_width(said, BODY) for _, said in self.numbers()))
+        self.x, self.y, self.w, self.h = round(x + left), y + 8, round(w - left) - 30 - 50 * badges, h - 76
         self.foot = y + h - 20
         self.seconds = max(1.0, seconds)
-        self.low, self.high, self.step = self.scale([value for curve in curves for _, value in curve.series])
         self.curves = curves
         self.box = x, y, w, h
 
@@ -54,14 +55,18 @@ class Plot:
         pane = Pane(*self.box)
         ink = pane.page.cold
         faint = dim(STEEL, 0.55)
-        for value in range(self.low, self.high + 1, self.step):
+        for value, said in self.numbers():
             a, b = self.to(0, value), self.to(self.seconds, value)
             ink.line([a, b], STEEL if value == 0 else faint, THIN if value == 0 else HAIR)
-            ink.text(str(value).replace("-", "−"), BODY, self.x - 20, a[1], MIST, "head", "r")
+            ink.text(said, BODY, self.x - 20, a[1], MIST, "head", "r")
         for at, said in self.marks():
             ink.line([self.to(at, self.low), self.to(at, self.high)], faint, HAIR)
             ink.text(said, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
         return pane.done()
+
+    def numbers(self) -> list[tuple[int, str]]:
+        """What stands beside the axis, and at which height."""
+        return [(value, str(value).replace("-", "−")) for value in range(self.low, self.high + 1, self.step)]
 
     def marks(self) -> list[tuple[float, str]]:
         """What stands under the axis, and where."""

@@ -5,6 +5,7 @@ import pygame
 from pigaming_app.games.replay import BYTES, Replay, play
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, LABEL, STEEL
+from pigaming_app.scenes.margin import Column, note
 from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
@@ -31,7 +32,7 @@ class ReplayScene:
 
     def on(self, press: Press) -> Turn:
         """FIRE holds and goes on, LEFT and RIGHT change the speed, EXTRA begins again, BACK leaves."""
-        press = self.prompts.meant(press)
+        press = self.hints.meant(press)
         self.shown = SHOWN
         match press.act:
             case Act.FIRE | Act.START:
@@ -62,7 +63,7 @@ class ReplayScene:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The match, its time line, and what can be pressed."""
+        """The match; in the margins its time line, how fast it runs, and what can be pressed."""
         self.stage.draw(screen)
         words, seconds = self.house.words, self.stage.match.seconds
         if seconds < SHOWN or not self.playing:
@@ -75,9 +76,14 @@ class ReplayScene:
             plate(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
         elif not self.playing or self.speed or seconds < SHOWN:
             said = words("replay.title") if self.playing else words("replay.hint_pause")
-            plate(f"{said}  {SPEEDS[self.speed]}×", FOCUS, FOCUS, face="head").draw(screen, 960, 206)
+            note(said, f"{SPEEDS[self.speed]}×").draw(screen)
         if self.shown > 0.0 or not self.playing or self.ended:
-            self.prompts.draw(screen)
+            self.hints.draw(screen)
+
+    @property
+    def hints(self) -> Column:
+        """The hints, where they hide nothing."""
+        return Column(self.prompts)
 
     @property
     def prompts(self) -> Prompts:
@@ -86,7 +92,7 @@ class ReplayScene:
         if not self.ended:
             fire = "replay.hint_pause" if self.playing else "replay.hint_play"
             hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
-        return Prompts(self.house, hints, 984, 1500, solid=True)
+        return Prompts(self.house, hints)
 
     @property
     def ended(self) -> bool:

@@ -3,15 +3,17 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from time import perf_counter
 
 import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
-from pigaming_app.scenes.feats import boards, clock, told
+from pigaming_app.scenes.feats import boards, clock, contest, told
 from pigaming_app.scenes.finale import Finale
+from pigaming_app.scenes.frame_budget import Unfinished, budget
+from pigaming_app.scenes.frame_budget import clock as frame_clock
+from pigaming_app.scenes.headline import headline, winning_color
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BODY,
@@ -39,10 +41,11 @@ from pigaming_app.scenes.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.setup import measure
 
 TOP, ROW, PITCH = 280, 120, 136
-RIGHTS = {4: (346, 494, 676, 820), 3: (410, 620, 820)}  # right edges of so many columns
 SCORED = ("pitanks",)  # games in which the score itself is a column
 TIMES = ("best", "total")  # columns that are s
-ROW_FROM = 172  # px, where a row's badge ends
+PLACE_X, BADGE_X, AI_X = 68, 172, 236  # px from a row's left edge: the middle of place, badge and sign of an AI
+FIGURES = (226, 828)  # px from a row's left edge: where columns may begin, and where the last one ends
+APART_X = 22  # px between two columns, at least
 SHORT = 218  # px of the line under a title without a winner
 FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
 
@@ -59,8 +62,11 @@ class Part:
 class ResultsPage:
     """Everything of the results but the votes."""
 
-    def __init__(self, house: House, outcome: Outcome, setup: Setup, finished: bool) -> None:
+    def __init__(
+        self, house: House, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int] = ()
+    ) -> None:
         self.house, self.outcome, self.setup, self.finished = house, outcome, setup, finished
+        self.absent = absent  # seats of people for whom an AI has driven
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
         game = GAMES[setup.game]
@@ -75,11 +81,12 @@ class ResultsPage:
 
     def warm(self, milliseconds: float) -> bool:
         """Make pieces for so long; true when all are there."""
-        end = perf_counter() + milliseconds / 1000
-        while perf_counter() < end:
-            if next(self._making, None) is None:
-                return True
-        return False
+        with budget.until(frame_clock() + milliseconds / 1000):
+            try:
+                self._finish()
+            except Unfinished:
+                return False
+        return True
 
     def sounds(self, humans: Sequence[int]) -> list[tuple[float, str, int | None]]:
         """What is heard while the page comes: (seconds, name, player)."""
@@ -96,7 +103,7 @@ class ResultsPage:
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
         """Paint the page `age` seconds after it was opened."""
-        self.warm(2000.0)
+        self._finish()
         screen.blit(backdrop(), (0, 0))
         for part in self.parts:
             share = (age - part.begins) / part.takes
@@ -123,6 +130,11 @@ class ResultsPage:
                 self.finale.draw(screen)
 
     # ---- the pieces
+
+    def _finish(self) -> None:
+        """Make what is missing. Raises Unfinished where the budget of the frame is spent."""
+        for _ in self._making:
+            budget.pause()
 
     def _make(self) -> Iterator[bool]:
         """Make one piece at a time."""
@@ -154,7 +166,7 @@ class ResultsPage:
         yield True
 
     def _color(self) -> Color:
-        return PLAYERS[self.winners[0]] if self.winners else ICE
+        return winning_color(self.outcome, self.setup) if self.winners else ICE
 
     def _title(self) -> Lit:
         """Who won, in the winner's colour, and its crown."""
@@ -165,15 +177,8 @@ class ResultsPage:
             badge(pane.hot, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners else 0
-        numbers = [str(seat + 1) for seat in sorted(self.winners)]
-        if not self.finished:
-            text = words("results.ended")
-        elif not numbers:
-            text = words("results.tie")
-        elif len(numbers) == 1:
-            text = words("results.wins", player=numbers[0])
-        else:
-            text = words("results.win", players=", ".join(numbers[:-1]), last=numbers[-1])
+        ended = headline(words, self.outcome, self.setup, self.absent)
+        text = ended if self.finished else words("results.ended")
         size = fitted(text, TITLE, self.room - x - (130 if self.winners else 0))
         pane.page.text(text, size, x, 112, self._color())
         if self.winners:
@@ -202,10 +207,15 @@ class ResultsPage:
         x, w = span(0, 6)
         plot_x, _ = span(6, 6)
         pane = Pane(x, 206, 2 * w, 60)
-        for name, right in zip(self.columns, RIGHTS[len(self.columns)], strict=True):
-            pane.page.body(words(f"results.{name}"), x + right, 236, MIST, "r")
+        heads = [words(f"results.{name}") for name in self.columns]
+        ends = self._ends()
         if self.by_team:
             pane.page.body(words("results.team"), x + 24, 236, MIST)
+        begins = [24 + text_width(words("results.team"), BODY, "body") if self.by_team else 0, *ends]
+        rooms = [end - begin - APART_X for begin, end in zip(begins, ends, strict=False)]
+        size = min(fitted(head, BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
+        for head, end in zip(heads, ends, strict=True):
+            pane.page.body(head, x + end, 236, MIST, "r", size)
         pane.page.body(words(f"results.plot_{self.setup.game}"), plot_x, 236, MIST)
         return pane.done()
 
@@ -218,31 +228,39 @@ class ResultsPage:
         panel(pane.hot, x, y, w, h, PLAYERS[min(row.seat for row in rows)] if wins else STEEL, LINE if wins else THIN)
         number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
         color = ICE if wins else MIST
-        pane.page.text(number, fitted(number, SUB, 84), x + 58, y + h / 2, color, "head", "c")
+        pane.page.text(number, fitted(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
             self._row(pane, row, x, y + ROW / 2 + PITCH * i, color)
         return pane.done()
 
     def _row(self, pane: Pane, row: Row, x: int, y: float, color: Color) -> None:
         """One robot: badge, score, what the game counts."""
-        badge(pane.hot, row.seat, x + 158, y, 38)
+        badge(pane.hot, row.seat, x + BADGE_X, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
-            icon(pane.hot, "ai", x + 225, y, 15, MIST, 3)
-        rights = RIGHTS[len(self.columns)]
-        for name, before, right in zip(self.columns, (ROW_FROM, *rights), rights, strict=False):
-            text, room = cell(name, row), right - before - 24
+            icon(pane.hot, "ai", x + AI_X, y, 15, MIST, 3)
+        ends = self._ends()
+        for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
+            text, room = self.house.words.decimal(cell(name, row)), right - before - APART_X
             if name == self.columns[0]:
-                size = fitted(text, SUB, room - (48 if brain != "human" else 0), "hero")
+                size = fitted(text, SUB, room - (32 if brain != "human" else 0), "hero")
                 pane.page.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
             else:
                 pane.page.cold.text(text, fitted(text, LABEL, room), x + right, y, color, "head", "r")
 
+    def _ends(self) -> list[float]:
+        """Where each column ends, px from a row's left edge: as wide as what stands in it."""
+        words, wanted = self.house.words, []
+        for name in self.columns:
+            size, face = (SUB, "hero") if name == self.columns[0] else (LABEL, "head")
+            cells = [text_width(cell(name, row), size, face) for row in self.outcome.rows]
+            wanted.append(max(*cells, text_width(words(f"results.{name}"), BODY, "body")))
+        return ends(wanted, *FIGURES, APART_X)
+
     def _records(self) -> Lit | None:
         """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
         scores, setup, words = self.house.scores, self.setup, self.house.words
-        there = boards(setup.game, setup.arena, setup.goal)
-        tables = [(board, scores.best(setup.game, board.table, board.days)) for board in there]
+        tables = [(board, scores.best(board.table, board.days)) for board in boards(contest(setup))]
         if not any(rows for _, rows in tables):
             return None
         x, w = span(0, 6)
@@ -254,7 +272,8 @@ class ResultsPage:
             pane.page.body(heading, left + 64, y - 32, MIST, "l", fitted(heading, BODY, 330, "body"))
             if rows:
                 pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
-                pane.page.text(told(rows[0].score, board.feat), LABEL, left + 370, y + 32, ICE, "hero", "r")
+                best = words.decimal(told(rows[0].score, board.table))
+                pane.page.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
         return pane.done()
 
     def _plot(self, x: int, w: int) -> Plot:
@@ -277,6 +296,14 @@ class ResultsPage:
     def _reach(self, age: float) -> float:
         """How far the line under the title is coloured, px."""
         return self.finale.reach if self.finale else SHORT * min(1.0, (age - self.title_at) / WIPE)
+
+
+def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> list[float]:
+    """Where columns end that want to be so wide; what is left over, or missing, is shared among them."""
+    room = right - left - apart * (len(wanted) - 1)
+    spare = (room - sum(wanted)) / len(wanted)
+    widths = [width + spare if spare >= 0.0 else width * room / sum(wanted) for width in wanted]
+    return [left + sum(widths[: i + 1]) + apart * i for i in range(len(widths))]
 
 
 def share_of(lit: Lit, x: float) -> float:

@@ -4,6 +4,7 @@ import logging
 
 import pygame
 
+from pigaming_app.keeping import NotSaved, write
 from pigaming_app.scenes import dials
 from pigaming_app.scenes.calibration import rows
 from pigaming_app.scenes.calibration.telling import paragraph, tell
@@ -105,15 +106,13 @@ class RobotsMenu:
 
         path, words = folders().data / SHEET, self.house.words
         try:
-            page = sheet()
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(page)
+            write(path, sheet())
             self.sentence = words("robots.written", path=path)
         except NoVision as missing:
             log.warning("%s", missing)
             self.sentence = tell(words, said(missing))
-        except OSError as trouble:
-            log.warning("%s: %s", path, trouble)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
             self.sentence = words("app.unsaved")
         self.said = SAID
 

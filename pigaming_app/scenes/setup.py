@@ -1,6 +1,6 @@
 """Where, how long and by which rules: the last page before a match. Whatever was chosen last is chosen again.
 
-Any device may steer it: up and down from row to row, left and right change, fire begins.
+Any seated device may steer it: up and down from row to row, left and right change, fire begins.
 """
 
 import logging
@@ -15,8 +15,10 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
-from pigaming_app.scenes.feats import table_of, told
+from pigaming_app.scenes.access import Access
+from pigaming_app.scenes.feats import contest, table_of, told
 from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.page import blacked, heading
@@ -54,19 +56,23 @@ class SetupPage:
         self.chosen = chosen(house, game)
         self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
-        self.prompts = Prompts(
-            house, [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
-        )
+        self.access = Access(house, seats.devices)
+        self.going = False  # a match was asked for
+        hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
+        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
         self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
-        self.clock = 0.0
+        self.clock, self.going = 0.0, False
         self.house.sounds.music(True)
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
-        press = self.prompts.meant(press)
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None or self.going:
+            return None
+        press = admitted
         match press.act:
             case Act.LEFT | Act.RIGHT:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
@@ -88,8 +94,13 @@ class SetupPage:
         self.clock += seconds
         if any(device and not self.house.controls.connected(device) for device in self.seats.devices()):
             return Pop()
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
         self.focus.update(seconds)
+        if self.going:
+            return self._begin()
         return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -110,15 +121,26 @@ class SetupPage:
     # ---- inside
 
     def _go(self) -> Turn:
+        self._keep()
+        self.house.sounds.play("accept")
+        self.going = True
+        return self._begin()
+
+    def _begin(self) -> Turn:
+        """The match, unless what it needs is still being prepared."""
         from pigaming_app.scenes.match import new_seed
         from pigaming_app.scenes.robots.begin import match_of
 
-        self._keep()
-        self.house.sounds.play("accept")
-        now = self.chosen
-        minutes, seats = float(now.minutes), self.seats.seats()
-        setup = Setup(self.game.name, now.arena, seats, minutes, new_seed(), now.variant, now.goal)
+        if not self.house.backstage.ready(self.game.name, self.chosen.arena):
+            return None
+        setup = replace(self._setup(), seed=new_seed())
         return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
+
+    def _setup(self) -> Setup:
+        """The match as it is chosen now, without a seed."""
+        now = self.chosen
+        seats, minutes = self.seats.seats(), float(now.minutes)
+        return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
     def _keep(self) -> None:
         """Remember the choice for the next time, also after a power cut."""
@@ -183,10 +205,10 @@ class SetupPage:
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
         for feat in self.game.feats:
-            best = self.house.scores.best(self.game.name, table_of(self.chosen.arena, feat, self.chosen.goal))
+            best = self.house.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.house.words(f"setup.best_{feat.name}")
-                lines.append((name, told(best[0].score, feat), best[0].initials))
+                lines.append((name, self.house.words.decimal(told(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
@@ -221,9 +243,11 @@ class SetupPage:
 
 
 @cached
-def picture(game: str, name: str) -> Lit:
+@sliced
+def picture(game: str, name: str) -> Steps[Lit]:
     """A large picture of an arena, where the page shows it."""
-    return Lit(preview(load_kept(game, name), *PICTURE.size), PICTURE.topleft)
+    image = yield from preview(load_kept(game, name), *PICTURE.size)
+    return Lit(image, PICTURE.topleft)
 
 
 @lru_cache(maxsize=16)

@@ -5,11 +5,13 @@ are shrunk, and wide blurs are made on small copies: a whole page is lit in a tw
 """
 
 import math
+from functools import cached_property
 from itertools import pairwise
 from typing import Self
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, finished
 from pigaming_app.scenes.palette import BLACK, BODY, CAPITALS, ICE, LINE, WHITE, Color, Points, font, mix, regular
 
 ADD, MULT, PRE = pygame.BLEND_RGB_ADD, pygame.BLEND_RGB_MULT, pygame.BLEND_PREMULTIPLIED
@@ -27,11 +29,15 @@ class Ink:
 
     def __init__(self, w: int, h: int, ss: int = 2) -> None:
         self.w, self.h, self.ss = w, h, ss
-        self.sheet = pygame.Surface((w * ss, h * ss))
         self.covers: list[list[tuple[float, float]]] = []
         self.knock: pygame.Surface | None = None
         self.tiles: set[tuple[int, int]] = set()
         self.to(0, 0)
+
+    @cached_property
+    def sheet(self) -> pygame.Surface:
+        """Where it is drawn; made when it is first drawn on."""
+        return pygame.Surface((self.w * self.ss, self.h * self.ss))
 
     def to(self, x: float, y: float, angle: float = 0.0, scale: float = 1.0) -> Self:
         """What follows is drawn round (x, y), turned by `angle` rad and `scale` times as large."""
@@ -150,34 +156,45 @@ class Ink:
             self._knock().blit(image, at)
         return self
 
-    def _shrunk(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> None:
+    def _shrunk(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> Steps[None]:
         """Blit a large sheet, shrunk, onto a surface of the real size: those runs of tiles that were drawn on."""
         for row, first, count in runs(self.tiles):
             box = pygame.Rect(first * TILE_W, row * TILE_H, count * TILE_W, TILE_H).clip((0, 0, self.w, self.h))
             large = sheet.subsurface(box.x * self.ss, box.y * self.ss, box.w * self.ss, box.h * self.ss)
             out.blit(pygame.transform.smoothscale(large, box.size), box, special_flags=flags)
+            yield
 
-    def onto(self, out: pygame.Surface) -> None:
+    def onto(self, out: pygame.Surface) -> Steps[None]:
         """Add the ink, without glow, to a surface of the sheet's real size."""
-        self._shrunk(self.sheet, out, ADD)
+        if self.tiles:
+            yield from self._shrunk(self.sheet, out, ADD)
 
-    def plain(self) -> pygame.Surface:
+    def shrinking(self) -> Steps[pygame.Surface]:
         """The sheet at its real size, without glow."""
         out = pygame.Surface((self.w, self.h))
-        self._shrunk(self.sheet, out, 0)
+        if self.tiles:
+            yield from self._shrunk(self.sheet, out, 0)
         return out
 
-    def knocked(self, out: pygame.Surface) -> None:
+    def plain(self) -> pygame.Surface:
+        """As `shrinking`, at once."""
+        return finished(self.shrinking())
+
+    def knocked(self, out: pygame.Surface) -> Steps[None]:
         """Darken what must stay black: voids and black lettering."""
         if self.knock:
-            self._shrunk(self.knock, out, MULT)
+            yield from self._shrunk(self.knock, out, MULT)
+
+    def lighting(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
+        """The sheet with its glow: blurs of it, added where the ink itself is dark, so that no hue ever clips."""
+        out = yield from self.shrinking()
+        yield from add_glow(out, [(out, halos, glow)])
+        yield from self.knocked(out)
+        return out
 
     def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
-        """The sheet with its glow: blurs of it, added where the ink itself is dark, so that no hue ever clips."""
-        out = self.plain()
-        add_glow(out, [(out, halos, glow)])
-        self.knocked(out)
-        return out
+        """As `lighting`, at once."""
+        return finished(self.lighting(glow, halos))
 
     def sprite(self, glow: float = 1.0) -> pygame.Surface:
         """Premultiplied: black where `solid` hides the ground, light everywhere else. One blit occludes and glows."""
@@ -203,7 +220,7 @@ def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:
     return found
 
 
-def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, float]]) -> None:
+def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, float]]) -> Steps[None]:
     """Add the blurs of (light, halos, strength), all of the size of `out`, where `out` itself is dark."""
     size = out.get_size()
     least = min(shrink for _, halos, _ in sources for shrink, _, _ in halos)
@@ -212,14 +229,19 @@ def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, flo
         small = light
         for shrink, radius, k in halos:
             small = pygame.transform.smoothscale(small, (max(1, size[0] // shrink), max(1, size[1] // shrink)))
+            yield
             blur = pygame.transform.gaussian_blur(small, radius)
             blur.fill([min(255, round(255 * k * glow))] * 3, special_flags=MULT)
             soft.blit(pygame.transform.smoothscale(blur, soft.get_size()), (0, 0), special_flags=ADD)
+            yield
     soft.fill((6, 6, 6), special_flags=pygame.BLEND_RGB_SUB)  # the tails: black stays black, sprites have no edge
     soft = pygame.transform.smoothscale(soft, size)
+    yield
     dark = pygame.transform.grayscale(out)
     dark.blit(dark, (0, 0), special_flags=ADD)
+    yield
     soft.blit(pygame.transform.invert(dark), (0, 0), special_flags=MULT)
+    yield
     out.blit(soft, (0, 0), special_flags=ADD)
 
 
@@ -239,13 +261,22 @@ class Page:
         """A sentence."""
         self.cold.text(text, size, x, y, color, "body", align)
 
-    def done(self) -> pygame.Surface:
+    def lighting(self) -> Steps[pygame.Surface]:
         """The page, lit."""
-        hot, warm = self.hot.plain(), self.warm.plain()
+        hot = yield from self.hot.shrinking()
         out = hot.copy()
-        out.blit(warm, (0, 0), special_flags=ADD)
-        add_glow(out, [(hot, WIDE, 1.0), (warm, SOFT, 0.45)])
-        self.hot.knocked(out)
-        self.warm.knocked(out)
-        self.cold.onto(out)
+        sources = [(hot, WIDE, 1.0)]
+        if self.warm.tiles:
+            warm = yield from self.warm.shrinking()
+            out.blit(warm, (0, 0), special_flags=ADD)
+            sources.append((warm, SOFT, 0.45))
+        yield
+        yield from add_glow(out, sources)
+        yield from self.hot.knocked(out)
+        yield from self.warm.knocked(out)
+        yield from self.cold.onto(out)
         return out
+
+    def done(self) -> pygame.Surface:
+        """As `lighting`, at once."""
+        return finished(self.lighting())

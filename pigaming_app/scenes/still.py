@@ -5,6 +5,8 @@ from pathlib import Path
 import pygame
 
 from pigaming_app.games.match import Match
+from pigaming_app.keeping import write
+from pigaming_app.scenes.png import png_of
 from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.words import Words
 from pigaming_app.settings import Settings
@@ -30,9 +32,6 @@ class Still:
         self.view.draw(self.screen, self.match.state, 1.0, DT)
 
     def picture(self, path: Path) -> None:
-        """Save the match as it stands as a PNG file. Raises OSError."""
+        """Save the match as it stands as a PNG file. Raises NotSaved."""
         self.view.draw(self.screen, self.match.state, 1.0, 0.0)
-        try:
-            pygame.image.save(self.screen, str(path))
-        except pygame.error as reason:
-            raise OSError(str(reason)) from reason
+        write(path, png_of(self.screen))

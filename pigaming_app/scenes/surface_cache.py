@@ -14,6 +14,8 @@ from typing import ParamSpec, TypeVar
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import budget
+
 BUDGET = 160 << 20  # bytes; all that one race needs are 150 MB
 
 Args = ParamSpec("Args")
@@ -66,7 +68,9 @@ class SurfaceCache:
                     entry.used = self._kept
                     use(entry)
                 return entry.value  # type: ignore[return-value]  # it was made by `make`
+            budget.claim()
             value = make(*args, **named)
+            budget.note()
             self._keep(Entry(table, key, value, self._game))
             return value
 

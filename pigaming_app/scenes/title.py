@@ -3,12 +3,11 @@
 When nobody is there for a while, an AI match begins.
 """
 
-import gc
-
 import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.scenes.focus import Focus, Spot
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BODY,
@@ -24,6 +23,7 @@ from pigaming_app.scenes.ink import (
     dim,
     panel,
 )
+from pigaming_app.scenes.limits import kept_goal, tagline
 from pigaming_app.scenes.logo import dot_of, logo, vignette
 from pigaming_app.scenes.operator import Combination
 from pigaming_app.scenes.page import (
@@ -42,7 +42,7 @@ from pigaming_app.scenes.parade import dot_robot, parade
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Push, Quit, Scene, Turn
 from pigaming_app.scenes.surface_cache import cached, surfaces
-from pigaming_app.scenes.words import LANGUAGES
+from pigaming_app.scenes.words import LANGUAGES, NAMES
 
 TILE_Y, TILE_H = 416, 416
 PROMPT_Y, FOOT_Y = 906, 990
@@ -61,9 +61,8 @@ class Title:
         self.lab: Scene | None = None
 
     def entered(self) -> None:
-        """Shown, or shown again; matches that are over leave nothing behind."""
+        """Shown, or shown again; the sprites of matches are released."""
         surfaces.release_matches()
-        gc.collect()  # scenes in reference cycles hold surfaces of many megabytes, unseen by its thresholds
         self.house.idle = 0.0
         self.house.sounds.music(True)
         self.focus.place(self._spots())
@@ -87,7 +86,7 @@ class Title:
 
             self.house.sounds.play("accept")
             return Push(OptionsPage(self.house, operator=True))
-        if self.house.idle > self.house.settings.attract_seconds:
+        if self.house.idle > self.house.settings.attract_seconds and not self.house.backstage.busy:
             from pigaming_app.scenes.attract import Attract
 
             return Push(Attract(self.house))
@@ -100,7 +99,8 @@ class Title:
         parade(screen, self.clock)
         stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
         for i, game in enumerate(GAMES):
-            lit = tile(game, words(f"games.{game}"), words(f"games.{game}_line"), self.focus.name == game)
+            line = tagline(words, game, kept_goal(self.house.settings, game))
+            lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
             lit.draw(screen, *tile_rect(i).topleft)
         self._prompt(screen)
         self._foot(screen)
@@ -167,16 +167,27 @@ class Title:
         return there if self.house.kiosk else (*there, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:
-        """The line that asks for a press, between arrows that run towards it."""
-        words = self.house.words
-        label = words.printed(self.house.controls.label(None, Act.FIRE))
-        said = words("title.press", button="{button}")
+        """The line that asks for a press, and says what it opens, between arrows that run towards it."""
+        said, label = self.asked
         calling(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
         reach = calling_width(said, label, SUB) / 2 + 44
         for k in range(3):
             level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
             sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
             sign("left", 24, FOCUS, LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
+
+    @property
+    def asked(self) -> tuple[str, str]:
+        """The line that asks for a press, and the label of the button in it."""
+        words, name = self.house.words, self.focus.name
+        label = words.printed(self.house.controls.label(None, Act.FIRE))
+        if name in GAMES:
+            return words("title.press", button="{button}"), label
+        return words("title.choose", button="{button}", what=self._what(name)), label
+
+    def _what(self, name: str) -> str:
+        """What a chip opens, as its label says."""
+        return NAMES[name] if name in LANGUAGES else self.house.words(f"title.{name}")
 
     def _foot(self, screen: pygame.Surface) -> None:
         words = self.house.words
@@ -196,17 +207,20 @@ def tile_rect(i: int) -> pygame.Rect:
 
 
 @cached
-def ground() -> pygame.Surface:
+@sliced
+def ground() -> Steps[pygame.Surface]:
     """What never changes: the floor's dots, the name, and black where the tiles are."""
     pane = Pane(LEFT, 54, 1210, 260)
     logo(pane.hot, *LOGO)
+    name = yield from pane.lighting()
     out = backdrop().copy()
-    pane.done().draw(out)
+    name.draw(out)
     return blacked(out, *map(tile_rect, range(len(GAMES))))
 
 
 @cached
-def tile(game: str, name: str, line: str, hot: bool) -> Lit:
+@sliced
+def tile(game: str, name: str, line: str, hot: bool) -> Steps[Lit]:
     """A game's picture and name, its upper left at (0, 0)."""
     w = span(0, 4)[1]
     pane = Pane(0, 0, w, TILE_H)
@@ -215,13 +229,17 @@ def tile(game: str, name: str, line: str, hot: bool) -> Lit:
     color = FOCUS if hot else ICE
     pane.page.text(name, fitted(name, LABEL, w - 64), 32, 326, color)
     pane.page.body(line, 32, 380, ICE if hot else MIST, "l", fitted(line, BODY, w - 64, "body"))
-    lit = pane.done()
-    _picture(game).draw(lit.image, -lit.at[0], -lit.at[1])
+    picture = _picture(game)
+    lit = yield from pane.lighting()
+    picture.draw(lit.image, -lit.at[0], -lit.at[1])
     return lit
 
 
 @cached
-def _picture(game: str) -> Lit:
+@sliced
+def _picture(game: str) -> Steps[Lit]:
     pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
     vignette(game, pane.hot, MARGIN, MARGIN)
-    return Lit(pane.done().image, (-MARGIN, -MARGIN))
+    yield
+    lit = yield from pane.lighting()
+    return Lit(lit.image, (-MARGIN, -MARGIN))

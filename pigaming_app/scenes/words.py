@@ -4,12 +4,15 @@ words = Words("pt")
 words("lobby.seat", player=2)      "Jogador 2"
 """
 
+import re
 import tomllib
 from typing import Any
 
 from pigaming_app import ASSETS
 
 LANGUAGES = ("en", "pt")
+DECIMAL = re.compile(r"[+−-]?\d+\.\d+")
+NAMES = {"en": "English", "pt": "Português"}
 
 
 class Words:
@@ -21,7 +24,11 @@ class Words:
 
     def __call__(self, key: str, **values: object) -> str:
         """The text of a key, `table.name`, with values put in. Raises KeyError where there is no such text."""
-        return self._texts[key].format(**values)
+        return self._texts[key].format(**{name: self._written(value) for name, value in values.items()})
+
+    def decimal(self, number: str) -> str:
+        """A number, with a point before its decimals, as this language writes it: 1.5 s are 1,5 s in Portuguese."""
+        return number.replace(".", self._texts["numbers.decimal"])
 
     def switch(self, language: str) -> None:
         """Speak another language from now on."""
@@ -36,6 +43,11 @@ class Words:
     def printed(self, label: str) -> str:
         """What the button labelled `label` is called here: the space bar has a name of its own."""
         return self._texts.get(f"keys.{label}", label)
+
+    def _written(self, value: object) -> object:
+        """What is put into a text: a number as this language writes it, anything else as it is."""
+        number = isinstance(value, float) or (isinstance(value, str) and DECIMAL.fullmatch(value))
+        return self.decimal(str(value)) if number else value
 
 
 def texts(language: str) -> dict[str, str]:

@@ -19,12 +19,12 @@ health = 5               # bullets it takes; left out: 5
 solid = true             # instead of health: it takes any number
 """
 
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import pi, radians, sqrt
 from typing import Any
 
+from pigaming_app.parsing import ParseError, shown, toml_of
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.navigate import Errand, free_node, grow
@@ -34,6 +34,7 @@ from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
 
 LANGUAGES = ("en", "pt")
 HEALTH = 5
+LONGEST_TITLE = 40  # characters
 
 
 class ArenaError(ValueError):
@@ -85,8 +86,8 @@ class Arena:
 def parse(source: str, file: str, read: Callable[[Table], Layout]) -> Arena:
     """Check the text of an arena file; `read` is the game's. Raises ArenaError, which names `file`, key and reason."""
     try:
-        table = Table(tomllib.loads(source))
-    except tomllib.TOMLDecodeError as error:
+        table = Table(toml_of(source))
+    except ParseError as error:
         raise ArenaError(f"{file}: syntax: {error}") from None
     try:
         title = _title(table)
@@ -137,6 +138,8 @@ def _title(table: Table) -> Mapping[str, str]:
         text = title.entries.get(language)
         if not isinstance(text, str) or not text.strip():
             raise title.wrong(language, "a text is missing")
+        if len(text) > LONGEST_TITLE or not text.isprintable():
+            raise title.wrong(language, f"a text of at most {LONGEST_TITLE} characters on one line is needed")
     return title.entries
 
 
@@ -151,7 +154,7 @@ def _wall(entry: Table) -> WallSpec:
         raise entry.wrong("health", "goes without solid = true")
     health = entry.entries.get("health", HEALTH)
     if isinstance(health, bool) or not isinstance(health, int) or not 1 <= health <= HEALTH:
-        raise entry.wrong("health", f"{health!r}, but a whole number from 1 to {HEALTH} is needed")
+        raise entry.wrong("health", f"{shown(health)}, but a whole number from 1 to {HEALTH} is needed")
     return WallSpec(ax, ay, bx, by, thick / 2, SOLID if solid else health)
 
 

@@ -1,9 +1,13 @@
 """Robots against robots and walls: they slide along walls and part from each other.
 
 Nothing here bounces. After every robot has rolled, overlaps are taken back along their normals, which lets a robot
-keep the part of its way that leads along the wall. What still touches a wall when the rounds are used up goes back to
-where it stood before the tick, and nobody stood in a wall then: so no crush, however hard, can press a robot into one.
-Nor can it throw one, since a tick moves a robot by at most SHOVE px.
+keep the part of its way that leads along the wall. Two promises hold after every tick if they held before it:
+
+- No robot is in a wall. One that still touches a wall after the last round goes back to where it stood before the tick.
+- No two robots overlap by more than OVERLAP px. Two that do, and by more than before the tick, go back both.
+
+Where a robot goes back to, the first promise held already, and two that have both gone back are as far apart as they
+were; each goes back at most once, so this ends. A tick moves a robot by at most SHOVE px, so no crush throws one.
 """
 
 from math import sqrt
@@ -15,10 +19,13 @@ from pigaming_app.sim.robots import RADIUS, roll
 from pigaming_app.sim.sweep import off_wall
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
-ROUNDS = 6
+ROUNDS, MORE_ROUNDS = 6, 24  # of taking overlaps back at most: usually, and in a crush
 SHOVE = 16.0
 SLOP = 1e-6  # px by which a robot may touch a wall, for rounding
+CRUSH = 0.5  # px of overlap above which more rounds follow
+OVERLAP = 1.5
 APART = 4.0 * RADIUS * RADIUS
+LEAST = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)
 
 
 @kernel
@@ -32,25 +39,35 @@ def drive(world: Any) -> None:
         if robot.present:
             roll(robot)
     touched = 0
-    for _ in range(ROUNDS):
-        moved = part(robots)
+    for n in range(MORE_ROUNDS):
+        deepest = part(robots)
+        moved = deepest > SLOP
         for robot in robots:
             if robot.present and keep_out(world, robot):
-                moved = 1
-        if not moved:
+                moved = True
+        if not moved or (n >= ROUNDS and deepest < CRUSH):
             break
         touched = 1
-    if touched:
-        settle(world, r0, x0, y0)
-        settle(world, r1, x1, y1)
-        settle(world, r2, x2, y2)
-        settle(world, r3, x3, y3)
+    if not touched:
+        return
+    settle(world, r0, x0, y0)
+    settle(world, r1, x1, y1)
+    settle(world, r2, x2, y2)
+    settle(world, r3, x3, y3)
+    back = 1
+    while back:
+        back = hold(r0, x0, y0, r1, x1, y1)
+        back += hold(r0, x0, y0, r2, x2, y2)
+        back += hold(r0, x0, y0, r3, x3, y3)
+        back += hold(r1, x1, y1, r2, x2, y2)
+        back += hold(r1, x1, y1, r3, x3, y3)
+        back += hold(r2, x2, y2, r3, x3, y3)
 
 
 @kernel
-def part(robots: Any) -> int:
-    """Move every two robots that overlap apart, half the way each. 1 if any did."""
-    moved = 0
+def part(robots: Any) -> float:
+    """Move every two robots that overlap apart, half the way each. The px of the deepest overlap."""
+    deepest = 0.0
     for i in range(ROBOTS - 1):
         one = robots[i]
         if not one.present:
@@ -73,8 +90,9 @@ def part(robots: Any) -> int:
             one.y -= push * ny
             other.x += push * nx
             other.y += push * ny
-            moved = moved or push > SLOP
-    return 1 if moved else 0
+            if 2.0 * push > deepest:
+                deepest = 2.0 * push
+    return deepest
 
 
 @kernel
@@ -129,7 +147,7 @@ def in_wall(world: Any, x: float, y: float) -> int:
 
 @kernel
 def settle(world: Any, robot: Any, from_x: float, from_y: float) -> None:
-    """The last word on a robot that stood at (from_x, from_y): not thrown, and not in a wall."""
+    """Limit the step of a robot that stood at (from_x, from_y), and undo it if it ends in a wall."""
     dx, dy = robot.x - from_x, robot.y - from_y
     way2 = dx * dx + dy * dy
     if way2 > SHOVE * SHOVE:
@@ -139,3 +157,19 @@ def settle(world: Any, robot: Any, from_x: float, from_y: float) -> None:
     if in_wall(world, robot.x, robot.y):
         robot.x = from_x
         robot.y = from_y
+
+
+@kernel
+def hold(one: Any, x1: float, y1: float, other: Any, x2: float, y2: float) -> int:
+    """Put two robots back if they overlap too far, and farther than where they stood before. 1 if it did."""
+    if not one.present or not other.present:
+        return 0
+    dx, dy = other.x - one.x, other.y - one.y
+    now = dx * dx + dy * dy
+    if now >= LEAST:
+        return 0
+    dx, dy = x2 - x1, y2 - y1
+    if now >= dx * dx + dy * dy:
+        return 0
+    one.x, one.y, other.x, other.y = x1, y1, x2, y2
+    return 1

@@ -11,11 +11,11 @@ lag = 0.08               # s, time constant of the motors
 dead_time = 0.06         # s from sending a command to the motors' answer
 """
 
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import copysign
 
+from pigaming_app.parsing import ParseError, toml_of
 from pigaming_app.sim.robots import LAG
 from pigaming_app.sim.table import Table, Wrong
 from pigaming_app.sim.world import ROBOTS
@@ -70,12 +70,12 @@ def twist(drivetrain: Drivetrain, left: float, right: float) -> tuple[float, flo
 def parse(text: str, file: str) -> tuple[Drivetrain, ...]:
     """The robots that a file tells of, at most one for each seat. Raises DrivetrainError."""
     try:
-        table = Table(tomllib.loads(text))
+        table = Table(toml_of(text))
         table.only("robot")
         found = tuple(_drivetrain(entry) for entry in table.tables("robot"))
         if not 1 <= len(found) <= ROBOTS:
             raise table.wrong("robot", f"{len(found)} robots, but 1 to {ROBOTS} are possible")
-    except tomllib.TOMLDecodeError as error:
+    except ParseError as error:
         raise DrivetrainError(f"{file}: syntax: {error}") from None
     except Wrong as wrong:
         raise DrivetrainError(f"{file}: {wrong.key}: {wrong.reason}") from None

@@ -7,6 +7,7 @@ numba's cache does not see an edit in a function that the outer loop calls, so t
 of all these sources. Replays and trained weights carry the hash of the engine's.
 """
 
+import contextlib
 import hashlib
 import os
 import sys
@@ -42,7 +43,10 @@ def compiled(loop: F) -> F:
     numba = _numba()
     while _noted:
         numba.extending.register_jitable(error_model="numpy")(_noted.pop())
-    twin: F = numba.njit(cache=True, nogil=True, error_model="numpy")(loop)
+    twin: F = numba.njit(nogil=True, error_model="numpy")(loop)
+    with contextlib.suppress(RuntimeError):  # there is no folder for the cache
+        twin.enable_caching()  # type: ignore[attr-defined]
+        _save_if_possible(twin)
     return twin
 
 
@@ -51,6 +55,17 @@ def compiled_before(loop: Callable[..., Any]) -> bool:
     kept = Path(os.environ.get("NUMBA_CACHE_DIR") or _cache_folder())
     name = f"{loop.__module__.rpartition('.')[2]}.{loop.__qualname__}".replace("<locals>", "locals")
     return any(kept.rglob(f"{name}-*.nbi"))
+
+
+def _save_if_possible(twin: Any) -> None:
+    """Let a disk that is full cost only the time to compile again."""
+    save = twin._cache.save_overload
+
+    def attempt(signature: Any, compiled_code: Any) -> None:
+        with contextlib.suppress(OSError):
+            save(signature, compiled_code)
+
+    twin._cache.save_overload = attempt
 
 
 @cache

@@ -82,22 +82,22 @@ def off_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
 
 @kernel
 def meets_bounds(x: float, y: float, dx: float, dy: float, width: float, height: float, radius: float) -> float:
-    """When a circle that starts inside the outer walls touches one of them."""
+    """When a circle that starts inside the outer walls touches one of them; never FAR if its way ends beyond one."""
     first = FAR
-    if dx > 0.0:
+    if dx > 0.0 and x + dx >= width - radius:
         first = (width - radius - x) / dx
-    elif dx < 0.0:
+    elif dx < 0.0 and x + dx <= radius:
         first = (radius - x) / dx
     t = FAR
-    if dy > 0.0:
+    if dy > 0.0 and y + dy >= height - radius:
         t = (height - radius - y) / dy
-    elif dy < 0.0:
+    elif dy < 0.0 and y + dy <= radius:
         t = (radius - y) / dy
     if t < first:
         first = t
     if first < 0.0:
         return 0.0
-    return first if first <= 1.0 else FAR
+    return first if first <= 1.0 or first == FAR else 1.0
 
 
 @kernel

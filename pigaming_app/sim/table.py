@@ -6,6 +6,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pigaming_app.parsing import SHOWN, one_line, shown
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 
@@ -13,8 +14,8 @@ class Wrong(Exception):
     """Something in a file that cannot be used: the key, such as `wall[2].thick`, and the reason."""
 
     def __init__(self, key: str, reason: str) -> None:
-        super().__init__(f"{key}: {reason}")
-        self.key, self.reason = key, reason
+        self.key, self.reason = one_line(key, SHOWN), reason
+        super().__init__(f"{self.key}: {reason}")
 
 
 class Table:
@@ -42,7 +43,7 @@ class Table:
         """A number from `low` to `high`. Raises Wrong."""
         value = self.entries.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e6:
-            raise self.wrong(key, f"{value!r} is not a number that makes sense here")
+            raise self.wrong(key, f"{shown(value)} is not a number that makes sense here")
         if not low <= value <= high:
             raise self.wrong(key, f"{value:g}{unit}, but {low:g} to {high:g} are possible")
         return float(value)
@@ -70,7 +71,7 @@ class Table:
         """One of these words. Raises Wrong."""
         value = self.entries.get(key)
         if value not in known:
-            raise self.wrong(key, f"{value!r}; possible are {', '.join(known)}")
+            raise self.wrong(key, f"{shown(value)}; possible are {', '.join(known)}")
         return str(value)
 
     def table(self, key: str, reason: str = "a table is missing") -> "Table":

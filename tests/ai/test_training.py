@@ -28,6 +28,7 @@ from pigaming_app.cli import main
 from pigaming_app.games.match import Match
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
+from tests.disks import content, failing_at, room_for
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BODIES = [False, pytest.param(True, marks=pytest.mark.skipif(not can_compile(), reason="numba is not installed"))]
@@ -329,21 +330,29 @@ def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, capsys, more, word
     assert not (tmp_path / "a.npz").exists()
 
 
-def test_a_folder_that_cannot_be_written_is_refused_before_the_training(tmp_path, capsys, monkeypatch):
-    def refuse(dir):
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr("pigaming_app.train.tempfile.TemporaryFile", refuse)
-    assert train(tmp_path / "a.npz") == 2
-    assert capsys.readouterr().err == f"PiGaming: {tmp_path / 'a.npz'}: cannot be written (Permission denied)\n"
+def test_a_disk_that_is_full_from_the_start_is_refused_before_the_training(tmp_path, capsys):
+    with failing_at(0):
+        assert train(tmp_path / "a.npz") == 2
+    assert capsys.readouterr().err == f"PiGaming: {tmp_path / 'a.npz'} cannot be written: the disk is full.\n"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no such device here")
-def test_a_full_disk_is_said_with_the_name_of_the_file(tmp_path, capsys):
+def test_a_device_is_refused_before_the_training(tmp_path, capsys):
     (tmp_path / "a.csv").symlink_to("/dev/full")
     assert train(tmp_path / "a.npz", "--csv", str(tmp_path / "a.csv")) == 2
-    assert f"{tmp_path / 'a.csv'}: cannot be written" in capsys.readouterr().err
-    assert tables.load(tmp_path / "a.npz").matches == 4
+    assert f"{tmp_path / 'a.csv'} cannot be written: it is not a file" in capsys.readouterr().err
+    assert not (tmp_path / "a.npz").exists()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="limits of POSIX")
+@pytest.mark.parametrize("size", [0, 1000])
+def test_a_disk_that_is_full_after_the_training_leaves_the_table_before(tmp_path, capsys, size):
+    assert train(tmp_path / "a.npz") == 0
+    before = content(tmp_path)
+    with room_for(size):
+        assert train(tmp_path / "a.npz", "--seed", "2") == 2
+    assert "a.npz was not saved: File too large." in capsys.readouterr().err
+    assert content(tmp_path) == before
 
 
 def test_a_curve_without_matplotlib_is_refused_before_the_training(tmp_path, capsys, monkeypatch):

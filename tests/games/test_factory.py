@@ -629,20 +629,46 @@ def test_whoever_has_delivered_everything_wins_at_once(pallets):
     assert tuple(outcome.rows[0].facts) == FACTORY.columns
 
 
-def test_two_teams_that_finish_in_the_same_tick_share_the_win():
+@pytest.mark.parametrize("work", [(0, 0), (9, 0), (0, 9)])
+@pytest.mark.parametrize("seats", [(0, 1), (2, 1), (0, 3), (3, 2)])
+@pytest.mark.parametrize("last", [False, True])
+def test_two_teams_that_finish_on_the_same_tick_tie(seats, work, last):
+    """Whoever sits first, whoever has had more work done, and on the last tick of the match too."""
     shop = Shop(pallets=2)
-    deliver(shop, 0)
-    deliver(shop, 1)
-    for seat in (0, 1):
-        assert shop.press(seat, entry(shop, seat, 1))
+    for seat, steps in zip(seats, work, strict=True):
+        deliver(shop, seat)
+        assert shop.press(seat, entry(shop, seat % 2, 1))
         shop.pallets[shop.loads[seat].pallet - 1].state = DONE
-    for seat in (0, 1):
-        shop.stand(seat, leave(shop, seat, 1))
+        shop.loads[seat].steps = steps
+        shop.stand(seat, leave(shop, seat % 2, 1))
+        shop.tick()
+    for seat in seats:
         shop.match.brains[seat].fire = 1
+    if last:
+        shop.state.rules.ticks = shop.state.tick + 1
     shop.tick()
     assert shop.match.over
     assert (shop.state.delivered, shop.state.winner) == ([2, 2], 0)
-    assert shop.match.outcome().winners == ()
+    outcome = shop.match.outcome()
+    assert outcome.winners == ()
+    assert [row.place for row in outcome.rows] == [1] * 4
+    assert [row.feats for row in outcome.rows] == [{"time": 20 * shop.state.tick}] * 4
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_a_tick_earlier_is_a_win_whatever_the_others_have_done(first):
+    """Both have one pallet left on the fork; the others have had far more work done."""
+    shop = Shop(pallets=2)
+    for seat in (0, 1):
+        deliver(shop, seat)
+        assert shop.press(seat, entry(shop, seat, 1))
+        shop.pallets[shop.loads[seat].pallet - 1].state = DONE
+        shop.stand(seat, leave(shop, seat, 1))
+    shop.loads[1 - first].steps = 2000
+    shop.match.brains[first].fire = 1
+    shop.tick()
+    assert (shop.match.over, shop.state.winner) == (True, 1 + first)
+    assert sorted(shop.match.outcome().winners) == [first, first + 2]
 
 
 def test_when_it_is_over_everything_stands_still():

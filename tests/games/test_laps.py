@@ -14,6 +14,7 @@ from pigaming_app.ai import make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.sim.course import spot
 from tests.games.rails import Ride
 
 TRACKS = arenas("race")
@@ -66,7 +67,7 @@ def judged(path, lines, seat, laps, carried):
                 undone.append(line)
         elif undone and line == undone[-1]:
             undone.pop()
-        elif passed and (missed or line != wanted[passed - 1]):
+        elif passed:
             missed, undone = 1 + wanted[passed], []
             void += line == seat
     return passed, [b - a for a, b in pairwise(own_at)], void, missed
@@ -266,6 +267,77 @@ def test_cutting_through_the_middle_is_no_lap_and_says_so(track):
     assert not ride.racers[0].missed
     ride.along(0, second + 30.0, own + (ride.course.length if own < second else 0.0) + 30.0)
     assert ride.state.robots[0].score == 1, "whoever goes back and does it properly has it"
+
+
+LINE_OF_TRACK = [(track, seat) for track in TRACKS for seat in range(4)]
+
+
+def round_the_end(ride, seat, side):
+    """From behind a line back to before it, round one of its ends; the line is not crossed."""
+    line = ride.lines[seat]
+    out = (ride.course.half[0] + 60.0) * side
+    ride.along(seat, line.along + 50.0, line.along + 51.0, aside=out)
+    ride.along(seat, line.along + 51.0, line.along - 51.0, aside=out)
+    ride.along(seat, line.along - 51.0, line.along - 50.0)
+
+
+def carry(ride, seat, along):
+    """Lift a robot and put it down elsewhere on the course."""
+    ride.put(seat, *spot(ride.course, along % ride.course.length, 0.0))
+    ride.match.tick()
+
+
+@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
+def test_who_crosses_only_the_own_line_again_and_again_has_missed_the_next(track, seat):
+    """Round either end of the line, through the mud, and carried: the sign is up after the second crossing."""
+    for way in (1.0, -1.0, 0.0):
+        ride = Ride(track, present=(seat,))
+        racer, own = ride.racers[seat], ride.lines[seat].along
+        ride.along(seat, own - 50.0, own + 50.0)
+        for void in (1, 2, 3):
+            assert racer.missed == (0 if void == 1 else 1 + (seat + 1) % 4)
+            if way:
+                round_the_end(ride, seat, way)
+            else:
+                carry(ride, seat, own - 50.0)
+            ride.along(seat, own - 50.0, own + 50.0)
+            assert (racer.passed, racer.void, ride.state.robots[seat].score) == (1, void, 0)
+            assert racer.missed == 1 + (seat + 1) % 4
+        ahead = ride.lines[(seat + 1) % 4].along
+        ride.along(seat, ahead - 30.0, ahead + 30.0)
+        assert (racer.passed, racer.missed) == (2, 0)
+
+
+@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
+@pytest.mark.parametrize("skipped", [(1,), (2,), (3,), (1, 2), (2, 3), (1, 3), (1, 2, 3), ()])
+def test_the_first_line_left_out_is_the_one_to_go_back_to(track, seat, skipped):
+    """Carried over some of the lines of a lap: a lap with all of them counts, any other does not and shows which."""
+    ride = Ride(track, present=(seat,))
+    racer, own = ride.racers[seat], ride.lines[seat].along
+    for step in range(4):
+        along = ride.lines[(seat + step) % 4].along
+        if step not in skipped:
+            carry(ride, seat, along - 30.0)
+            ride.along(seat, along - 30.0, along + 30.0)
+    assert bool(racer.missed) == any(step - 1 in skipped for step in (2, 3) if step not in skipped)
+    carry(ride, seat, own - 30.0)
+    ride.along(seat, own - 30.0, own + 30.0)
+    assert ride.state.robots[seat].score == (0 if skipped else 1)
+    assert racer.missed == (1 + (seat + skipped[0]) % 4 if skipped else 0)
+    assert racer.void == (1 if skipped else 0)
+
+
+@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
+def test_at_the_start_and_over_the_own_line_and_back_no_sign_is_shown(track, seat):
+    ride = Ride(track, present=(seat,))
+    racer, own = ride.racers[seat], ride.lines[seat].along
+    ride.along(seat, own - 55.0, own + 40.0)
+    assert (racer.passed, racer.missed) == (1, 0)
+    for _ in range(3):
+        ride.along(seat, own + 40.0, own - 150.0)
+        assert not racer.missed
+        ride.along(seat, own - 150.0, own + 40.0)
+        assert (racer.passed, racer.missed, racer.void) == (1, 0, 0)
 
 
 def test_parking_on_the_line_is_one_crossing():

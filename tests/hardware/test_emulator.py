@@ -158,3 +158,45 @@ def test_it_shares_no_code_with_what_it_proves():
     for path in (PACKAGE / "hardware" / "emulator").glob("*.py"):
         for module, _ in imported(path):
             assert module not in {f"pigaming_app.hardware.{name}" for name in proven}, f"{path.name}: {module}"
+
+
+def kept_pictures(arena):
+    """How many different projected pictures the arena still holds."""
+    queued = [image for _, image in arena._coming] + [one.scene.image for one in arena.camera._under_way]
+    return len({id(image) for image in queued})
+
+
+def test_an_arena_that_nobody_looks_at_keeps_a_handful_of_pictures():
+    arena = EmulatedArena(pace=Pace(60.0, 0.06))
+    for _ in range(600):  # 10 s at 60 pictures a second, the camera closed
+        arena.project(np.zeros((1, 1), np.uint8))
+        arena.advance(1 / 60)
+    assert kept_pictures(arena) < 20
+    for _ in range(600):  # and while its time stands still
+        arena.project(np.zeros((1, 1), np.uint8))
+    assert kept_pictures(arena) < 20
+
+
+def test_what_robots_report_to_nobody_does_not_pile_up():
+    arena = EmulatedArena(refresh=1000)
+    arena.camera.close()
+    arena.advance(60.0)
+    assert arena.radio.in_waiting <= 4096
+
+
+def test_however_fast_pictures_come_the_newest_is_shown():
+    arena = EmulatedArena(refresh=1000)
+    for shade in range(200):  # 1000 pictures a second
+        arena.project(np.full((1080, 1920), shade, np.uint8))
+        arena.advance(2 * STEP if shade % 4 == 3 else 0.0)
+    arena.advance(0.05)
+    assert arena._shown[0, 0] == 199
+
+
+def test_after_a_long_time_closed_the_camera_gives_out_its_newest_picture():
+    arena = EmulatedArena(pace=Pace(30.0, 0.06), refresh=1000)
+    arena.project(np.zeros((1080, 1920), np.uint8))
+    arena.advance(5.0)
+    frame = arena.camera.newest()
+    assert frame is not None
+    assert 0.05 < arena.clock() - frame.captured < 0.1 + 1 / 30

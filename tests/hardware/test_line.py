@@ -4,6 +4,7 @@ import errno
 import itertools
 import os
 import sys
+from contextlib import suppress
 
 import pytest
 
@@ -145,27 +146,87 @@ def test_a_write_that_fails_loses_the_port(kind):
     assert line.trouble.reason == "unplugged"
 
 
-def test_a_port_that_takes_no_bytes_is_stuck():
+def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stays_open():
     serial = pytest.importorskip("serial")
     wire = Wire(Time())
     line = Line(lambda: wire, wire.time, "COM3")
     line.open()
     wire.cut = serial.SerialTimeoutException("Write timeout")
+    for _ in range(49):
+        line.write(b"x")
+        assert line.trouble is None
+        wire.time.now += 0.02
+    wire.time.now += 0.03
     line.write(b"x")
     assert str(line.trouble) == "COM3 takes no more bytes; unplug the radio and plug it in again."
+    assert line.is_open
+    wire.cut = None
+    line.write(b"x")
+    assert line.trouble is None
+
+
+def test_writes_that_time_out_now_and_then_are_no_trouble():
+    """A starved process: pyserial raises although all bytes were taken."""
+    serial = pytest.importorskip("serial")
+    wire = Wire(Time())
+    line = Line(lambda: wire, wire.time, "COM3")
+    line.open()
+    for i in range(500):
+        wire.cut = serial.SerialTimeoutException("Write timeout") if i % 10 else None
+        line.write(b"x")
+        wire.time.now += 0.1
+        assert line.trouble is None
+        assert line.is_open
 
 
 @POSIX
-def test_a_terminal_that_nobody_reads_is_noticed_within_the_time_for_writing():
+def test_a_reader_that_pauses_is_not_taken_for_an_unplugged_radio():
     pytest.importorskip("serial")
     far, near = os.openpty()
-    device = os.ttyname(near)
-    line = Line(serial_port(device), Time(), device)
+    os.set_blocking(far, False)
+    device, time = os.ttyname(near), Time()
+    line = Line(serial_port(device), time, device)
     assert line.open()
-    for _ in range(1000):
+    while not line._held_up:  # the buffer of the terminal fills up
         line.write(bytes(1000))
-        if not line.is_open:
-            break
-    assert line.trouble == Trouble("stuck", device)
+    assert line.is_open
+    assert line.trouble is None
+    with suppress(BlockingIOError):
+        while os.read(far, 100_000):
+            pass
+    line.write(b"\xd0new")
+    assert os.read(far, 100_000).endswith(b"\xd0new")
+    assert line.trouble is None
     os.close(near)
     os.close(far)
+
+
+@POSIX
+def test_stale_commands_in_a_full_buffer_are_dropped():
+    """A robot must not go on driving by commands that waited: of those, only what the far end holds gets through."""
+    pytest.importorskip("serial")
+    far, near = os.openpty()
+    os.set_blocking(far, False)
+    device, time = os.ttyname(near), Time()
+    line, taken = Line(serial_port(device), time, device), 0
+    assert line.open()
+    while not line._held_up:
+        line.write(b"old!" * 250)
+        taken += 1000
+    line.write(b"new!")
+    assert taken > 10_000
+    heard = b""
+    for _ in range(100_000):
+        if (heard := heard + _heard(far)).endswith(b"new!"):
+            break
+    assert heard.endswith(b"new!")
+    assert heard.count(b"old!") <= 1024
+    os.close(near)
+    os.close(far)
+
+
+def _heard(far):
+    try:
+        return os.read(far, 100_000)
+    except BlockingIOError:
+        return b""

@@ -55,6 +55,14 @@ def test_a_pump_that_stalled_does_not_catch_up_with_a_burst(link, radio, time):
     assert len(radio.drives) == 10
 
 
+def test_silence_while_this_computer_was_held_up_is_not_the_radios(link, time):
+    run(link, time, 0.5)
+    time.now += 5.0
+    assert link.trouble is None
+    run(link, time, 0.5)
+    assert link.trouble is None
+
+
 def test_without_a_new_command_for_a_tenth_of_a_second_it_says_stop(link, radio, time):
     link.send([AHEAD])
     run(link, time, 0.3)

@@ -45,6 +45,9 @@ def judged(sign, others=GOOD, now=1.0):
         (GOOD._replace(battery=4.41), Does.WARN, Does.WARN, []),
         (GOOD._replace(battery=4.39), Does.WARN, Does.WARN, [("low", 0, False)]),
         (GOOD._replace(battery=3.99), Does.OFF, Does.WARN, [("empty", 0, True), ("low", 0, False)]),
+        (GOOD._replace(battery=4.2, refuses=True), Does.OFF, Does.WARN, [("empty", 0, True), ("low", 0, False)]),
+        (GOOD._replace(deaf=0.001), Does.WARN, Does.WARN, [("deadman", 0, False)]),
+        (GOOD._replace(deaf=0.6), Does.STOP, Does.WARN, [("deadman", 0, True)]),
         (GOOD._replace(unlinked=True), Does.STOP, Does.STOP, [("radio", None, True)]),
         (GOOD._replace(drift=5.1), Does.WARN, Does.WARN, [("drifts", None, False)]),
         (GOOD._replace(drift=15.1), Does.STOP, Does.STOP, [("drift", None, True), ("drifts", None, False)]),
@@ -116,7 +119,7 @@ def test_a_fault_is_a_plain_sentence():
     safety = Safety()
     safety.judge([GOOD, GOOD._replace(battery=3.9)], 1.0)
     assert [str(fault) for fault in safety.faults] == [
-        "The battery of robot 2 is empty. Please change it.",
+        "The battery of robot 2 is empty: the motors stay off below 4.4 V. Please change it.",
         "The battery of robot 2 will soon be empty.",
     ]
 

@@ -15,6 +15,7 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.howto import HowTo
 from pigaming_app.scenes.lessons import LESSONS
 from pigaming_app.scenes.words import LANGUAGES
+from pigaming_app.scores import Table
 from tests.scenes.arcade import Arcade
 
 LONGEST = 12.0  # s; the longest picture, machine A and then B, starts again after 9.1 s
@@ -77,6 +78,6 @@ def named(show: object) -> tuple[str, str]:
 def scores_of(house: House, game: str) -> None:
     """Somebody has scored in a game's first arena."""
     rules = GAMES[game]
-    arena = arenas(game)[0]
-    for board in boards(game, arena, rules.default_goal):
-        house.scores.add(game, board.table, "ABC", 9)
+    contest = Table(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
+    for board in boards(contest):
+        house.scores.add(board.table, "ABC", 9)

@@ -1,14 +1,19 @@
 """The training beside the frames: it never waits for compiling, goes over to compiled play, and its thread ends."""
 
+import os
+import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
+from pathlib import Path
 
 import pytest
 
 from pigaming_app.ai.rewards import RECIPES
 from pigaming_app.scenes.lab import workshop
+from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.scenes.lab.workshop import FASTEST, Workshop
 from pigaming_app.sim.kernel import can_compile
 
@@ -75,31 +80,20 @@ def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(s
     feed(shop, lambda: shop.training.experiences > experiences)
 
 
-class Endless:
-    """A compiler that never comes to an end."""
-
-    def __init__(self, *_: Any, **__: Any) -> None:
-        self.killed = False
-
-    def __enter__(self) -> "Endless":
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        assert self.killed, "the process is not left behind"
-
-    def poll(self) -> int | None:
-        return None
-
-    def kill(self) -> None:
-        self.killed = True
+ENDLESS = (sys.executable, "-c", "import sys; sys.stdin.read()")  # ends with the process that started it
 
 
+@pytest.fixture
+def endless() -> Iterator[Compiler]:
+    compiler = Compiler(ENDLESS)
+    yield compiler
+    compiler.end()
+
+
+@needs_numba
 @pytest.mark.parametrize("closed", [True, False], ids=["closed", "forgotten"])
-def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(
-    shop: Workshop, monkeypatch: pytest.MonkeyPatch, closed: bool
-) -> None:
-    monkeypatch.setattr(workshop, "compiler", Endless)
-    shop.may_compile = True
+def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(endless: Compiler, closed: bool) -> None:
+    shop = Workshop(RECIPES[1], 5, fast=True, compiler=endless)
     feed(shop, lambda: bool(threads()))
     feed(shop, lambda: shop.compiling)
     if closed:
@@ -108,27 +102,22 @@ def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(
     assert not shop.compiling
 
 
+@needs_numba
 @pytest.mark.parametrize("code", [0, 1], ids=["while loading", "in its process"])
-def test_where_compiling_fails_plain_training_goes_on(
-    shop: Workshop, monkeypatch: pytest.MonkeyPatch, code: int
-) -> None:
+def test_where_compiling_fails_plain_training_goes_on(monkeypatch: pytest.MonkeyPatch, code: int) -> None:
     def broken() -> None:
         raise ImportError("no LLVM")
 
-    class Done(Endless):
-        def poll(self) -> int | None:
-            return code
-
-        def __exit__(self, *_: Any) -> None:
-            pass
-
-    monkeypatch.setattr(workshop, "compiler", Done)
     monkeypatch.setattr(workshop, "compile_all", broken)
-    shop.may_compile = True
+    compiler = Compiler((sys.executable, "-c", f"exit({code})"))
+    shop = Workshop(RECIPES[1], 5, fast=True, compiler=compiler)
     feed(shop, lambda: not shop.may_compile)
     before = shop.training.experiences
     feed(shop, lambda: shop.training.experiences > before)
     assert not shop.fast
+    shop.close()
+    assert shop.join(10.0)
+    compiler.end()
 
 
 @needs_numba
@@ -146,3 +135,85 @@ def test_where_compiled_training_breaks_plain_training_goes_on_with_the_same_tab
     assert shop.join(10.0)
     assert not shop.fast
     feed(shop, lambda: shop.training.experiences > table)
+
+
+@needs_numba
+def test_leaving_and_returning_waits_for_the_same_process(endless: Compiler) -> None:
+    shop = Workshop(RECIPES[1], 5, compiler=endless)
+    feed(shop, lambda: shop.compiling)
+    process = endless._process
+    assert process
+    for _ in range(2):
+        shop.close()
+        assert shop.join(10.0)
+        assert process.poll() is None, "it goes on compiling while the Lab is left"
+        feed(shop, lambda: shop.compiling)
+        assert endless._process is process
+    shop.close()
+    assert shop.join(10.0)
+
+
+@needs_numba
+def test_a_second_training_in_the_same_arcade_is_compiled_at_once(shop: Workshop) -> None:
+    feed(shop, lambda: shop.fast)
+    process = shop._compiler._process
+    again = Workshop(RECIPES[1], 6, compiler=shop._compiler)
+    feed(again, lambda: again.fast, 10.0)
+    assert again.training.loop is shop.training.loop
+    assert again._compiler._process is process
+    again.close()
+    assert again.join(10.0)
+
+
+@needs_numba
+def test_the_process_ends_with_the_arcade_and_is_not_started_again() -> None:
+    compiler = Compiler(ENDLESS)
+    compiler.start()
+    process = compiler._process
+    compiler.start()
+    assert process
+    assert compiler._process is process
+    compiler.end()
+    assert process.poll() is not None
+    compiler.start()
+    assert compiler._process is process
+
+
+def test_without_numba_no_process_is_started(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pigaming_app.scenes.lab.compiler.can_compile", lambda: False)
+    compiler = Compiler(ENDLESS)
+    compiler.start()
+    assert compiler._process is None
+
+
+CRASHING = """
+import sys, time
+from pigaming_app.scenes.lab.compiler import Compiler
+compiler = Compiler((sys.executable, "-c", "from pigaming_app.ai.exam import exit_with_parent; import time; "
+                     "exit_with_parent(); time.sleep(60)"))
+compiler.start()
+print(compiler._process.pid, flush=True)
+time.sleep(60)
+"""
+
+
+@needs_numba
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc says whether a process is there")
+def test_when_the_arcade_is_killed_the_process_ends_by_itself() -> None:
+    arcade = subprocess.Popen([sys.executable, "-c", CRASHING], stdout=subprocess.PIPE, text=True)
+    assert arcade.stdout
+    with arcade, arcade.stdout:
+        compiling = int(arcade.stdout.readline())
+        os.kill(arcade.pid, signal.SIGKILL)
+    end = time.monotonic() + 20.0
+    while runs(compiling):
+        assert time.monotonic() < end, "it is left behind"
+        time.sleep(0.05)
+
+
+def runs(pid: int) -> bool:
+    """Whether a process runs; one that has ended and was only not collected yet does not."""
+    try:
+        return ") Z" not in Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return False

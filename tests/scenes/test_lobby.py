@@ -54,7 +54,8 @@ def test_fire_again_is_ready_and_back_takes_that_back_then_leaves_then_goes_to_t
     assert not place.ready
     arcade.press(Act.BACK)
     assert kinds(arcade) == ".H.."
-    arcade.press(Act.BACK)
+    arcade.press(Act.BACK, KEYS[1])
+    arcade.press(Act.BACK, KEYS[1])
     assert arcade.stack.top is arcade.title
 
 
@@ -201,6 +202,19 @@ def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(
     arcade.shown(Lobby)
     arcade.press(Act.BACK)
     assert page.seats.real() == [1]
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls, home: Path, language: str) -> None:
+    arcade = Arcade(controls, language)
+    arcade.house.mat = EmulatedMat(live=False)
+    arcade.house.settings.radio, arcade.house.settings.real = "stock", [1]
+    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.press(Act.FIRE)
+    arcade.press(Act.UP)
+    page = arcade.shown(Lobby)
+    assert page.seats.real() == []
+    assert "deadman" in page.now.message
 
 
 def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:

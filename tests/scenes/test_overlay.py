@@ -15,12 +15,13 @@ from pigaming_app.scenes.match import MatchScene
 from pigaming_app.scenes.page import text_width
 from pigaming_app.scenes.pane import fitted
 from pigaming_app.scenes.pause import Pause
-from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.stack import Home
 from pigaming_app.scenes.stage import Stage
 from pigaming_app.scenes.words import LANGUAGES, texts
 from pigaming_app.sim.record import digest
 from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.scenes.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
 SEATS = {"pitanks": ["hard", "easy", "random", "idle"], "race": ["hard", "easy", "random", "idle"]}
 SEATS["factory"] = ["hard", "normal", "easy", "random"]
@@ -93,6 +94,32 @@ def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
     f4(arcade)
     assert arcade.shown(MatchScene) is match
     assert match.stage.brain.seat == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "usb", "label"),
+    [
+        ("Xbox", (0x045E, 0x028E), "Y"),
+        ("PlayStation", PLAYSTATION, "Triangle"),
+        ("Nintendo", NINTENDO, "Y"),
+        ("Joystick", (1, 1), "4"),
+    ],
+)
+def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb: tuple[int, int], label: str) -> None:
+    plain = kind == "Joystick"
+    with VirtualPad(f"{kind} pad", usb, plain=plain) as pad:
+        arcade.frame()
+        match = MatchScene(arcade.house, setup("human easy off off", 1.0), [Device("pad", pad.number)])
+        arcade.open(match)
+        arcade.wait(4.5)
+        pad.tap("start" if not plain else 9)
+        arcade.wait(0.2)
+        page = arcade.shown(Pause)
+        assert (label, "AI thoughts") in page.prompts.said
+        pad.tap("y" if not plain else 3)
+        arcade.wait(0.2)
+        assert arcade.shown(MatchScene) is match
+        assert match.stage.brain.seat == 1
 
 
 def test_in_the_show_it_is_no_reason_to_leave(arcade: Arcade) -> None:

@@ -10,12 +10,16 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.race.state import LINES
 from pigaming_app.keeping import keep
 from pigaming_app.scenes import ghosts
+from pigaming_app.scenes.frame_budget import finished
 from pigaming_app.scenes.ghosts import Ghost, call, file_of, ghost_of
-from pigaming_app.scenes.views import VIEWS
+from pigaming_app.scenes.things import glyph
+from pigaming_app.scenes.views import VIEWS, race_cards
 from pigaming_app.scenes.views.busy import Full
 from pigaming_app.scenes.views.moments import MOST
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.race_busy import Busy
+from pigaming_app.scenes.views.race_cards import Card, card_bits
+from pigaming_app.scenes.views.race_gaps import figure
 from pigaming_app.scenes.views.race_happenings import SETTLE, SHOWN_FROM
 from pigaming_app.scenes.views.race_hud import signed
 from pigaming_app.scenes.views.roadway import edges, sign_post
@@ -25,7 +29,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 
 HUMANS = ["human"] * 4
-CARD = pygame.Rect(160, 0, 352, 136)
+CARD = pygame.Rect(160, 0, 316, 136)
 
 
 @pytest.fixture
@@ -104,7 +108,7 @@ def test_the_road_is_black_and_beside_it_lies_mud(screen):
 def test_a_preview_shows_the_track_at_any_size(screen, track):
     arena = load("race", track)
     for w, h in ((320, 200), (1000, 640), (200, 300)):
-        image = preview(arena, w, h)
+        image = finished(preview(arena, w, h))
         assert image.get_size() == (w, h)
         assert max(pygame.transform.average_color(image)[:3]) > 8
 
@@ -261,27 +265,80 @@ def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
     assert view.cards.moves[0][0] == -1
 
 
-def test_a_difference_shows_for_a_moment_in_place_of_the_time(screen):
+def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
     scene = Busy(2)
     view, state = seen(scene), scene.state
-    box = pygame.Rect(520, 0, 352, 136)
-    racer = state.racers[0]
-    racer.passed, racer.lap_began, state.tick = 2, 0.0, 300
-    racer.delta, racer.delta_at = -15.5, 299
-    minus = shown(screen, view, state, box)
-    racer.delta = 15.5
-    assert shown(screen, view, state, box) != minus
-    assert (signed(-15.5), signed(15.5), signed(0.1)) == ("−0.31", "+0.31", "+0.00")
-    state.tick += 130
-    late = shown(screen, view, state, box)
-    racer.delta = -15.5
-    assert shown(screen, view, state, box) == late
+    leader, other = state.racers[:2]
+    for _ in range(300):  # 100 px/s, the other one 250 px behind
+        state.tick += 1
+        leader.progress, other.progress = 2.0 * state.tick, 2.0 * state.tick - 250.0
+        view.watch(state)
+    assert view.cards.gaps.gap(state, 1) == pytest.approx(2.5)
+    assert view.cards.gaps.gap(state, 0) == 0.0
+    leader.finished, leader.finish = 1, 400.0
+    other.finished, other.finish = 1, 561.0
+    assert view.cards.gaps.gap(state, 1) == pytest.approx(3.22), "in the end, behind the winner"
+
+
+def test_a_gap_is_no_longer_than_four_characters():
+    told = {0.0: "+0.0", 0.04: "+0.0", 9.94: "+9.9", 9.96: "+10", 42.4: "+42", 599.9: "+600", -0.1: "+0.0"}
+    assert {seconds: figure(seconds) for seconds in told} == told
+
+
+@pytest.mark.parametrize(("language", "gap"), [("en", "+2.5"), ("pt", "+2,5")])
+def test_cards_show_place_lap_and_gap(screen, language, gap):
+    scene = Busy(3, laps=5)
+    view, state = seen(scene, language=language), scene.state
+    state.robots[1].score = 3
+    for _ in range(300):
+        state.tick += 1
+        for seat, behind in enumerate((0.0, 250.0, 4200.0)):
+            state.racers[seat].progress = 2.0 * state.tick - behind
+        view.watch(state)
+    view.draw(screen, state, 1.0, 0.02)
+    first, second, third = (view.cards.said[x] for x in view.cards.xs)
+    assert (first.place, first.gap) == (1, "")
+    assert (second.place, second.lap, second.laps, second.gap) == (2, 4, 5, gap)
+    assert third.gap == "+6.0".replace(".", gap[2]), "since the start"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("gap", ["+0.0", "+9.9", "+99", "+600"])
+def test_the_figures_of_a_card_stand_apart_and_read_at_three_metres(screen, language, gap):
+    words = Words(language)
+    for place in range(1, 5):
+        ending = words(f"race.place_{place}")
+        card = Card(0, True, place, ending, 9, words.decimal(gap), 64, 0, 9, "", 0, 1, False)
+        picture = pygame.Surface((race_cards.W, 136))
+        for image, at, area in card_bits(card, 0)[1:]:
+            picture.blit(image, at, area, special_flags=pygame.BLEND_RGB_ADD)
+        figures = columns(picture.subsurface((0, 34 + 26, race_cards.W, 46)))
+        assert len(figures) >= 3, figures
+        assert figures[0][0] >= 8
+        assert figures[-1][1] <= race_cards.W - 8
+    for size in (race_cards.PLACE, race_cards.FIGURE):
+        assert glyph("4", size, (255, 255, 255), 0.0)[0].image.get_height() >= 40
+
+
+def columns(picture):
+    """From where to where there is bright ink, with at least 6 px of none between."""
+    bright = [
+        any(max(picture.get_at((x, y))[:3]) > 150 for y in range(picture.get_height()))
+        for x in range(picture.get_width())
+    ]
+    found = []
+    for x in (x for x, lit in enumerate(bright) if lit):
+        if found and x - found[-1][1] <= 8:
+            found[-1][1] = x
+        else:
+            found.append([x, x])
+    return found
 
 
 def test_the_clock_counts_up_and_then_down_for_those_who_still_race(screen):
     scene = Busy(3)
     view, state = seen(scene), scene.state
-    box = pygame.Rect(872, 0, 176, 136)
+    box = pygame.Rect(820, 0, 280, 136)
     state.tick = 500
     shown(screen, view, state, box)
     calm = pygame.transform.average_color(screen.subsurface(box))
@@ -491,6 +548,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
     view.watch(state)
     assert view.haunt.golden[1] == (pytest.approx(-10.0), 192)
     assert [note.text for note in view.notes.notes] == ["−0.20"]
+    assert (signed(-15.5), signed(15.5), signed(0.1)) == ("−0.31", "+0.31", "+0.00")
 
 
 def test_without_a_person_there_is_no_ghost_and_no_file(tmp_path):

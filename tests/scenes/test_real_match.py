@@ -231,6 +231,38 @@ def test_a_battery_that_runs_low_is_only_said(
     assert "The battery of robot 2 will soon be empty." in caplog.text
 
 
+def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
+    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture
+) -> None:
+    begun(arcade)
+    body = mat.arena.robots[1]
+    before, body.battery = body.battery, 3.95
+    until(arcade, Trouble, 3.0)
+    body.battery = 4.2  # cells recover at rest; the robot still refuses its motors
+    play(arcade, 3.0)
+    assert [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults] == [("empty", 1)]
+    body.battery = 4.45
+    until(arcade, RealMatch, 2.0)
+    body.battery = before
+    assert caplog.text.count("the motors stay off below 4.4 V") == 1
+
+
+def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
+    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It still reports, but hears nothing: as with a receiver whose antenna is loose."""
+    match = begun(arcade)
+    monkeypatch.setattr(mat.arena.firmwares[1], "_obey", lambda packet, now: None)
+    play(arcade, 0.6)
+    assert match.notice is not None
+    until(arcade, Trouble, 2.0)
+    play(arcade, 1.0)
+    assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
+    assert caplog.text.count("Robot 2 has stopped by itself") == 1
+    monkeypatch.undo()
+    until(arcade, RealMatch, 2.0)
+
+
 def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
     match.restart()
@@ -272,6 +304,27 @@ def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedMat)
     mat.arena.advance(0.3)
     assert mat.arena.clock() - max(mat.arena.ran) > 0.2
     assert mat.trouble is None
+
+
+@pytest.mark.parametrize("again", [False, True])
+def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedMat, again: bool) -> None:
+    """Nor is one begun again, where the radio was changed meanwhile."""
+    if again:
+        match = begun(arcade)
+        arcade.house.settings.radio = "stock"
+        match.restart()
+        play(arcade, 0.1)
+    else:
+        arcade.house.settings.radio = "stock"
+        arcade.open(match_of(arcade.house, match_for("race", "normal easy off off", 0.1), [], (0,)))
+    page = arcade.shown(Refused)
+    assert "no deadman" in page.sentence
+    arcade.frame(draw=True)
+    arcade.press(Act.EXTRA)
+    assert "no deadman" in arcade.shown(Refused).sentence
+    assert mat._rig is None
+    mat.arena.advance(0.3)
+    assert mat.arena.clock() - max(mat.arena.ran) > 0.2
 
 
 def test_what_cannot_be_used_is_said_and_simulated_robots_play(

@@ -2,16 +2,21 @@
 
 from pathlib import Path
 
+import pygame
 import pytest
 
 from pigaming_app.ai import seated
+from pigaming_app.games import GAMES
 from pigaming_app.games.replay import load, save
 from pigaming_app.scenes.attract import PAGE, Attract, Demonstration, Page
 from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.press import Act, Device
+from pigaming_app.scenes.margin import boxes
+from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.replay import ReplayScene
 from pigaming_app.sim.record import digest
 from tests.scenes.arcade import Arcade, setup
+from tests.scenes.measuring import faults, measuring
+from tests.scenes.test_attract import scores_of
 
 
 @pytest.fixture
@@ -20,7 +25,8 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
-    arcade.house.scores.add("pitanks", "classic", "ABC", 7)
+    for game in GAMES:
+        scores_of(arcade.house, game)
     attract = Attract(arcade.house)
     arcade.open(attract)
     assert isinstance(attract.show, Demonstration)
@@ -82,6 +88,29 @@ def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple
     assert not scene.ended
     arcade.press(Act.BACK)
     assert arcade.stack.top is arcade.setup
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("paused", [False, True])
+def test_the_bar_of_a_replay_stands_beside_the_arena(
+    arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str, paused: bool
+) -> None:
+    arcade.house.words.switch(language)
+    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arena = pygame.Rect(160, 136, 1600, 908)
+    with measuring(monkeypatch) as screen:
+        if paused:
+            scene.on(Press(Act.FIRE, Device("keys")))
+        monkeypatch.setattr(scene.stage, "draw", lambda canvas: canvas.fill("black"))
+        monkeypatch.setattr(scene.stage, "captions", lambda *_: None)
+        scene.draw(screen)
+        assert len(screen.texts) >= 8, "it is measured"
+        assert faults(screen, pygame.Rect(4, 16, 1912, 1048)) == []
+        lit = pygame.mask.from_threshold(screen, "black", (12, 12, 12, 255))
+        lit.invert()
+        assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
+    for act, box in zip(scene.prompts.acts, boxes(scene.prompts.said), strict=True):
+        assert scene.hints.meant(Press(Act.CLICK, Device("mouse"), at=box.center)).act is act
 
 
 def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:

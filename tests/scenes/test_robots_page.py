@@ -10,7 +10,8 @@ from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
 from pigaming_app.scenes.mat import RealMat
-from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.robots.aside import hit
 from pigaming_app.scenes.robots.page import RobotsPage
 from pigaming_app.settings import Settings, folders
 from tests.scenes.arcade import Arcade
@@ -44,6 +45,17 @@ def idle(arcade: Arcade, page: RobotsPage) -> None:
     raise AssertionError("still busy")
 
 
+def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedMat) -> None:
+    arcade.house.settings.radio = "stock"
+    page = RobotsPage(arcade.house)
+    arcade.open(page)
+    arcade.press(Act.UP)
+    assert page.focus.name == "radio"
+    assert "no deadman" in page._line()
+    arcade.press(Act.LEFT)
+    assert "no deadman" not in page._line()
+
+
 def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) -> None:
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
@@ -57,6 +69,22 @@ def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) ->
     assert page.lines[3][2] == "not seen"
     mat.arena.faults.switch("robot_off", False, 2)
     mat.arena.faults.switch("marker_covered", False, 3)
+
+
+def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedMat) -> None:
+    page = arcade.shown(RobotsPage)
+    arcade.wait(1.0, fps=20, draw=True)
+    assert page.discs is not None
+    discs = page.discs.circles({0, 1, 2, 3})
+    assert len(discs) == 12
+    assert not hit(page.aside.placed, discs)
+    arcade.press(Act.DOWN)
+    assert page.focus.name == "latency"
+    box = page.focus.spots[0].rect
+    rows = page.aside.placed[0]
+    at = [rows.at[i] + (box.center[i] - rows.home.topleft[i]) * rows.scale for i in (0, 1)]
+    page.on(Press(Act.POINT, Device("mouse"), at=(at[0], at[1])))
+    assert page.focus.name == "pair", "the row is where it is shown"
 
 
 def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedMat) -> None:

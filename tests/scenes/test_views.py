@@ -6,6 +6,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
+from pigaming_app.scenes.frame_budget import finished
 from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.busy import Busy, Full
 from pigaming_app.scenes.views.hud import layout
@@ -221,6 +222,6 @@ def test_sprites_are_made_in_slices(screen):
 def test_a_preview_shows_every_wall_and_start_at_any_size():
     arena = Busy().arena
     for w, h in ((320, 200), (800, 450), (200, 300)):
-        image = preview(arena, w, h)
+        image = finished(preview(arena, w, h))
         assert image.get_size() == (w, h)
         assert image.get_at((0, 0))[:3] == (0, 0, 0)

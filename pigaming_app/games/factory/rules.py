@@ -3,7 +3,8 @@
 Fire lifts and sets down. A raw pallet goes to a machine A, comes out half done, goes to a machine B, comes out done,
 and goes to your exit; people work the machines. In a wrong machine a pallet is spoiled, and only after ten seconds a
 new one comes. Nobody can lift the other team's pallets. Drive over a person, who is never hurt, and you stand still for
-three seconds. Whoever has delivered everything first wins; when the time is up, more deliveries do, then more work.
+three seconds. Whoever has delivered everything first wins; both on the same tick is a tie. When the time is up, more
+deliveries win, then more work.
 """
 
 from math import cos, sin
@@ -31,6 +32,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robots import RADIUS, burn
+from pigaming_app.sim.walker import observe
 from pigaming_app.sim.world import ROBOTS
 
 APART = 6.0  # px more than a touch at which a touch has ended
@@ -45,6 +47,7 @@ def judge(match: Any) -> None:
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
+            observe(match.motions[k], match.robots[k])
             grip(match, k)
     age(match)
     for team in range(TEAMS):

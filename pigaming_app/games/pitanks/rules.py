@@ -7,7 +7,7 @@ lasts. Pick-ups: a shield takes the next hit for you; speed; rapid fire; three b
 walls; a mine, which your next shot lays behind you.
 """
 
-from math import cos, sin, sqrt
+from math import cos, sin
 from typing import Any
 
 from pigaming_app.games.pitanks.prizes import lay_mine, mind_mines, mind_pickups
@@ -20,7 +20,7 @@ from pigaming_app.sim.sweep import meets_bounds, meets_disc, meets_wall, off_wal
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
 ALL_POWERS = len(POWERS)
-BACK_OFF = 0.5  # px that a bullet keeps from the wall it bounced off
+TOUCH = 1e-6  # px from an outer wall that count as touching it
 
 
 @kernel
@@ -138,35 +138,51 @@ def fly(match: Any) -> int:
 
 @kernel
 def sweep(match: Any, k: int, bullet: Any, seconds: float) -> None:
-    """One bullet of robot k on its way."""
+    """Move one bullet of robot k to its first contact, or to the end of its way."""
     x, y, radius = bullet.x, bullet.y, match.rules.bullet_radius
     dx, dy = bullet.vx * seconds, bullet.vy * seconds
     first = meets_bounds(x, y, dx, dy, WIDTH, HEIGHT, radius)
     struck = OUTER if first <= 1.0 else 0
+    left, right = (x, x + dx) if dx > 0.0 else (x + dx, x)
+    top, bottom = (y, y + dy) if dy > 0.0 else (y + dy, y)
     if bullet.fresh or match.grid[node_at(x, y)] >= ONE_NEAR:
-        left, right = (x, x + dx) if dx > 0.0 else (x + dx, x)
-        top, bottom = (y, y + dy) if dy > 0.0 else (y + dy, y)
         for i in range(match.wall_count):
             wall = match.walls[i]
             if left < wall.right and right > wall.left and top < wall.bottom and bottom > wall.top and wall.health:
                 t = meets_wall(x, y, dx, dy, wall, radius)
-                if t < first:
+                if t < first and (t > 0.0 or into(wall, x, y, dx, dy)):
                     first, struck = t, -1 - i
     reach = RADIUS + radius
     for j in range(ROBOTS):
         robot = match.robots[j]
         if (
             robot.present
+            and left - reach < robot.x < right + reach
+            and top - reach < robot.y < bottom + reach
             and robot.team != match.robots[k].team
-            and -80.0 < robot.x - x < 80.0
-            and -80.0 < robot.y - y < 80.0
         ):
             t = meets_disc(x, y, dx, dy, robot.x, robot.y, reach)
             if t < first:
                 first, struck = t, 1 + j
-    share = first if struck else 1.0
-    bullet.x, bullet.y = x + share * dx, y + share * dy
+    if struck:
+        bullet.x = within(x + first * dx, radius, WIDTH - radius)
+        bullet.y = within(y + first * dy, radius, HEIGHT - radius)
+    else:
+        bullet.x, bullet.y = x + dx, y + dy
     bullet.struck, bullet.when, bullet.fresh = struck, first, 0
+
+
+@kernel
+def into(wall: Any, x: float, y: float, dx: float, dy: float) -> bool:
+    """Whether a bullet that touches a wall at (x, y) moves into it: one that has just bounced off moves away."""
+    nx, ny = off_wall(wall, x, y)
+    return bool(dx * nx + dy * ny < 0.0 or (nx == 0.0 and ny == 0.0))
+
+
+@kernel
+def within(value: float, low: float, high: float) -> float:
+    """The nearest number in [low, high]."""
+    return low if value < low else high if value > high else value
 
 
 @kernel
@@ -203,24 +219,21 @@ def hit_wall(match: Any, wall: Any) -> None:
 
 @kernel
 def bounce(match: Any, bullet: Any) -> None:
-    """Turn a bullet back from the wall that it struck, straight off its surface."""
+    """Reflect a bullet at the surface that it struck; in a corner of the arena, at both."""
     bullet.bounces -= 1
     if bullet.struck == OUTER:
-        edge = match.rules.bullet_radius + 0.01
-        if bullet.x <= edge or bullet.x >= WIDTH - edge:
+        edge = match.rules.bullet_radius + TOUCH
+        if (bullet.x <= edge and bullet.vx < 0.0) or (bullet.x >= WIDTH - edge and bullet.vx > 0.0):
             bullet.vx = -bullet.vx
-        if bullet.y <= edge or bullet.y >= HEIGHT - edge:
+        if (bullet.y <= edge and bullet.vy < 0.0) or (bullet.y >= HEIGHT - edge and bullet.vy > 0.0):
             bullet.vy = -bullet.vy
         return
     nx, ny = off_wall(match.walls[-1 - bullet.struck], bullet.x, bullet.y)
     n2 = nx * nx + ny * ny
-    into = bullet.vx * nx + bullet.vy * ny
-    if n2 > 0.0 and into < 0.0:
-        bullet.vx -= 2.0 * into / n2 * nx
-        bullet.vy -= 2.0 * into / n2 * ny
-        gap = sqrt(n2)
-        bullet.x += BACK_OFF * nx / gap
-        bullet.y += BACK_OFF * ny / gap
+    into_it = bullet.vx * nx + bullet.vy * ny
+    if n2 > 0.0 and into_it < 0.0:
+        bullet.vx -= 2.0 * into_it / n2 * nx
+        bullet.vy -= 2.0 * into_it / n2 * ny
 
 
 @kernel

@@ -83,16 +83,17 @@ def crossing(line: Any, x: float, y: float, to_x: float, to_y: float) -> float:
 
 @kernel
 def forward(match: Any, k: int, i: int, when: float) -> None:
-    """Robot k has crossed line i in the right direction."""
+    """Robot k has crossed line i in the right direction: the next one, one it had gone back over, or a wrong one.
+
+    The line crossed last, again, is a wrong one too: the robot has come round without the others.
+    """
     racer = match.racers[k]
     expected = (k + racer.passed) % LINES
     if i == expected:
         pass_line(match, k, when)
-        return
-    last = (expected + LINES - 1) % LINES
-    if racer.back and i == (last + 1 - racer.back) % LINES:
+    elif racer.back and i == (expected - racer.back) % LINES:
         racer.back -= 1
-    elif racer.passed and (i != last or racer.missed):
+    elif racer.passed:
         racer.missed, racer.back = 1 + expected, 0
         if i == k:
             racer.void += 1

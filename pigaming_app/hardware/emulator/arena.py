@@ -8,6 +8,7 @@ all is in mm on the mat.
 from collections import deque
 from math import atan2, cos, sin
 from random import Random
+from threading import Lock
 
 import numpy as np
 
@@ -26,6 +27,7 @@ ARENA_AT = (160.0, 140.0)  # px: where the arena lies on the canvas
 STARTS: tuple[Pose, ...] = ((200, 200, 0.8), (1400, 200, 2.4), (1400, 700, 3.9), (200, 700, 5.5))
 OPEN = 3  # steps that the shutter is open
 SHOWS_AFTER = 0.025  # s from a picture being drawn to its light
+REFRESH = 0.01  # s: of two pictures closer together, the projector shows only the second
 LIGHT_TURN = 40.0  # s that the wandering light needs for its way
 RESTLESS = 6.0  # s between two steps of the exposure
 
@@ -63,6 +65,7 @@ class EmulatedArena:
         self._own_gain, self._next_gain = 1.0, begin + RESTLESS
         self._shown: Image = np.zeros((CANVAS[1], CANVAS[0]), dtype=np.uint8)
         self._coming: deque[tuple[float, Image]] = deque()
+        self._queue = Lock()  # on `_coming`: the window projects while time passes in another thread
         self._past: deque[list[Placing]] = deque(maxlen=OPEN)
 
     def clock(self) -> float:
@@ -82,7 +85,11 @@ class EmulatedArena:
 
     def project(self, image: Image) -> None:
         """Show a grey picture (1080, 1920). The array is kept: hand in another next time."""
-        self._coming.append((self.clock() + SHOWS_AFTER, image))
+        due = self.clock() + SHOWS_AFTER
+        with self._queue:
+            if self._coming and due - self._coming[-1][0] < REFRESH:
+                due = self._coming.pop()[0]
+            self._coming.append((due, image))
 
     def poses(self) -> list[Pose]:
         """Where the robots truly are, in arena px."""
@@ -113,8 +120,9 @@ class EmulatedArena:
             if robot.left or robot.right:
                 self.ran[i] = now
         part(self.robots)
-        while self._coming and self._coming[0][0] <= now:
-            self._shown = self._coming.popleft()[1]
+        with self._queue:
+            while self._coming and self._coming[0][0] <= now:
+                self._shown = self._coming.popleft()[1]
         self._past.append([(robot.x, robot.y, robot.heading) for robot in self.robots])
         if now >= self.camera.due:
             self.camera.expose(self._scene(now), now - 0.5 * STEP * (OPEN - 1))

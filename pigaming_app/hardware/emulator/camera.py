@@ -6,11 +6,14 @@ the moment it arrived less the usual delay, wrong by the jitter of the driver.
 
 from collections import deque
 from dataclasses import dataclass
+from math import ceil
 from random import Random
 from typing import NamedTuple
 
 from pigaming_app.hardware.emulator.picture import Painter, Scene
 from pigaming_app.hardware.signals import Clock, Frame
+
+UNTAKEN = 4  # pictures kept that have arrived and that nobody has taken
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,8 @@ class EmulatedCamera:
         self.exposed = self.delivered = 0
         self._taken: float | None = None  # s, when the picture was taken that somebody looks at now
         self._random = Random(f"camera {seed}")
-        self._under_way: deque[Exposure] = deque()
+        # While nobody takes pictures, only the newest are kept: those still in transit and a few that have arrived.
+        self._under_way: deque[Exposure] = deque(maxlen=ceil(2.0 * pace.fps * pace.delay) + UNTAKEN)
         self.last: Frame | None = None  # the newest that was given out
 
     def expose(self, scene: Scene, middle: float) -> None:

@@ -27,6 +27,7 @@ class Firmware:
         self._seq = 0
         self._phase = 0.0  # s, since when reports are counted
         self._reported = -1
+        self._empty = False  # motors are refused, until the cells have WARN again
 
     @property
     def stopped(self) -> bool:
@@ -54,7 +55,8 @@ class Firmware:
         if not robot.alive:
             self.heard = -1e9
             return b""
-        if now - self.heard >= DEADMAN or robot.battery < STOP:
+        self._empty = robot.battery < STOP or (self._empty and robot.battery < WARN)
+        if now - self.heard >= DEADMAN or self._empty:
             robot.left = robot.right = 0.0
         due = int((now - self._phase - SLOT * (self.address - 1)) // REPORT_EVERY)
         if due <= self._reported:
@@ -71,14 +73,14 @@ class Firmware:
         if self._seq % 10 == 0:
             self._phase, self._reported = now, -1
         left, right = packet[1 + 2 * self.address], packet[2 + 2 * self.address]
-        enabled = packet[2] >> (self.address - 1) & 1 and self.robot.battery >= STOP
+        enabled = packet[2] >> (self.address - 1) & 1 and not self._empty
         self.robot.left = _share(left) if enabled else 0.0
         self.robot.right = _share(right) if enabled else 0.0
 
     def _report(self, now: float) -> bytes:
         battery = self.robot.battery
         flags = STOPPED if now - self.heard >= DEADMAN else 0
-        flags |= (LOW if battery < WARN else 0) | (EMPTY if battery < STOP else 0)
+        flags |= (LOW if battery < WARN else 0) | (EMPTY if self._empty else 0)
         millivolts = round(1000 * battery)
         report = bytes([REPORT, self.address, self._seq, flags, millivolts & 0x7F, millivolts >> 7 & 0x7F])
         return report + bytes([check(report)])

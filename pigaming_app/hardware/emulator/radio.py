@@ -18,7 +18,7 @@ from pigaming_app.hardware.signals import Clock
 
 TRANSPARENT, API, API_ESCAPED = 0, 1, 2
 SILENCE = 3  # characters of it end a packet where there are no frames
-LINE_HOLDS = 4096  # bytes that wait to be sent; more are refused
+LINE_HOLDS = 4096  # bytes that wait to be sent, and as many to be read; more to send are refused
 PARAMETERS = {b"MY": 2, b"ID": 2, b"CH": 1, b"DB": 1, b"NI": 0, b"VR": 2, b"AP": 1, b"BD": 4}  # bytes of each
 
 
@@ -50,7 +50,7 @@ class EmulatedRadio:
         self._events: list[tuple[float, int, int, bytes]] = []  # s, order, robot, what reaches it
         self._order = 0
         self._out_free = self._in_free = self._last = clock()
-        self._incoming: deque[tuple[float, int]] = deque()
+        self._incoming: deque[tuple[float, int]] = deque(maxlen=LINE_HOLDS)  # while nobody reads, the oldest are lost
 
     def open(self) -> Self:
         """What opens this port for a link. Raises FileNotFoundError when unplugged."""

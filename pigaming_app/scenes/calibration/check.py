@@ -26,6 +26,7 @@ from pigaming_app.scenes.stage import LEFT, TOP
 from pigaming_app.scenes.surface_cache import cached
 
 BAR = pygame.Rect(560, 640, 800, 40)
+ROOM = 1040  # px between the spot for a robot and as much on the other side
 MOST = 20.0  # mm at the right end of the bar
 IDLE = 300.0  # seconds without a press until the title
 
@@ -71,10 +72,10 @@ class CheckPage:
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
         if work.trouble is not None:
-            for i, line in enumerate(paragraph(tell(words, work.trouble), 1200, 4, ALARM, "c")):
+            for i, line in enumerate(paragraph(tell(words, work.trouble), ROOM, 4, ALARM, "c")):
                 line.draw(screen, 960, 480 + 60 * i)
         elif work.mm is None:
-            text(words("calibrate.looking_for"), LABEL, MIST, "body").draw(screen, 960, 480)
+            text(words("calibrate.looking_for"), LABEL, MIST, "body", room=ROOM).draw(screen, 960, 480)
         else:
             self._draw_drift(screen, work.mm)
         try:
@@ -100,11 +101,11 @@ class CheckPage:
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
-        text(f"{mm:.1f} mm", HERO, color, "head").draw(screen, 960, 440)
+        text(self.house.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
         bar().draw(screen)
         share = min(1.0, mm / MOST)
         pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
-        text(self.house.words(f"calibrate.{key}"), LABEL, color, "body").draw(screen, 960, 800)
+        text(self.house.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
 
 
 @cached

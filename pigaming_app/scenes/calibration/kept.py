@@ -6,6 +6,7 @@ from pigaming_app.hardware.ground import Ground, NoGround, read, written
 from pigaming_app.hardware.said import Said
 from pigaming_app.hardware.site import Site
 from pigaming_app.keeping import keep
+from pigaming_app.parsing import ParseError, read_text, reason
 from pigaming_app.settings import folders
 
 NONE = Said("There is no calibration yet: calibrate the camera.", "none")
@@ -19,11 +20,11 @@ def path(site: Site) -> Path:
 def load(projection: str, site: Site, camera: tuple[int, int]) -> Ground:
     """The calibration for this `Canvas.projection` and a camera with pictures of so many px. Raises NoGround."""
     try:
-        text = path(site).read_text(encoding="utf-8")
+        text = read_text(path(site))
     except FileNotFoundError:
         raise NoGround(NONE) from None
-    except (OSError, ValueError) as error:
-        raise NoGround(Said(f"{path(site)} cannot be read ({error}): calibrate again.", "damaged")) from error
+    except (OSError, ParseError) as error:
+        raise NoGround(Said(f"{path(site)} cannot be read ({reason(error)}): calibrate again.", "damaged")) from error
     return read(text, projection, camera)
 
 

@@ -13,6 +13,7 @@ from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.canvas import NoPin
 from pigaming_app.scenes.focus import WAYS
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     ALARM,
@@ -193,7 +194,8 @@ def signed(number: int) -> str:
 
 
 @cached
-def grid() -> pygame.Surface:
+@sliced
+def grid() -> Steps[pygame.Surface]:
     """A grid over the whole picture, the edge of the arena, and a black box in the middle."""
     pane = Pane(0, 0, 1920, 1080)
     for x in range(0, 1921, CELL):
@@ -202,12 +204,16 @@ def grid() -> pygame.Surface:
         pane.page.cold.line([(0, y), (1920, y)], dim(ICE, 0.35), HAIR)
     pane.page.cold.line(cut(3, 3, 1914, 1074, 0), ICE, LINE, True)
     pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), STEEL, THIN, True)
+    yield
+    light = yield from pane.lighting()
     surface = pygame.Surface((1920, 1080))
-    pane.done().draw(surface)
+    light.draw(surface)
+    yield
     pygame.draw.polygon(surface, (0, 0, 0), cut(BOX.x, BOX.y, BOX.w, BOX.h, 28))
     frame = Pane(*BOX)
     panel(frame.hot, BOX.x, BOX.y, BOX.w, BOX.h, STEEL, LINE, 28)
-    frame.done().draw(surface)
+    light = yield from frame.lighting()
+    light.draw(surface)
     return surface
 
 

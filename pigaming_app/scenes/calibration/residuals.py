@@ -41,15 +41,15 @@ def _at(x: float, y: float) -> tuple[float, float]:
 
 
 @cached
-def figure(name: str, mm: float, limit: float, need: str) -> Lit:
-    """One error as a number, and as a bar up to twice what is allowed; upper left at (0, 0)."""
+def figure(name: str, told: str, share: float, need: str) -> Lit:
+    """One error as a number, and as a bar, full at twice the limit; `share` of the limit. Upper left at (0, 0)."""
     pane = Pane(0, -20, SIDE.w, 190)
-    color: Color = ICE if mm <= limit else ALARM
+    color: Color = ICE if share <= 1.0 else ALARM
     pane.page.body(name, 0, 20, MIST)
-    pane.page.text(f"{mm:.1f} mm", SUB, SIDE.w, 20, color, "head", "r")
-    share, bar = min(1.0, mm / (2.0 * limit)), SIDE.w
+    pane.page.text(told, SUB, SIDE.w, 20, color, "head", "r")
+    bar = SIDE.w
     pane.hot.line(cut(0, 74, bar, 26, 8), STEEL, THIN, True)
-    pane.hot.fill(cut(4, 78, max(12.0, (bar - 8) * share), 18, 5), color)
+    pane.hot.fill(cut(4, 78, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 18, 5), color)
     pane.hot.line([(bar / 2, 64), (bar / 2, 110)], ICE, LINE)
     pane.page.body(need, SIDE.w, 142, MIST, "r", BODY - 8)
     return pane.done()

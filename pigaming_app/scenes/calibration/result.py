@@ -127,7 +127,8 @@ class ResultPage:
         y = SIDE.y
         for key, value, limit in (("mean", residuals.mean_mm, MEAN_MM), ("most", residuals.max_mm, MAX_MM)):
             need = words("calibrate.limit", mm=f"{limit:g}")
-            figure(words(f"calibrate.{key}"), value, limit, need).draw(screen, SIDE.x, y)
+            told = words("calibrate.mm", mm=f"{value:.1f}")
+            figure(words(f"calibrate.{key}"), told, value / limit, need).draw(screen, SIDE.x, y)
             y += 214
         if not finding.good:
             lines = paragraph(tell(words, residuals.verdict), SIDE.w, 5)

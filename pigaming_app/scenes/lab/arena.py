@@ -8,20 +8,19 @@ import math
 from collections import deque
 from collections.abc import Iterator
 from functools import partial
-from time import perf_counter
 from typing import Any
 
 import pygame
 
 from pigaming_app.games.pitanks.state import OWN_BULLETS
 from pigaming_app.scenes import effects
+from pigaming_app.scenes.frame_budget import Ahead, Job
 from pigaming_app.scenes.ink import ADD, PLAYERS, PRE, Ink, dim
 from pigaming_app.scenes.lab.places import ARENA, MATCH, SCALE
 from pigaming_app.scenes.sprites import HEADINGS, Batch, Sprite, faded, put, step
 from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.views.walled import wall_sprite
-from pigaming_app.scenes.views.warming import Job
 from pigaming_app.sim.world import SOLID
 
 JUMP = 150.0  # px of the arena between two moments: too far to have been driven before one's eyes
@@ -48,12 +47,12 @@ class Arena:
         self.trails: deque[list[Pose]] = deque(maxlen=DOTS)
         self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, seconds old
         self.age, self.glide, self.dotted = 0.0, LONGEST, 0.0
-        self.jobs: Iterator[Job] = iter(())
+        self.jobs = Ahead()
 
     def show(self, state: Any) -> None:
         """How the match stands now."""
         if not self.seats:
-            self.jobs = jobs(state)
+            self.jobs = Ahead(jobs(state))
         self._walls(state)
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
@@ -76,11 +75,7 @@ class Arena:
 
     def warm(self, milliseconds: float) -> None:
         """Make sprites ahead for so long, while there are any to make."""
-        end = perf_counter() + milliseconds / 1000
-        for job in self.jobs:
-            job()
-            if perf_counter() >= end:
-                return
+        self.jobs.work(milliseconds)
 
     def update(self, seconds: float) -> None:
         """Let it glide on."""

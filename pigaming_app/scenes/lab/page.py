@@ -6,6 +6,7 @@ from typing import Any
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import (
     BLUE,
@@ -131,7 +132,8 @@ class LabPage:
 
 
 @cached
-def ground(language: str) -> pygame.Surface:
+@sliced
+def ground(language: str) -> Steps[pygame.Surface]:
     """Everything of the page that never changes."""
     words, page = Words(language), Page()
     out = blacked(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
@@ -148,10 +150,13 @@ def ground(language: str) -> pygame.Surface:
     _named(page, words("lab.wins"), CURVE)
     page.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
     page.cold.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
+    yield
     _legend(page, words)
     _bar(page, words)
     _play(page, words("lab.play"))
-    out.blit(page.done(), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    yield
+    light = yield from page.lighting()
+    out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     return out
 
 
@@ -257,6 +262,17 @@ def balanced(said: str) -> list[str]:
         return parts
     cuts = [(" ".join(parts[:i]), " ".join(parts[i:])) for i in range(1, len(parts))]
     return list(min(cuts, key=lambda lines: max(text_width(line, BODY, "body") for line in lines)))
+
+
+@cached
+def warming(said: str) -> Lit:
+    """What is being waited for, beside a clock: above the middle of the plot, where no curve comes so early."""
+    pane = Pane(PLOT.x, PLOT.y - 10, PLOT.w, 92)
+    icon(pane.page.cold, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
+    for i, line in enumerate(balanced(said)):
+        size = fitted(line, BODY, PLOT.w - 92, "body")
+        pane.page.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
+    return pane.done()
 
 
 @cached

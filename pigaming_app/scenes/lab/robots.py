@@ -56,7 +56,6 @@ def proposal() -> str:
 def keep(training: Training, name: str) -> None:
     """Save a robot under a name. Raises NotKept; what stood there before is intact."""
     try:
-        folder().mkdir(parents=True, exist_ok=True)
         training.save(file_of(name), name)
     except OSError as trouble:
         log.warning("%s was not saved: %s", file_of(name), trouble)

@@ -15,7 +15,7 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS
 from pigaming_app.scenes.lab.curve import HANDMADE
 from pigaming_app.scenes.lab.dial import MOST
-from pigaming_app.scenes.lab.page import SPEEDS, LabPage, Shown, speed_at
+from pigaming_app.scenes.lab.page import SPEEDS, LabPage, Shown, speed_at, warming
 from pigaming_app.scenes.lab.places import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
 from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.workshop import Workshop
@@ -41,7 +41,7 @@ class Lab:
 
     def __init__(self, house: House, fast: bool | None = None) -> None:
         self.house = house
-        self.workshop = Workshop(FIRST, new_seed(), fast)
+        self.workshop = Workshop(FIRST, new_seed(), fast, house.compiler)
         self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
         self.cheered: Progress | None = None  # in which that was over
         self.name = ""  # under which it was saved or opened
@@ -72,8 +72,8 @@ class Lab:
         """Begin, or go on."""
         self.age, self.held = 0.0, ""
         self.house.sounds.music(True)
-        if self.page is None or self.page.language != self.house.words.language:
-            self.page, self.seen = LabPage(self.house), -1
+        if self.page and self.page.language != self.house.words.language:
+            self.page = None
 
     def on(self, press: Press) -> Turn:
         """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
@@ -115,8 +115,9 @@ class Lab:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        if self.page:
-            self.page.draw(screen, self.shown)
+        if self.page is None:
+            self.page, self.seen = LabPage(self.house), -1
+        self.page.draw(screen, self.shown)
         if not self.held:
             self.focus.draw(screen)
         words = self.house.words
@@ -127,7 +128,7 @@ class Lab:
         if self.house.idle > IDLE - LAST:
             plate(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > PATIENT:
-            plate(words("lab.warming"), sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
+            warming(words("lab.warming")).draw(screen)
 
     def left(self) -> None:
         """Taken off the stack: the training rests."""

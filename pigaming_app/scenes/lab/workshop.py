@@ -5,10 +5,7 @@ compiles (in another process), the page gives it some milliseconds of every fram
 nobody feeds it any more, whatever became of the page.
 """
 
-import contextlib
 import logging
-import os
-import subprocess
 import sys
 import threading
 from collections.abc import Callable
@@ -17,8 +14,9 @@ from time import monotonic, perf_counter, sleep
 from pigaming_app.ai.exam import compile_all
 from pigaming_app.ai.rewards import Recipe
 from pigaming_app.ai.training import Checkpoint, Training
+from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.scenes.lab.progress import Moment, Progress
-from pigaming_app.sim.kernel import PACKAGE, can_compile
+from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
 FASTEST = 2  # the place of "as fast as it can" among the speeds
@@ -28,7 +26,6 @@ MOST = 4  # frames' worth of ticks that are made up for; what is more is dropped
 HUNGRY = 0.7  # seconds after which a thread that nobody feeds ends
 SLICE = 0.007  # seconds of a frame for plain training and its exams; a picture takes 2 of the 16 ms
 TRAINING = 0.4  # of a slice, where it is as fast as it can
-PATIENCE = 10  # how nice the compiling process is to others
 SWITCH = 0.001  # seconds for which a thread may keep the interpreter from the others
 
 log = logging.getLogger("pigaming")
@@ -37,8 +34,9 @@ log = logging.getLogger("pigaming")
 class Workshop:
     """A robot that learns. `recipe` and `speed` may be set at any time; `moment` is how it stands, for the page."""
 
-    def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None) -> None:
-        """`fast`: compiled as soon as it can be; left out: if numba is there."""
+    def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None, compiler: Compiler | None = None) -> None:
+        """`fast`: compiled as soon as `compiler` is done; left out: if numba is there."""
+        self._compiler = compiler or Compiler()
         self.recipe, self.speed = recipe, 0
         self.may_compile = can_compile() if fast is None else fast
         self.training = Training(recipe, seed, fast=False)
@@ -160,15 +158,14 @@ class Workshop:
             sys.setswitchinterval(before)
 
     def _get_ready(self) -> bool:
-        """Compile in another process, then load what it made and take the training over; false: nobody waits."""
+        """Wait for the compiler, then load what it made and take the training over; false: nobody waits any more."""
         self.compiling = True
         try:
-            with compiler() as process:
-                while (code := process.poll()) is None:
-                    if not self._wanted:
-                        process.kill()
-                        return False
-                    sleep(0.05)
+            self._compiler.start()
+            while (code := self._compiler.code) is None:
+                if not self._wanted:
+                    return False
+                sleep(0.05)
             if code:
                 raise RuntimeError(f"compiling ended with exit code {code}")
             compile_all()
@@ -204,16 +201,3 @@ class Workshop:
                 progress.note()
             if self.speed < FASTEST:
                 sleep(max(0.0, 1 / HZ - (perf_counter() - now)))
-
-
-def compiler() -> subprocess.Popen[bytes]:
-    """A process that compiles into numba's folder, out of the way of everything else."""
-    command = [sys.executable, "-m", "pigaming_app.ai.exam"]
-    quiet, hidden = subprocess.DEVNULL, getattr(subprocess, "CREATE_NO_WINDOW", 0)  # a flag that only Windows has
-    process = subprocess.Popen(
-        command, cwd=PACKAGE.parent, stdin=quiet, stdout=quiet, stderr=quiet, creationflags=hidden
-    )
-    if hasattr(os, "setpriority"):  # not on Windows
-        with contextlib.suppress(OSError):
-            os.setpriority(os.PRIO_PROCESS, process.pid, PATIENCE)
-    return process

@@ -7,6 +7,7 @@ import pygame
 
 from pigaming_app.games.factory.state import DELIVERED, DONE, FIRE, HALF, ICE, RAW, A, B
 from pigaming_app.scenes import crates, things
+from pigaming_app.scenes.frame_budget import finished
 from pigaming_app.scenes.ink import FOCUS, LINE, MIST, STEEL, THIN, WALL, Ink, cut, dim
 from pigaming_app.scenes.lessons.loop import add
 from pigaming_app.scenes.page import stamp
@@ -179,5 +180,5 @@ def _button(pressed: bool) -> Lit:
 
 def _lit(hot: Ink, cold: Ink, x: int, y: int) -> Lit:
     out = hot.lit(0.6)
-    cold.onto(out)
+    finished(cold.onto(out))
     return Lit(out, (x, y))

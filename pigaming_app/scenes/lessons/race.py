@@ -5,6 +5,7 @@ import math
 import pygame
 
 from pigaming_app.scenes import effects, things
+from pigaming_app.scenes.frame_budget import finished
 from pigaming_app.scenes.ink import ALARM, ICE, PLAYERS, SUB, THIN, Color, Ink, badge, dim, mix
 from pigaming_app.scenes.lessons.loop import Loop, add, drive_by, drive_round
 from pigaming_app.scenes.pane import Lit, word
@@ -130,5 +131,5 @@ def _sheets() -> tuple[Ink, Ink]:
 
 def _lit(hot: Ink, cold: Ink) -> Lit:
     out = hot.lit(0.6)
-    cold.onto(out)
+    finished(cold.onto(out))
     return Lit(out, (-(WIDE + 30), -(WIDE + 30)))

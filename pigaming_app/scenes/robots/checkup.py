@@ -158,6 +158,6 @@ class Checkup:
 
 def worst(findings: list[Finding]) -> Finding | None:
     """What most needs to be said of a pairing: a robot that was not found, then one that was swapped."""
-    order = (Case.TWICE, Case.SEVERAL, Case.NONE, Case.SWAPPED)
+    order = (Case.TWICE, Case.SEVERAL, Case.WIRED, Case.NONE, Case.SWAPPED)
     told = [finding for case in order for finding in findings if finding.case is case]
     return told[0] if told else None

@@ -23,6 +23,7 @@ MOAT = 77  # px of black round it
 RING = 83  # px
 BARREL, TIP = (92, 112), 132  # px: from where to where, and the end of the arrow
 ARM = 110  # px to the middle of both
+TAG_R = 40.0  # px: radius of a tag
 TAG = 122  # px from a robot to the badge that trails it
 TAG_OUT = 10  # px that it may be outside of the arena: in the corners of the picture are markers
 KNOWN = 1.0  # s after which nobody knows where an unseen robot is
@@ -34,10 +35,22 @@ class Discs:
     def __init__(self, rig: Rig) -> None:
         self.rig = rig
 
+    def circles(self, robots: set[int]) -> list[tuple[float, float, float]]:
+        """What the light of these robots hides: the middles and radii of rings, arrows and tags, px on the canvas."""
+        found = []
+        for _, at in self._there(robots):
+            x, y = LEFT + at.x, TOP + at.y
+            dx, dy = _behind(at)
+            found += [
+                (x, y, RING + 12.0),
+                (x + ARM * math.cos(at.heading), y + ARM * math.sin(at.heading), TIP + 18.0 - ARM),
+                (x + dx, y + dy, TAG_R),
+            ]
+        return found
+
     def draw(self, screen: pygame.Surface, robots: set[int]) -> None:
         """Paint the discs of these robots, as far as they are seen; all light round them first, then the discs."""
-        seen = self.rig.sense(LIGHT_AFTER)
-        there = [(robot, seen[robot]) for robot in sorted(robots) if seen[robot].age < KNOWN + LIGHT_AFTER]
+        there = self._there(robots)
         for robot, at in there:
             x, y = LEFT + at.x, TOP + at.y
             for sprite, dx, dy in (
@@ -50,6 +63,11 @@ class Discs:
         for r, color in ((MOAT, BLACK), (DISC, GREY)):  # all moats first: none may cut into the disc of a neighbour
             for _, at in there:
                 screen.blit(disc(r, color), (round(LEFT + at.x) - r, round(TOP + at.y) - r))
+
+    def _there(self, robots: set[int]) -> list[tuple[int, Sighting]]:
+        """Those of the robots that are seen, and where they will be when the light is there."""
+        seen = self.rig.sense(LIGHT_AFTER)
+        return [(robot, seen[robot]) for robot in sorted(robots) if seen[robot].age < KNOWN + LIGHT_AFTER]
 
 
 def _behind(at: Sighting) -> tuple[float, float]:

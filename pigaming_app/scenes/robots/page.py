@@ -1,6 +1,7 @@
 """The page of the robots: which camera and radio, who is there and how well, who is who, and how late it all is."""
 
 import logging
+from dataclasses import replace
 
 import pygame
 
@@ -10,14 +11,17 @@ from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import dials
 from pigaming_app.scenes.calibration import rows
 from pigaming_app.scenes.calibration.telling import paragraph, tell
+from pigaming_app.scenes.choice import frame
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS, GREEN, ICE, MIST, Color
+from pigaming_app.scenes.mat import unfit
 from pigaming_app.scenes.options import Value
-from pigaming_app.scenes.page import blacked, heading, stamp, text
+from pigaming_app.scenes.page import heading, stamp, text
 from pigaming_app.scenes.pane import backdrop
 from pigaming_app.scenes.press import Act, Press
-from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.prompts import Prompts, places
+from pigaming_app.scenes.robots.aside import Aside
 from pigaming_app.scenes.robots.checkup import Checkup, worst
 from pigaming_app.scenes.robots.discs import Discs, tag
 from pigaming_app.scenes.stack import Home, Pop, Turn
@@ -33,6 +37,9 @@ IDLE = 600.0  # seconds without a press until the title
 SAID = 8.0  # seconds for which a sentence stays
 ANEW = 0.8  # seconds after a change until everything is opened anew
 EVERY = 0.4  # seconds between two readings
+EVERYBODY = set(range(ROBOTS))
+ROBOTS_H = 486  # px of the frame round the robots
+LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: the sentence about a row
 
 log = logging.getLogger("pigaming")
 
@@ -44,9 +51,10 @@ class RobotsPage:
         assert house.mat is not None
         self.house = house
         self.check = Checkup(house.mat, house.settings)
-        self.names = EMULATED if house.mat.emulated else ROWS
+        self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
         self.focus = Focus(rows.spots(self.names), "pair")
         self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
+        self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
         self.prompts = Prompts(
             house, [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
@@ -62,7 +70,7 @@ class RobotsPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
-        press = self.prompts.meant(press)
+        press = self.prompts.meant(self._on_sheet(press))
         if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
             self.check.stop()
             self._say(self.house.words("fleet.stopped"))
@@ -97,33 +105,72 @@ class RobotsPage:
         if self.age >= EVERY:
             self.age = 0.0
             self.lines = [self._read(robot) for robot in range(ROBOTS)]
+        self.aside.update(seconds, self._blocks(), self.discs.circles(EVERYBODY) if self.discs else ())
         return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page; the discs on top."""
-        words = self.house.words
+        """Paint the page in blocks that keep off the discs, and these."""
         screen.blit(backdrop(), (0, 0))
-        heading(words("fleet.title"), self._state()).draw(screen)
-        blacked(screen, dials.PANEL)
+        heading(self.house.words("fleet.title"), self._state()).draw(screen)
+        self._draw_blocks(self.sheet)
+        self.aside.draw(screen, self.sheet)
+        if self.discs:
+            self.discs.draw(screen, EVERYBODY)
+
+    # ---- what is painted
+
+    @property
+    def discs(self) -> Discs | None:
+        """The light that robots need, once there is a rig."""
+        return Discs(self.check.rig) if self.check.rig is not None else None
+
+    def _blocks(self) -> list[pygame.Rect]:
+        """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""
+        low = self.focus.spots[-1].rect.bottom
+        ends = places(self.prompts.said, self.prompts.room)
+        left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
+        found = [
+            pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
+            pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
+            pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
+            pygame.Rect(left, self.prompts.y - 40, right - left, 80),
+        ]
+        return [*found, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else found
+
+    def _sentence(self) -> str:
+        """What is wrong, or was just found."""
+        return self._trouble() or (self.sentence if self.said > 0.0 else "")
+
+    def _on_sheet(self, press: Press) -> Press:
+        """A press of the mouse where the block is drawn that it hits."""
+        return replace(press, at=self.aside.back(press.at)) if press.at else press
+
+    def _draw_blocks(self, screen: pygame.Surface) -> None:
+        """Everything below the heading."""
+        words = self.house.words
+        screen.fill("black")
         rows.draw(screen, self.house, self.focus, "fleet", {name: self._value(name) for name in self.names})
-        dials.beside().draw(screen, *dials.PANEL.topleft)
+        frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
         for robot, (heard, bright, seen, dim) in enumerate(self.lines):
             x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
             stamp(screen, tag(robot), x, y)
             text(heard, 40, bright, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y - 26)
             text(seen, 34, dim, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y + 26)
         moving = self.check.moving
-        told = words("fleet.moving", robot=moving + 1) if moving is not None else words(f"fleet.{self.focus.name}_line")
+        told = words("fleet.moving", robot=moving + 1) if moving is not None else self._line()
         for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
-            line.draw(screen, dials.PANEL.x + 30, dials.PANEL.y + 520 + 48 * i)
-        sentence = self._trouble() or (self.sentence if self.said > 0.0 else "")
+            line.draw(screen, dials.PANEL.x + 30, LINE_Y + LINE_PITCH * i)
+        sentence = self._sentence()
         for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
             line.draw(screen, 960, 896 + 44 * i)
         self.prompts.draw(screen)
-        if self.check.rig is not None:
-            Discs(self.check.rig).draw(screen, set(range(ROBOTS)))
 
     # ---- what is read
+
+    def _line(self) -> str:
+        """A sentence about the row in focus, or why its value is refused for matches."""
+        reason = unfit(self.house.settings) if self.focus.name == "radio" else None
+        return tell(self.house.words, reason) if reason else self.house.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
         """What the camera does."""

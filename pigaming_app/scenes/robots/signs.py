@@ -62,6 +62,7 @@ SIGNS: dict[str, Draw] = {
     "twice": _eye,
     "radio": _radio,
     "silent": _radio,
+    "deadman": _radio,
     "empty": _battery,
     "low": _battery,
     "stopped": _stop,

@@ -16,10 +16,11 @@ from pigaming_app.scenes.overlay import FOOT, HEAD, PROMPTS, W, X, overlay
 from pigaming_app.scenes.pane import Pane, fitted, lines_of
 from pigaming_app.scenes.pause import Pause, title
 from pigaming_app.scenes.plate import Plate, plate
-from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.signs import sign
-from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.stack import Home, Pop, Push, Swap, Turn
 from pigaming_app.scenes.words import Words
 
 if TYPE_CHECKING:
@@ -33,15 +34,14 @@ RING = X + 150, FOOT - 96
 
 
 class Trouble:
-    """The page over a match that waits for its robots."""
+    """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
 
-    def __init__(self, match: "RealMatch") -> None:
-        self.match, self.house = match, match.house
+    def __init__(self, match: "RealMatch", stopper: Device | None = None) -> None:
+        self.match, self.house, self.stopper = match, match.house, stopper
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
-        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80)
+        self.prompts = self._prompts()
 
     def entered(self) -> None:
         """Say that something is wrong."""
@@ -50,12 +50,25 @@ class Trouble:
         self.held, self.picture = 0.0, None
 
     def on(self, press: Press) -> Turn:
-        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu."""
-        press = self.prompts.meant(press)
+        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
+        robot did not do as it was told, FIRE pairs robots and radios again, and ALT lets it try again.
+        """
+        admitted = self.match.access.admit(self.prompts.meant(press))
+        if admitted is None:
+            return None
+        press = admitted
+        lasting = self.match.plant.safety.lasting
         if press.act is Act.EXTRA:
             self._simulate()
+        elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
+            return Push(PairAgain(self.match))
+        elif lasting and press.act is Act.ALT:
+            for robot in lasting:
+                self.match.plant.safety.forgive(robot)
+            self.house.sounds.play("accept")
         elif press.act is Act.STOP:
             self.match.plant.safety.all_stop()
+            self.stopper = press.device
         elif press.act in (Act.START, Act.BACK):
             return Swap(Pause(self.match, press.device))
         return None
@@ -64,15 +77,17 @@ class Trouble:
         """Go on once all is well."""
         self.match.hold(seconds)
         safety = self.match.plant.safety
+        if held := self.match.access.update(seconds):
+            return Swap(Pause(self.match, held.device))
         controls = self.house.controls
-        devices = [controls.last, *filter(None, self.match.devices)]
-        firing = safety.stopped and any(controls.drive(device).fire for device in devices)
+        firing = safety.stopped and any(controls.drive(device).fire for device in self._releasing())
         self.held = self.held + seconds if firing else 0.0
         if self.held >= HOLD:
             safety.release()
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
             self.faults, self.picture = now, None
+            self.prompts = self._prompts()
         if self.house.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
@@ -82,7 +97,8 @@ class Trouble:
         if self.picture is None:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
-            self.picture = overlay(self.match.picture(), color, self._paint)
+            shown = tuple((one.name, one.robot) for one in self.faults)
+            self.picture = overlay(self.match.picture(), color, self._paint, shown)
         screen.blit(self.picture, (0, 0))
         if self.match.plant.safety.stopped:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
@@ -91,6 +107,18 @@ class Trouble:
         self.match.shine(screen)
 
     # ---- inside
+
+    def _prompts(self) -> Prompts:
+        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
+        if self.match.plant.safety.lasting:
+            hints = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry"), *hints]
+        return Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.match.access.voice)
+
+    def _releasing(self) -> list[Device]:
+        """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
+        players, stopper = self.house.controls.players(), self.stopper
+        asked = [one for one in players if one == stopper or (stopper and one.kind == stopper.kind == "keys")]
+        return [*self.match.access.seated, *asked] or players
 
     def _simulate(self) -> None:
         """Simulated robots in the place of those that something is wrong with."""
@@ -110,10 +138,10 @@ class Trouble:
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         title(pane, first.robot, about, ICE)
         sign(pane.hot, first.name, *ICON, 76, ALARM)
-        pane.page.body(
-            words("mat.goes_on"), TEXT_X, FOOT - 40, MIST, "l", fitted(words("mat.goes_on"), 36, ROOM, "body")
-        )
-        y = write(pane, named(first, words, words.printed(self.house.controls.label(None, Act.FIRE))), HEAD + 56, ICE)
+        ending = words("mat.waits_for_you" if self.match.plant.safety.lasting else "mat.goes_on")
+        pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
+        fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
+        y = write(pane, named(first, words, fire), HEAD + 56, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:
             y = write(pane, tell(words, detail), y + 8, MIST)

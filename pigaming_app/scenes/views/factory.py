@@ -1,6 +1,7 @@
 """A match of Robot Factory on the screen: robots with their forks, crates, machines at work, and people."""
 
 import math
+from functools import partial
 from typing import Any
 
 import pygame
@@ -47,7 +48,7 @@ class FactoryView(Picture):
     def __init__(
         self, arena: Arena, state: Factory, players: list[str], taste: Taste, words: Words | None = None
     ) -> None:
-        super().__init__(state, players, taste, words, Ground(bare(arena.plan)))
+        super().__init__(state, players, taste, words, Ground(partial(bare, arena.plan)))
         self.hud = FactoryHud(self.ground, players)
         self.watcher = Watcher(state)
         self.guide = Guide(players)

@@ -49,14 +49,16 @@ class FactoryHud:
                 sorted((one.state for one in state.pallets[first : first + MOST_PALLETS] if one.exists), key=order)
             )
             says = state.delivered[team], state.rules.pallets, mates, states
-            if self._new(team, says):
+            if self.said.get(team) != says:
                 box = pygame.Rect(X[team] - 8, 0, W + 16, HUD_HEIGHT)
                 self.ground.bake(box, [*panel_bits(team, *says)])
+                self.said[team] = says
         left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
-        if self._new("clock", left):
+        if self.said.get("clock") != left:
             text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
             x = 960 - number_width(text, TITLE) / 2
             self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 82, color))
+            self.said["clock"] = left
         return new
 
     def jobs(self) -> Iterator[Callable[[], object]]:
@@ -68,12 +70,6 @@ class FactoryHud:
                 yield partial(glyph, char, SUB, ICE)
             for state in range(DELIVERED + 1):
                 yield partial(small_crate, team, state, 52)
-
-    def _new(self, what: object, says: object) -> bool:
-        if self.said.get(what) == says:
-            return False
-        self.said[what] = says
-        return True
 
 
 def order(state: int) -> int:

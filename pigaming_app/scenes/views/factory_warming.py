@@ -5,10 +5,10 @@ from functools import partial
 
 from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MOST_PALLETS, SHELVES, TEAMS, A, B
 from pigaming_app.scenes import crates, effects, things
+from pigaming_app.scenes.frame_budget import Job
 from pigaming_app.scenes.ink import ALARM, ICE, PLAYERS, TITLE, dim
 from pigaming_app.scenes.sprites import HEADINGS
 from pigaming_app.scenes.views.next_step import AIMS
-from pigaming_app.scenes.views.warming import Job
 
 
 def jobs(seats: Sequence[int]) -> Iterator[Job]:

@@ -3,7 +3,8 @@
 Panels are drawn again only where and when they change; a steady frame is one blit.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cached_property
 
 import pygame
 
@@ -15,11 +16,20 @@ Bit = tuple[pygame.Surface, tuple[int, int], tuple[int, int, int, int] | None]
 
 
 class Ground:
-    """The ground of one match. `bare`: the whole canvas without what changes."""
+    """The ground of one match. `paint` makes the whole canvas without what changes, as soon as it is needed."""
 
-    def __init__(self, bare: pygame.Surface) -> None:
-        self.bare = bare
-        self.surface = bare.copy()
+    def __init__(self, paint: Callable[[], pygame.Surface]) -> None:
+        self._paint = paint
+
+    @cached_property
+    def bare(self) -> pygame.Surface:
+        """The canvas without what changes."""
+        return self._paint()
+
+    @cached_property
+    def surface(self) -> pygame.Surface:
+        """The canvas with all that was baked into it."""
+        return self.bare.copy()
 
     def bake(self, box: pygame.Rect, bits: Sequence[Bit]) -> None:
         """Replace what a box of the HUD says by these pieces of light: image, corner, part of it or None."""

@@ -105,17 +105,21 @@ class Hud:
         for slot in self.slots:
             leads = slot.seat == ahead and not self.sums
             says = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
-            if self._new(slot, says):
+            if self.said.get(slot) != says:
                 box = pygame.Rect(slot.x - 4, 0, slot.w + 8, HUD_HEIGHT)
                 self.ground.bake(box, panel_bits(slot, *says))
+                self.said[slot] = says
         for one in self.sums:
-            if self._new(one, (totals[one.team], one.team == ahead)):
-                self._bake_sum(one, totals[one.team], one.team == ahead)
+            total = totals[one.team], one.team == ahead
+            if self.said.get(one) != total:
+                self._bake_sum(one, *total)
+                self.said[one] = total
         left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
-        if self._new("clock", left):
+        if self.said.get("clock") != left:
             text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
             x = 960 - number_width(text, TITLE) / 2
             self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 84, color))
+            self.said["clock"] = left
         return changed
 
     def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
@@ -133,12 +137,6 @@ class Hud:
 
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]
-
-    def _new(self, what: object, says: object) -> bool:
-        if self.said.get(what) == says:
-            return False
-        self.said[what] = says
-        return True
 
     def _bake_sum(self, one: Sum, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")

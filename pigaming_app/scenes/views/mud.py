@@ -6,45 +6,77 @@ import numpy as np
 import numpy.typing as npt
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.roadway import MUD
-from pigaming_app.sim.course import Course, Place, locate
+from pigaming_app.sim.course import Course
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 GRID = 10  # px between the points at which the distance is measured
 FINE = 2  # px of the arena that one of the picture is
 APART = 34.0  # px from line to line
 CLODS = 420
+ROWS = 50  # of the picture that are painted in one go
 Heights = npt.NDArray[np.float32]
+Numbers = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
 
 
 @cached
-def mud(course: Course) -> pygame.Surface:
+@sliced
+def mud(course: Course) -> Steps[pygame.Surface]:
     """The arena of 1600 x 900, with mud wherever there is no track: to be added to what lies there."""
-    away = _away(course)
+    coarse = yield from _away(course)
+    away = _finer(_finer(coarse, 0), 1)
     h, w = away.shape
-    ys, xs = np.mgrid[0:h, 0:w].astype(np.float32) * FINE
+    yield
+    clods = _clods(h, w)
+    yield
+    rgb = np.empty((w, h, 3), np.uint8)
+    for top in range(0, h, ROWS):
+        rows = slice(top, top + ROWS)
+        rgb[:, rows] = _rows(away[rows], clods[rows], top).swapaxes(0, 1)
+        yield
+    small = pygame.surfarray.make_surface(rgb)
+    yield
+    return pygame.transform.smoothscale(small, (int(WIDTH), int(HEIGHT)))
+
+
+def _rows(away: Heights, clods: Heights, top: int) -> npt.NDArray[np.uint8]:
+    """The colours of some rows of the picture, from row `top` on."""
+    h, w = away.shape
+    ys, xs = np.mgrid[top : top + h, 0:w].astype(np.float32) * FINE
     waves = 9 * np.sin(xs / 61 + 2 * np.sin(ys / 83)) + 9 * np.sin(ys / 47 - 1.7 * np.sin(xs / 71))
     heights = away + (waves + 5 * np.sin((xs + ys) / 23)) * np.clip(away / 40, 0, 1)
     line = np.clip(2.5 - np.abs(heights % APART - APART / 2), 0, 1)
     fade = np.clip(1.0 - away / 420, 0.5, 1) * np.clip((away - 14) / 10, 0, 1)
-    bright = np.maximum(line, _clods(h, w)) * fade * 0.80 + 0.12 * np.clip((away - 12) / 16, 0, 1)
-    rgb = (bright[..., None] * np.array(MUD, np.float32)).clip(0, 255).astype(np.uint8)
-    small = pygame.surfarray.make_surface(rgb.swapaxes(0, 1))
-    return pygame.transform.smoothscale(small, (int(WIDTH), int(HEIGHT)))
+    bright = np.maximum(line, clods) * fade * 0.80 + 0.12 * np.clip((away - 12) / 16, 0, 1)
+    return np.asarray((bright[..., None] * np.array(MUD, np.float32)).clip(0, 255), np.uint8)
 
 
-def _away(course: Course) -> Heights:
-    """How far outside the track's edge every point of the picture is, px; negative on the track."""
-    place, rows = Place(), []
+def _away(course: Course) -> Steps[Heights]:
+    """How far outside the track's edge the points of a coarse grid are, px; negative on the track."""
+    centre = np.array([course.xs[: course.count], course.ys[: course.count]]).T
+    half = np.array(course.half[: course.count])
+    rows = []
     for y in range(0, int(HEIGHT) + 1, GRID):
-        row = []
-        for x in range(0, int(WIDTH) + 1, GRID):
-            locate(course, float(x), float(y), place)
-            row.append(abs(place.aside) - place.half)
-        rows.append(row)
-    coarse = np.array(rows, np.float32)
-    return _finer(_finer(coarse, 0), 1)
+        xs = np.arange(0.0, WIDTH + 1.0, GRID)
+        points = np.stack([xs, np.full_like(xs, y)], 1)
+        nearest = ((centre**2).sum(1) - 2 * points @ centre.T).argmin(1)
+        after, before = (nearest + 1) % course.count, (nearest - 1) % course.count
+        gap, wide = _on_leg(points, centre, half, nearest, after)
+        gap_before, wide_before = _on_leg(points, centre, half, before, nearest)
+        rows.append(np.where(gap_before < gap, gap_before - wide_before, gap - wide))
+        yield
+    return np.array(rows, np.float32)
+
+
+def _on_leg(points: Numbers, centre: Numbers, half: Numbers, a: Indices, b: Indices) -> tuple[Numbers, Numbers]:
+    """How far each point is from its leg, from point a to b of the course, and half the width there; px."""
+    leg, away = centre[b] - centre[a], points - centre[a]
+    share = np.clip((leg * away).sum(1) / (leg**2).sum(1), 0.0, 1.0)
+    gap = np.linalg.norm(away - share[:, None] * leg, axis=1)
+    return gap, half[a] + share * (half[b] - half[a])
 
 
 def _finer(coarse: Heights, axis: int) -> Heights:

@@ -4,28 +4,36 @@ A view looks at the match and never touches it; what happened it finds by compar
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from itertools import chain
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from time import perf_counter
 from typing import Any, Protocol
 
 import pygame
 
 from pigaming_app.scenes import effects
+from pigaming_app.scenes.frame_budget import Ahead, Job
 from pigaming_app.scenes.ink import ADD, PRE
 from pigaming_app.scenes.sprites import Batch, put, step
 from pigaming_app.scenes.views.ground import HUD_HEIGHT, LEFT, TOP, Ground
 from pigaming_app.scenes.views.moments import Moments
 from pigaming_app.scenes.views.treads import Treads
-from pigaming_app.scenes.views.warming import Job, driving
+from pigaming_app.scenes.views.warming import driving
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 REAL_WIDER = 42  # px
 JUMP = 100.0  # px in a tick: a robot that was placed, not driven
 Pose = tuple[float, float, float]  # px and px on the canvas, rad
 Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
-Words = Callable[..., str]
+
+
+class Words(Protocol):
+    """The texts of a language."""
+
+    def __call__(self, key: str, **values: object) -> str:
+        """The text of a key."""
+
+    def decimal(self, number: str) -> str:
+        """A number as this language writes it."""
 
 
 class Taste(Protocol):
@@ -51,7 +59,8 @@ class Picture:
         self.moments = Moments()
         self.treads = [Treads(i) for i in range(len(state.robots))]
         self.before = self.now = _poses(state)
-        self.jobs: Iterator[Job] = driving(self.seats)
+        self.jobs = Ahead([lambda: ground.surface])
+        self.jobs.then(driving(self.seats))
 
     def for_real(self, folder: Path) -> None:
         """People play this match: what it may leave behind, such as a best lap, is kept in this folder for data."""
@@ -72,18 +81,13 @@ class Picture:
 
     def warm(self, milliseconds: float) -> bool:
         """Make sprites ahead for so long; true when all are there."""
-        end = perf_counter() + milliseconds / 1000.0
-        for job in self.jobs:
-            job()
-            if perf_counter() >= end:
-                return False
-        return True
+        return self.jobs.work(milliseconds)
 
     # ---- for the views of games
 
     def ahead(self, jobs: Iterator[Job]) -> None:
         """More sprites to make ahead, after those of driving robots."""
-        self.jobs = chain(self.jobs, jobs)
+        self.jobs.then(jobs)
 
     def follow(self, state: Any) -> None:
         """Note where robots are after this tick."""
@@ -120,6 +124,11 @@ class Picture:
         screen.fblits(over, PRE)
         screen.fblits(light, ADD)
         screen.fblits(top, PRE)
+
+
+def decimal(words: Words | None, number: str) -> str:
+    """A number with the decimal sign of the language."""
+    return words.decimal(number) if words else number
 
 
 def _poses(state: Any) -> Sequence[Pose]:

@@ -11,6 +11,7 @@ import pygame
 from pigaming_app.games.factory.floor import Floor
 from pigaming_app.games.race.start import Track
 from pigaming_app.scenes.crates import TEAMS
+from pigaming_app.scenes.frame_budget import Steps
 from pigaming_app.scenes.ink import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
 from pigaming_app.scenes.views.raceway import GLOW, earth
 from pigaming_app.scenes.views.roadway import draw_track
@@ -21,12 +22,12 @@ from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 MARGIN = 8  # px round the frame, for its glow
 
 
-def preview(arena: Arena, w: int, h: int) -> pygame.Surface:
+def preview(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     """The arena as light, as large as fits into w x h px and centred there; add it to a picture."""
-    return PREVIEWS.get(type(arena.plan), walls)(arena, w, h)
+    return (yield from PREVIEWS.get(type(arena.plan), walls)(arena, w, h))
 
 
-def walls(arena: Arena, w: int, h: int) -> pygame.Surface:
+def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     """The walls of an arena, and the shapes of the players where they begin."""
     left, top, k = fitted(w, h)
     ink = Ink(w, h, 3)
@@ -43,32 +44,35 @@ def walls(arena: Arena, w: int, h: int) -> pygame.Surface:
         x, y = left + k * start.x, top + k * start.y
         ink.fill([(x + py, y - px) for px, py in shape_points(player, r)], PLAYERS[player])
         ink.line([(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], PLAYERS[player], HAIR + 1)
-    return ink.lit(0.6)
+    yield
+    return (yield from ink.lighting(0.6))
 
 
-def track(arena: Arena, w: int, h: int) -> pygame.Surface:
+def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     """A track as it is driven on: mud, road, lines with their badges, the way round."""
     left, top, k = fitted(w, h)
-    out = pygame.Surface((w, h))
-    size = round(k * WIDTH), round(k * HEIGHT)
-    out.blit(pygame.transform.smoothscale(earth(arena.plan), size), (round(left), round(top)))
+    below = pygame.transform.smoothscale(earth(arena.plan), (round(k * WIDTH), round(k * HEIGHT)))
+    yield
     hot, cold = Ink(w, h, 3).to(left, top, 0.0, k), Ink(w, h, 3).to(left, top, 0.0, k)
-    draw_track(hot, cold, arena.plan)
-    out.blit(hot.lit(GLOW), (0, 0), special_flags=ADD)
-    cold.onto(out)
+    yield from draw_track(hot, cold, arena.plan)
+    light = yield from hot.lighting(GLOW)
+    out = pygame.Surface((w, h))
+    out.blit(below, (round(left), round(top)))
+    out.blit(light, (0, 0), special_flags=ADD)
+    yield from cold.onto(out)
     return out
 
 
-def floor(arena: Arena, w: int, h: int) -> pygame.Surface:
+def floor(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     """A floor as it is worked on: warehouses, machines, the aisle, and where the robots of each team begin."""
     left, top, k = fitted(w, h)
     hot, cold = Ink(w, h, 3).to(left, top, 0.0, k), Ink(w, h, 3).to(left, top, 0.0, k)
-    draw_floor((hot, cold), arena.plan)
+    yield from draw_floor((hot, cold), arena.plan)
     hot.line(cut(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
     for i, start in enumerate(arena.starts):
         hot.ring(start.x, start.y, 36, TEAMS[i % 2], 8)
-    out = hot.lit(GLOW)
-    cold.onto(out)
+    out = yield from hot.lighting(GLOW)
+    yield from cold.onto(out)
     return out
 
 
@@ -79,4 +83,4 @@ def fitted(w: int, h: int) -> tuple[float, float, float]:
 
 
 # by what the plan of an arena is
-PREVIEWS: dict[type, Callable[[Arena, int, int], pygame.Surface]] = {Track: track, Floor: floor}
+PREVIEWS: dict[type, Callable[[Arena, int, int], Steps[pygame.Surface]]] = {Track: track, Floor: floor}

@@ -13,7 +13,8 @@ from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.sprites import HEADINGS, Batch, Sprite, put, step
 from pigaming_app.scenes.tank import tank
 from pigaming_app.scenes.views import race_cards, race_signs
-from pigaming_app.scenes.views.ground import HUD_HEIGHT, LEFT, TOP
+from pigaming_app.scenes.views.ground import LEFT, TOP
+from pigaming_app.scenes.views.hud import Y
 from pigaming_app.scenes.views.picture import Heard, Picture, Pose, Taste, Words
 from pigaming_app.scenes.views.race_ghost import Haunt
 from pigaming_app.scenes.views.race_happenings import SHOWN_FROM, Happening, Watcher
@@ -36,8 +37,6 @@ SPRAYED = 60.0  # px/s from which mud flies
 class RaceView(Picture):
     """The view of one race."""
 
-    clock = pygame.Rect(872, 0, 176, HUD_HEIGHT)
-
     def __init__(self, arena: Arena, state: Race, players: list[str], taste: Taste, words: Words | None = None) -> None:
         super().__init__(state, players, taste, words, Raceway(arena.plan))
         self.arena = arena
@@ -59,6 +58,7 @@ class RaceView(Picture):
     def watch(self, state: Race) -> list[Heard]:
         """See what the last tick did; answers what is to be heard."""
         self.follow(state)
+        self.cards.follow(state)
         happenings = self.watcher.look(state)
         records = self.haunt.watch(state, happenings) if self.haunt else []
         golden = self.haunt.golden if self.haunt else {}
@@ -78,7 +78,7 @@ class RaceView(Picture):
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.moments.advance(seconds)
-        self.cards.show(state, self.watcher.order, self.haunt.golden if self.haunt else {})
+        self.cards.show(state, self.watcher.order)
         under: Batch = []
         over: Batch = []
         light: Batch = []
@@ -104,7 +104,7 @@ class RaceView(Picture):
             self.cards.moved(one.seat, one.kind == "up", state.tick)
             if self.taste.flashes != "off":
                 x = self.cards.xs[int(one.number) - 1]
-                self.moments.bloom(x, race_cards.Y, 0.4, race_cards.pulse(one.seat))
+                self.moments.bloom(x, Y, 0.4, race_cards.pulse(one.seat))
         elif one.kind == "void":
             self.voided[one.seat] = self.moments.clock
 

@@ -16,8 +16,8 @@ from pigaming_app.scenes.ink import (
     LINE,
     MIST,
     PLAYERS,
+    SUB,
     THIN,
-    TITLE,
     WHITE,
     Color,
     Ink,
@@ -33,28 +33,29 @@ from pigaming_app.scenes.sprites import Sprite, faded
 from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import number_width
 from pigaming_app.scenes.views.ground import Bit
-from pigaming_app.scenes.views.hud import number_bits
+from pigaming_app.scenes.views.hud import WIDE, H, Y, number_bits
 
-Y, W, H, EDGE = 18, 352, 110, 24  # px: top and size of the cards, margin round their sprites
+W, EDGE = WIDE, 24  # px: width of the cards, margin round their sprites
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # of a time that is better, or worse; a sign says it too
-CELLS, CELL = 8, 17.75  # of the turbo bar, and px from one to the next
-MIDDLE, TIMES, RIGHT = 154, 206, W - 18  # px: of badge and laps, of the signs before times, where times end
-ROWS = (23, 54, 85)  # px: middles of the three times
+CELLS, CELL = 16, 17.75  # of the turbo bar, and px from one to the next
+PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # sizes: digits of 58 are 41 px high
+ROW = 49  # px: middle of the figures
+LEFT, LAP, RIGHT = 16, 103, W - 14  # px: where place and lap begin, where the gap ends
+GAP = 122  # px: room for a gap
 FOOT = W - 40  # px: length of the bar of laps
+SIGNS = W - 132  # px: the middle of what is wrong
 
 
 @dataclass(frozen=True)
 class Card:
-    """What a card says. `sign`: "", "wrong" or "missed"; `moved`: 1 went ahead, -1 fell back, 0."""
+    """What a card shows. `sign`: "", "wrong" or "missed"; `moved`: 1 went ahead, -1 fell back, 0."""
 
     seat: int
     ai: bool
     place: int
     ending: str  # of the place's number: st, nd
-    lap: str
-    first: tuple[str, Color]  # the time that runs, or a difference
-    last: str
-    best: str
+    lap: int  # the one that is driven, of `laps`
+    gap: str  # to the leader, s; empty: this one leads
     turbo: int  # left, of 64
     way: int  # px of the bar of laps
     laps: int
@@ -70,32 +71,34 @@ def card_bits(card: Card, x: int) -> list[Bit]:
     bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done), corner, None)]
     number = FOCUS if card.done and card.place == 1 else WHITE
     text = str(card.place)
-    bits += number_bits(text, TITLE, x + 43 - number_width(text, TITLE) / 2, Y + 42, number)
-    bits.append((word(card.ending, number), (x + 75 - EDGE, Y + 25 - EDGE), None))
-    bits += number_bits(card.lap, BODY, x + MIDDLE - number_width(card.lap, BODY) / 2, Y + 67, ICE)
+    bits += number_bits(text, PLACE, x + LEFT, Y + ROW, number)
+    after = x + LEFT + round(number_width(text, PLACE)) + 1
+    bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
     if card.moved:
-        bits.append((mover(card.moved > 0), (x + 97 - EDGE, Y + 62 - EDGE), None))
-    bits += _part_lit(turbo(card.seat, True), turbo(card.seat, False), (x + 20, Y + 94), card.turbo * CELLS * CELL / 64)
+        bits.append((mover(card.moved > 0), (x + W - 40 - EDGE, Y - EDGE), None))
+    bits += _part_lit(turbo(card.seat, True), turbo(card.seat, False), (x + 17, Y + 80), card.turbo * CELLS * CELL / 64)
     bits += _part_lit(
         foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
     )
     if card.sign == "missed":
-        bits.append((missed_mark(card.missed), (x + 190 - EDGE, Y - EDGE), None))
+        bits.append((missed_mark(card.missed), (x + SIGNS - EDGE, Y - EDGE), None))
     elif card.sign:
-        bits.append((wrong_mark(), (x + 190 - EDGE, Y - EDGE), None))
+        bits.append((wrong_mark(), (x + SIGNS - EDGE, Y - EDGE), None))
     else:
-        bits += _times(card, x)
+        bits += _figures(card, x)
     return bits
 
 
-def _times(card: Card, x: int) -> list[Bit]:
-    """The time that runs, the last and the best; each after its sign."""
-    bits: list[Bit] = [(signs(card.done), (x + TIMES - EDGE, Y - EDGE), None)]
-    text, color = card.first
-    rows = ((text, color), (card.last, MIST), (card.best, FOCUS))
-    for (said, tone), y in zip(rows, ROWS, strict=True):
-        bits += number_bits(said, BODY, x + RIGHT - number_width(said, BODY), Y + y, tone)
-    return bits
+def _figures(card: Card, x: int) -> list[Bit]:
+    """The lap, and how far behind the leader; the leader wears a crown, and a flag at the end."""
+    lap = str(card.lap)
+    bits = number_bits(lap, FIGURE, x + LAP, Y + ROW, ICE)
+    low = Y + ROW + 0.35 * (FIGURE - OF)  # both stand on one line
+    bits += number_bits(f"/{card.laps}", OF, x + LAP + number_width(lap, FIGURE), low, MIST)
+    if card.gap:
+        size = FIGURE if number_width(card.gap, FIGURE) < GAP else OF  # minutes behind
+        return bits + number_bits(card.gap, size, x + RIGHT - number_width(card.gap, size), Y + ROW, ICE)
+    return [*bits, (leader(card.done), (x + RIGHT - 60 - EDGE, Y - EDGE), None)]
 
 
 def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], way: float) -> list[Bit]:
@@ -116,10 +119,11 @@ def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
         ink.fill(outline, dim(edge, 0.16))
     ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
     ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
-    badge(ink, seat, MIDDLE, 29, 20)
+    ink.solid(cut(14, -20, 56, 36, 4))
+    badge(ink, seat, 42, -2, 20)
     if ai:
-        ink.solid(cut(78, -16, 40, 26, 4))
-        icon(ink, "ai", 98, -2, 14, mix(color, WHITE, 0.5), 3)
+        ink.solid(cut(84, -18, 44, 32, 4))
+        icon(ink, "ai", 106, -2, 17, mix(color, WHITE, 0.5), 3)
     return ink.lit(0.7)
 
 
@@ -145,7 +149,7 @@ def turbo(seat: int, full: bool) -> pygame.Surface:
     ink, color = Ink(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
     for i in range(CELLS):
         x = i * CELL
-        ink.fill([(x + 3, -5), (x + 15, -5), (x + 12, 4), (x, 4)], color if full else dim(color, 0.2))
+        ink.fill([(x + 3, -4), (x + 15, -4), (x + 13, 3), (x, 3)], color if full else dim(color, 0.2))
     return ink.lit(0.5) if full else ink.plain()
 
 
@@ -169,33 +173,30 @@ def mover(up: bool) -> pygame.Surface:
 
 
 @cached
-def signs(done: bool) -> pygame.Surface:
-    """What stands before the times: a stopwatch or, in the end, a flag; a lap gone round; a star for the best."""
-    ink = Ink(W // 2, H + 2 * EDGE).to(EDGE, EDGE)
+def leader(done: bool) -> pygame.Surface:
+    """The crown of the leader or, at the end, a flag."""
+    ink = Ink(60 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     if done:
-        flag(ink, 2, ROWS[0], 13, ICE)
+        flag(ink, 30, ROW, 21, FOCUS)
     else:
-        ink.ring(0, ROWS[0] + 1, 11, ICE, THIN).line([(0, ROWS[0] - 14), (0, ROWS[0] - 13)], ICE, 6)
-        ink.line([(0, ROWS[0] - 5), (0, ROWS[0] + 1), (4, ROWS[0] + 1)], ICE, 3)
-    ink.arc(0, ROWS[1], 9, -1.0, 4.0, MIST, THIN)
-    ink.fill([(1, ROWS[1] - 13), (13, ROWS[1] - 9), (3, ROWS[1] - 1)], MIST)
-    return ink.fill(star(0, ROWS[2], 12), FOCUS).lit(0.5)
+        icon(ink, "crown", 30, ROW, 24, FOCUS, LINE)
+    return ink.lit(0.7)
 
 
 @cached
 def missed_mark(line: int) -> pygame.Surface:
     """On a card: the badge of the line that was missed."""
     ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
-    badge(ink, line, 50, 52, 34)
-    ink.line([(114, 26), (114, 58)], WHITE, 12)
-    return ink.disc(114, 80, 8, WHITE).lit(0.7)
+    badge(ink, line, 36, 44, 30)
+    ink.line([(92, 22), (92, 50)], WHITE, 12)
+    return ink.disc(92, 69, 8, WHITE).lit(0.7)
 
 
 @cached
 def wrong_mark() -> pygame.Surface:
     """On a card: turn round."""
     ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
-    return u_turn(ink, 76, 52, 0.95).lit(0.7)
+    return u_turn(ink, 56, 46, 0.85).lit(0.7)
 
 
 def u_turn(ink: Ink, x: float, y: float, k: float) -> Ink:

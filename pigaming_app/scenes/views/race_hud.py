@@ -3,37 +3,35 @@
 The clock counts up; once somebody has finished it counts down what the others have left.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
-from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, MIST, SUB, TITLE, WHITE, Color, Ink
+from pigaming_app.scenes.frame_budget import Job
+from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, Ink
 from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.things import glyph, number_width
 from pigaming_app.scenes.views import race_cards
-from pigaming_app.scenes.views.ground import Ground
-from pigaming_app.scenes.views.hud import number_bits
-from pigaming_app.scenes.views.picture import Words
-from pigaming_app.scenes.views.race_cards import FOOT, GAIN, LOSS, Card, H, W, Y, card_bits
+from pigaming_app.scenes.views.ground import HUD_HEIGHT, Ground
+from pigaming_app.scenes.views.hud import PLACES, H, Y, number_bits
+from pigaming_app.scenes.views.picture import Words, decimal
+from pigaming_app.scenes.views.race_cards import ENDING, FIGURE, FOOT, OF, PLACE, Card, W, card_bits
+from pigaming_app.scenes.views.race_gaps import Gaps, figure
 from pigaming_app.scenes.views.race_happenings import SHOWN_FROM
-from pigaming_app.scenes.views.warming import Job
 from pigaming_app.sim.world import DT, HZ
 
-PLACES = {1: (520,), 2: (520, 1048), 3: (160, 520, 1048), 4: (160, 520, 1048, 1408)}
-HIGH = 138  # px of the canvas that the cards may use
-TELLS = int(2.5 * HZ)  # ticks for which a difference is shown
 MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
-Delta = tuple[float, int]  # ticks, and the tick at which it came
 
 
 class Cards:
     """Keeps the ground saying what the race says. `players`: who sits where; names in BRAINS are marked as AI."""
 
     def __init__(self, ground: Ground, state: Race, players: list[str], words: Words | None) -> None:
-        self.ground, self.players = ground, players
+        self.ground, self.players, self.words = ground, players, words
+        self.gaps = Gaps(state)
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.xs = PLACES[len(seats)]
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
@@ -44,18 +42,22 @@ class Cards:
         """A robot has gone ahead or fallen back."""
         self.moves[seat] = (1 if ahead else -1), tick
 
-    def show(self, state: Race, order: Sequence[int], golden: Mapping[int, Delta]) -> None:
-        """Bake what has changed. `golden`: for each seat the difference to the best lap ever."""
+    def follow(self, state: Race) -> None:
+        """Note where everybody is after this tick."""
+        self.gaps.follow(state)
+
+    def show(self, state: Race, order: Sequence[int]) -> None:
+        """Bake what has changed."""
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
-            card = self._card(state, seat, i + 1, golden.get(seat))
+            card = self._card(state, seat, i + 1)
             if self.said.get(x) != card:
+                self.ground.bake(pygame.Rect(x - 8, 0, W + 16, HUD_HEIGHT), card_bits(card, x))
                 self.said[x] = card
-                self.ground.bake(pygame.Rect(x - 8, 0, W + 16, HIGH), card_bits(card, x))
         left = _left(state)
         clock = ("left", left) if left is not None else ("time", state.tick // HZ)
         if self.said.get("clock") != clock:
-            self.said["clock"] = clock
             self._bake_clock(*clock)
+            self.said["clock"] = clock
 
     def jobs(self, state: Race) -> Iterator[Job]:
         """The pieces of the cards, each made by one small job."""
@@ -67,23 +69,25 @@ class Cards:
                 yield partial(race_cards.turbo, seat, full)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
         for char in "0123456789:":
-            yield from (partial(glyph, char, SUB, color) for color in (ICE, ALARM))
+            yield from (partial(glyph, char, TITLE, color) for color in (ICE, ALARM))
         for char in "1234":
-            yield from (partial(glyph, char, TITLE, color) for color in (WHITE, FOCUS, ICE))
-        for char in "0123456789.+−–/":
-            yield from (partial(glyph, char, BODY, color) for color in (ICE, MIST, FOCUS, GAIN, LOSS))
+            yield from (partial(glyph, char, PLACE, color) for color in (WHITE, FOCUS))
+        for char in "0123456789+" + decimal(self.words, "."):
+            yield partial(glyph, char, FIGURE, ICE)
+        for char in f"/{state.rules.laps}":
+            yield partial(glyph, char, OF, MIST)
         for line in range(LINES):
             yield partial(race_cards.missed_mark, line)
-            yield from (partial(race_cards.word, self.endings[line], color) for color in (WHITE, FOCUS))
+            yield from (partial(race_cards.word, self.endings[line], color, ENDING) for color in (WHITE, FOCUS))
         for flag in (True, False):
-            yield partial(race_cards.signs, flag)
+            yield partial(race_cards.leader, flag)
             yield partial(race_cards.mover, flag)
         yield from (race_cards.wrong_mark, small_flag)
 
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS.get("race", {})
 
-    def _card(self, state: Race, seat: int, place: int, golden: Delta | None) -> Card:
+    def _card(self, state: Race, seat: int, place: int) -> Card:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
         went, when = self.moves.get(seat, (0, -MOVED))
         done = bool(racer.finished)
@@ -93,10 +97,8 @@ class Cards:
             ai=self._ai(seat),
             place=place,
             ending=self.endings[place - 1],
-            lap=f"{min(laps, robot.score + 1)}/{laps}",
-            first=_first(state, seat, golden),
-            last=_time(racer.last_lap),
-            best=_time(racer.best_lap),
+            lap=min(laps, robot.score + 1),
+            gap="" if place == 1 else decimal(self.words, figure(self._gap(state, seat))),
             turbo=round(64 * robot.turbo),
             way=FOOT if done else round(FOOT * max(0.0, min(1.0, share))),
             laps=laps,
@@ -106,14 +108,17 @@ class Cards:
             done=done,
         )
 
+    def _gap(self, state: Race, seat: int) -> float:
+        return self.gaps.gap(state, seat) if state.racers[seat].finished else self.gaps.shown[seat]
+
     def _bake_clock(self, kind: str, seconds: int) -> None:
         text = f"{seconds // 60}:{seconds % 60:02}" if kind == "time" else str(seconds)
-        lead = 0 if kind == "time" else 58
-        x = 960 - (number_width(text, SUB) + lead) / 2
-        bits = number_bits(text, SUB, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
+        lead = 0 if kind == "time" else 76
+        x = 960 - (number_width(text, TITLE) + lead) / 2
+        bits = number_bits(text, TITLE, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
         if lead:
-            bits.append((small_flag(), (round(x) - 28, Y + H // 2 - 52), None))
-        self.ground.bake(pygame.Rect(872, 0, 176, HIGH), bits)
+            bits.append((small_flag(), (round(x) - 28, Y + H // 2 - 60), None))
+        self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), bits)
 
 
 def _left(state: Race) -> int | None:
@@ -124,31 +129,15 @@ def _left(state: Race) -> int | None:
     return max(0, -(-(state.first + state.rules.patience - state.tick) // HZ))
 
 
-def _first(state: Race, seat: int, golden: Delta | None) -> tuple[str, Color]:
-    """The time of this lap; for a moment after a line, how much it is better or worse; in the end, that of the race."""
-    racer = state.racers[seat]
-    if racer.finished:
-        return f"{racer.finish * DT:.2f}", ICE
-    if racer.delta_at and state.tick - racer.delta_at < TELLS:
-        return signed(racer.delta), GAIN if racer.delta <= 0.0 else LOSS
-    if golden and state.tick - golden[1] < TELLS:
-        return signed(golden[0]), FOCUS
-    return f"{(state.tick - racer.lap_began) * DT if racer.passed else 0.0:.1f}", ICE
-
-
 def signed(ticks: float) -> str:
     """A difference of so many ticks, in seconds."""
     hundredths = round(100 * ticks * DT)
     return f"{'−' if hundredths < 0 else '+'}{abs(hundredths) / 100:.2f}"
 
 
-def _time(ticks: float) -> str:
-    return f"{ticks * DT:.2f}" if ticks > 0.0 else "–"
-
-
 @cached
 def small_flag() -> pygame.Surface:
     """The flag beside the clock once somebody has finished."""
-    ink = Ink(104, 104)
-    race_cards.flag(ink, 50, 52, 20, WHITE)
+    ink = Ink(120, 120)
+    race_cards.flag(ink, 58, 60, 28, WHITE)
     return ink.lit(0.7)

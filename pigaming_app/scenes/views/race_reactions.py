@@ -11,7 +11,7 @@ from pigaming_app.scenes.things import glyph, number_width
 from pigaming_app.scenes.views import race_signs
 from pigaming_app.scenes.views.ground import LEFT, TOP
 from pigaming_app.scenes.views.moments import MOST, Moments, Particle
-from pigaming_app.scenes.views.picture import Heard, Pose, Taste, Words
+from pigaming_app.scenes.views.picture import Heard, Pose, Taste, Words, decimal
 from pigaming_app.scenes.views.race_cards import GAIN, LOSS
 from pigaming_app.scenes.views.race_ghost import Delta
 from pigaming_app.scenes.views.race_happenings import Happening
@@ -110,10 +110,10 @@ class Reactions:
                 if int(one.number) != one.seat:
                     self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
             case "lap" if not racer.finished:
-                self._say(one.seat, f"{one.number:.2f}", ICE)
+                self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), ICE)
             case "best":
                 if not racer.finished:
-                    self._say(one.seat, f"{one.number:.2f}", FOCUS)
+                    self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), FOCUS)
                 moments.burst(x, y, FOCUS, 16, 44, 80)
             case "last_lap" if self.words:
                 self._say(one.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
@@ -144,9 +144,9 @@ class Reactions:
 
     def _difference(self, seat: int, delta: float | None, golden: Delta | None) -> None:
         if delta is not None:
-            self._say(seat, signed(delta), GAIN if delta <= 0.0 else LOSS)
+            self._say(seat, decimal(self.words, signed(delta)), GAIN if delta <= 0.0 else LOSS)
         elif golden:
-            self._say(seat, signed(golden[0]), FOCUS)
+            self._say(seat, decimal(self.words, signed(golden[0])), FOCUS)
 
     def _say(self, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
         self.notes.say(self.moments.clock, seat, text, color, sprite)

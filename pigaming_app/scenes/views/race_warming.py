@@ -5,13 +5,13 @@ from functools import partial
 
 from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes import effects
+from pigaming_app.scenes.frame_budget import Job
 from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, PLAYERS, SUB, THIN, WHITE
 from pigaming_app.scenes.sprites import HEADINGS
 from pigaming_app.scenes.things import glyph
 from pigaming_app.scenes.views import race_signs
-from pigaming_app.scenes.views.picture import Words
+from pigaming_app.scenes.views.picture import Words, decimal
 from pigaming_app.scenes.views.race_cards import GAIN, LOSS
-from pigaming_app.scenes.views.warming import Job
 
 
 def jobs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
@@ -36,7 +36,7 @@ def _mud() -> Iterator[Job]:
 
 
 def _rising(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
-    for char in "0123456789.+−":
+    for char in "0123456789+−" + decimal(words, "."):
         for color in (GAIN, LOSS, FOCUS, ICE):
             yield partial(glyph, char, SUB, color)
     yield race_signs.gold_star

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from pigaming_app.games.race.start import BEHIND, Track
+from pigaming_app.scenes.frame_budget import Steps
 from pigaming_app.scenes.ink import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
 from pigaming_app.sim.course import Course, Place, half_at, leg, locate, spot
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -63,19 +64,24 @@ def edges(course: Course) -> tuple[list[Point], list[Point]]:
     return [beside(rib, -1) for rib in ribs(course)], [beside(rib, 1) for rib in ribs(course)]
 
 
-def draw_track(hot: Ink, cold: Ink, track: Track) -> None:
+def draw_track(hot: Ink, cold: Ink, track: Track) -> Steps[None]:
     """All of it: what glows on one sheet, what is only painted on the other. The road itself is black."""
     course = track.course
     cold.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
+    yield
     for edge in edges(course):
         hot.neon(edge, EDGE, 5, True)
+        yield
     draw_kerbs(hot, course)
+    yield
     draw_arrows(cold, track)
+    yield
     for seat, along in enumerate(track.lines):
         draw_slot(cold, course, along, seat)
         draw_line(hot, cold, frame(course, along), PLAYERS[seat])
         x, y = sign_post(course, along)
         badge(hot, seat, x, y, BADGE)
+        yield
 
 
 def draw_kerbs(ink: Ink, course: Course) -> None:

@@ -6,10 +6,10 @@ from typing import Any
 
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes import effects, tank, things
+from pigaming_app.scenes.frame_budget import Job
 from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
 from pigaming_app.scenes.sprites import HEADINGS
 from pigaming_app.scenes.views.walled import wall_sprite
-from pigaming_app.scenes.views.warming import Job
 
 
 def jobs(state: Any, seats: Sequence[int]) -> Iterator[Job]:

@@ -7,6 +7,7 @@ import pygame
 from pigaming_app.games.factory.floor import BODY, Floor, SlotSpec
 from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHELVES, A
 from pigaming_app.scenes.crates import STATES, TEAMS, star, state_icon
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import BLACK, ICE, LINE, STEEL, THIN, WALL, Color, Ink, Page, cut, dim
 from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.scenes.views.ground import LEFT, TOP
@@ -19,7 +20,8 @@ Inks = tuple[Ink, Ink]  # what glows, and what does not
 
 
 @cached
-def bare(floor: Floor) -> pygame.Surface:
+@sliced
+def bare(floor: Floor) -> Steps[pygame.Surface]:
     """The whole canvas of a floor without what changes."""
     page = Page()
     for ink in (page.hot, page.cold):
@@ -27,20 +29,24 @@ def bare(floor: Floor) -> pygame.Surface:
     for x in range(50, int(WIDTH), 50):
         for y in range(50, int(HEIGHT), 50):
             page.cold.disc(x, y, 1.6, (26, 37, 54))
-    draw_floor((page.hot, page.cold), floor)
+    yield
+    yield from draw_floor((page.hot, page.cold), floor)
     for first in range(0, MACHINE_SLOTS, SHELVES):
         _beside((page.hot, page.cold), floor.slots[first : first + SHELVES])
     page.hot.line(cut(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
-    return page.done()
+    yield
+    return (yield from page.lighting())
 
 
-def draw_floor(inks: Inks, floor: Floor) -> None:
+def draw_floor(inks: Inks, floor: Floor) -> Steps[None]:
     """Aisle, warehouses and machines, in arena px."""
     _aisle(inks, floor.aisle)
     for first in range(0, MACHINE_SLOTS, SHELVES):
         _warehouse(inks, floor.slots[first : first + SHELVES])
+        yield
     for m, one in enumerate(floor.machines):
         _machine(inks, floor, m, one.kind, one.x, one.y)
+        yield
 
 
 def _aisle(inks: Inks, aisle: tuple[float, float, float, float]) -> None:

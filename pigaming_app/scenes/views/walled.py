@@ -1,10 +1,12 @@
 """The ground of PiTanks: frame, grid, the places on which robots begin, and walls, drawn again when they break."""
 
 import math
+from functools import partial
 from typing import Any
 
 import pygame
 
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import LINE, PLAYERS, PRE, WALL, Page, cut, dim, shape_points
 from pigaming_app.scenes.sprites import Sprite
 from pigaming_app.scenes.surface_cache import cached
@@ -19,10 +21,9 @@ class Walled(Ground):
     """The ground of a match with walls that break."""
 
     def __init__(self, state: Any, starts: Starts) -> None:
-        super().__init__(bare(starts))
+        super().__init__(partial(bare, starts))
         self.health: list[int] = [0] * state.wall_count
         self.sprites: list[Sprite | None] = [None] * state.wall_count
-        self.show_walls(state)
 
     def show_walls(self, state: Any) -> None:
         """Bake walls whose health has changed."""
@@ -58,17 +59,20 @@ def _box(one: Any, sprite: Sprite) -> pygame.Rect:
 
 
 @cached
-def bare(starts: Starts) -> pygame.Surface:
+@sliced
+def bare(starts: Starts) -> Steps[pygame.Surface]:
     """Grid, frame and the shapes on which robots begin."""
     page = Page()
     hot, cold = page.hot, page.cold
     _grid(page)
+    yield
     for seat, x, y in starts:
         pad = [(LEFT + x + py, TOP + y - px) for px, py in shape_points(seat, 40)]
         cold.line(pad, dim(PLAYERS[seat], 0.20), 3, True)
     hot.neon(cut(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
     cold.line(cut(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
-    return page.done()
+    yield
+    return (yield from page.lighting())
 
 
 def _grid(page: Page) -> None:

@@ -3,13 +3,12 @@
 Each job is one small piece of work: it makes one sprite, or finds it made.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 from pigaming_app.scenes import effects, tank
+from pigaming_app.scenes.frame_budget import Job
 from pigaming_app.scenes.sprites import HEADINGS
-
-Job = Callable[[], object]
 
 
 def driving(seats: Sequence[int]) -> Iterator[Job]:

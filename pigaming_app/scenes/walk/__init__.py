@@ -1,0 +1,1 @@
+"""A scripted walk through the whole arcade, for measuring it."""

@@ -1,0 +1,272 @@
+"""Where the walk through the arcade leads: every screen, in both languages."""
+
+from functools import partial
+from typing import Any, Protocol
+
+from pigaming_app.games import GAMES
+from pigaming_app.scenes.best import Best
+from pigaming_app.scenes.feats import contest
+from pigaming_app.scenes.stack import Push
+from pigaming_app.scenes.words import LANGUAGES
+from pigaming_app.sim.world import HZ
+
+MENU = 3  # spots of the title before those of its foot
+BRAINS = 5  # presses of F4 that go round all AIs of a match
+
+
+class Visitor(Protocol):
+    """Who walks; see walker.py."""
+
+    app: Any
+    house: Any
+
+    @property
+    def top(self) -> Any: ...
+
+    def on(self, kind: str) -> bool: ...
+
+    def at(self, screen: str) -> None: ...
+
+    def wait(self, seconds: float) -> None: ...
+
+    def until(self, true: Any) -> None: ...
+
+    def press(self, *keys: str, pause: float = 0.1) -> None: ...
+
+
+def tour(walker: Visitor) -> None:
+    """All of it. The second language sees the first arena of each game only."""
+    for language in LANGUAGES:
+        lessons(walker)
+        options(walker)
+        for game in GAMES:
+            play(walker, game, every_arena=language == LANGUAGES[0])
+        lab(walker)
+        home(walker)
+        walker.press("tab")
+    attract(walker)
+
+
+def home(walker: Visitor) -> None:
+    """Back to the title."""
+    for _ in range(12):
+        if walker.on("Title"):
+            break
+        walker.press("escape", pause=0.8)
+    walker.at("title")
+    walker.until(lambda: walker.on("Title"))
+    walker.wait(0.5)
+
+
+def choose(walker: Visitor, name: str) -> None:
+    """Put the focus of the title on something and open it."""
+    focus = walker.top.focus
+    for _ in range(20):
+        names = [spot.name for spot in focus.spots]
+        here, there = names.index(focus.name), names.index(name)
+        if here == there:
+            break
+        if (here < MENU) != (there < MENU):
+            walker.press("s" if here < MENU else "w", pause=0.0)
+        else:
+            walker.press("d" if here < there else "a", pause=0.0)
+    walker.press("space")
+
+
+def lessons(walker: Visitor) -> None:
+    """How to play each game."""
+    walker.at("how to play")
+    choose(walker, "howto")
+    for _ in GAMES:
+        walker.wait(5.0)
+        walker.press("d")
+    home(walker)
+
+
+def options(walker: Visitor) -> None:
+    """The options, each row, and the pages below them."""
+    walker.at("options")
+    choose(walker, "options")
+    walker.wait(0.5)
+    for name in [*walker.top.rows]:
+        if name in ("padtest", "robots"):
+            walker.at(f"options: {name}")
+            walker.press("space", pause=1.0)
+            if name == "robots":
+                robots(walker)
+            walker.press("escape")
+        elif name not in ("display", "fullscreen"):
+            walker.press("d", "a")
+        walker.at("options")
+        walker.press("s")
+    home(walker)
+
+
+def robots(walker: Visitor) -> None:
+    """The pages of real robots, as far as they go without any."""
+    for spot in [*walker.top.focus.spots]:
+        walker.at(f"robots: {spot.name}")
+        walker.press("space", pause=1.5)
+        if not walker.on("RobotsMenu"):
+            walker.press("d", "s", "space", pause=0.3)
+        for _ in range(6):
+            if not walker.on("RobotsMenu"):
+                walker.press("escape", pause=0.5)
+        walker.at("options: robots")
+        walker.press("s")
+
+
+def play(walker: Visitor, game: str, every_arena: bool) -> None:
+    """From the lobby to the rematch."""
+    lobby(walker, game)
+    walker.at(f"{game}: setup")
+    walker.until(lambda: walker.on("SetupPage"))
+    walker.wait(0.3)
+    for _ in walker.top.arenas:
+        walker.press("d", pause=0.4)
+    walker.press("s", "d", "d", "a", "s", "d", "a", "w", "w", "w")
+    walker.press(*["a"] * len(walker.top.arenas), pause=0.0)
+    match(walker, game)
+    results(walker, game)
+    for _ in walker.top.arenas[1:] if every_arena else ():
+        walker.at(f"{game}: setup")
+        walker.wait(0.5)
+        walker.press("d", pause=0.5)
+        begin(walker, game)
+        walker.wait(4.5)
+        leave(walker, game)
+        walker.press("x", pause=0.5)
+    home(walker)
+
+
+def lobby(walker: Visitor, game: str) -> None:
+    """A person joins, AIs come and go, teams are formed; then the person is ready."""
+    walker.at(f"{game}: lobby")
+    choose(walker, game)
+    walker.until(lambda: walker.on("Lobby"))
+    walker.wait(0.5)
+    walker.press("space", *["tab"] * 6, "x", "d", "a", "x")
+    walker.wait(3.0)
+    walker.press("d", "a")
+    walker.wait(1.0)
+    walker.press("space")
+
+
+def begin(walker: Visitor, game: str) -> None:
+    """Begin the match that was chosen."""
+    walker.at(f"{game}: match")
+    walker.press("return")
+    walker.until(lambda: walker.on("MatchScene"))
+
+
+def match(walker: Visitor, game: str) -> None:
+    """A match with its overlay and its pause, to the end of its time, which is brought near."""
+    begin(walker, game)
+    walker.wait(6.0)
+    walker.at(f"{game}: match with F4")
+    for _ in range(BRAINS):
+        walker.press("f4", pause=1.0)
+    walker.at(f"{game}: pause")
+    walker.press("return", pause=0.5)
+    walker.press("s", "s")
+    walker.at(f"{game}: pause, controls")
+    walker.press("space", pause=0.5)
+    walker.press("escape", pause=0.3)
+    walker.at(f"{game}: match")
+    walker.press("escape", pause=5.0)
+    state = walker.top.match.state
+    state.robots[0].score = 3
+    state.rules.ticks = min(state.rules.ticks, state.tick + 2 * HZ)
+    walker.until(lambda: walker.on("Results") or walker.on("Initials"))
+
+
+def results(walker: Visitor, game: str) -> None:
+    """The results, initials where they are asked for, the tables, a rematch that is ended at once."""
+    walker.at(f"{game}: results")
+    walker.wait(4.0)
+    if walker.on("Initials"):
+        walker.at(f"{game}: initials")
+        walker.press("w", "space", "s", "space", "space", "return", pause=0.3)
+        walker.wait(2.0)
+        if walker.on("Best"):
+            walker.press("escape", pause=0.5)
+    walker.at(f"{game}: best scores")
+    walker.app.stack.turn(Push(Best(walker.house, contest(walker.top.setup))))
+    walker.wait(3.0)
+    walker.press("d", "s", "escape", pause=0.5)
+    walker.at(f"{game}: rematch")
+    walker.until(lambda: walker.on("Results"))
+    walker.wait(6.0)
+    walker.press("return")
+    walker.until(lambda: walker.on("MatchScene"))
+    walker.wait(2.0)
+    leave(walker, game)
+    walker.press("x", pause=0.5)
+    walker.until(lambda: walker.on("SetupPage"))
+
+
+def leave(walker: Visitor, game: str) -> None:
+    """End a match by hand."""
+    walker.at(f"{game}: pause")
+    walker.press("return", pause=0.5)
+    walker.press("w", pause=0.3)
+    walker.at(f"{game}: results")
+    for _ in range(4):
+        if walker.on("Pause"):
+            walker.press("space", pause=0.5)
+    walker.until(lambda: walker.on("Results"))
+    walker.wait(7.0)
+
+
+def lab(walker: Visitor) -> None:
+    """The Lab, its menu and the pages of that, a match against the robot."""
+    walker.at("Lab")
+    choose(walker, "lab")
+    walker.wait(3.0)
+    walker.press("tab", "tab", "d", "s", "space", "d", "d", "space")
+    walker.wait(3.0)
+    for item, name in enumerate(("save", "open", "compare")):
+        walker.at("Lab: menu")
+        walker.press("return", pause=0.5)
+        walker.press(*["s"] * item)
+        walker.at(f"Lab: {name}")
+        walker.press("space", pause=2.0)
+        walker.press("w", "d", *(["return"] if name == "save" else []))
+        for _ in range(8):
+            if not walker.on("Lab"):
+                walker.press("escape", pause=0.3)
+        walker.at("Lab")
+        walker.wait(0.5)
+    walker.at("Lab: match")
+    walker.press("x")
+    walker.until(lambda: walker.on("Fight"))
+    walker.wait(5.0)
+    state = walker.top.inner.match.state
+    state.rules.ticks = state.tick + HZ
+    walker.until(lambda: walker.on("Verdict"))
+    walker.wait(2.0)
+    walker.press("escape", pause=1.0)
+    walker.at("Lab")
+    walker.until(lambda: walker.on("Lab"))
+    walker.wait(1.0)
+    home(walker)
+
+
+def attract(walker: Visitor) -> None:
+    """A round of shows for every game."""
+    walker.house.settings.attract_seconds = 5.0
+    walker.at("attract mode")
+    walker.until(lambda: walker.on("Attract"))
+    for _ in range(3 * len(GAMES)):
+        show = walker.top.show
+        walker.wait(4.0)
+        if hasattr(show, "stage"):
+            state = show.stage.match.state
+            state.rules.ticks = min(state.rules.ticks, state.tick + HZ)
+        walker.until(partial(other_show, walker, show))
+    home(walker)
+
+
+def other_show(walker: Visitor, show: object) -> bool:
+    """Whether attract mode has come to another show."""
+    return walker.top.show is not show

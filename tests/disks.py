@@ -1,0 +1,48 @@
+"""Disks that fill up, without any privileges: a limit of the size of files, and system calls that fail in turn."""
+
+import contextlib
+import errno
+import os
+from unittest import mock
+
+STEPS = ("open", "fsync", "chmod", "replace", "rename", "mkdir")
+
+
+@contextlib.contextmanager
+def room_for(size):
+    """No file can grow beyond so many bytes meanwhile, as on a disk that is full."""
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+@contextlib.contextmanager
+def failing_at(step):
+    """The system call number `step` (from 0) that changes a disk fails meanwhile; yields the names of those made."""
+    made = []
+
+    def failing(name, call):
+        def one(*args, **options):
+            if name == "open" and not args[1] & os.O_CREAT and os.path.isfile(args[0]):
+                return call(*args, **options)  # a file is read
+            made.append(name)
+            if len(made) == step + 1:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            return call(*args, **options)
+
+        return one
+
+    with contextlib.ExitStack() as patches:
+        for name in STEPS:
+            patches.enter_context(mock.patch.object(os, name, failing(name, getattr(os, name))))
+        yield made
+
+
+def content(folder):
+    """The bytes of every file below a folder, by its path."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}

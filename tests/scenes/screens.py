@@ -1,0 +1,140 @@
+"""Every screen outside the mat with the longest values it can show, ready to be painted."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from pigaming_app.ai import RIVALS
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.scenes.best import Best
+from pigaming_app.scenes.devices import DeviceTable
+from pigaming_app.scenes.howto import HowTo
+from pigaming_app.scenes.lobby import Lobby
+from pigaming_app.scenes.match import MatchScene
+from pigaming_app.scenes.options import OptionsPage
+from pigaming_app.scenes.padtest import PadTest
+from pigaming_app.scenes.pause import Pause
+from pigaming_app.scenes.press import Act, Device, Press
+from pigaming_app.scenes.reconnect import Reconnect, StillThere
+from pigaming_app.scenes.results import Results
+from pigaming_app.scenes.robots_menu import RobotsMenu
+from pigaming_app.scenes.seats import Seats
+from pigaming_app.scenes.setup import SetupPage
+from pigaming_app.scenes.stack import Scene
+from pigaming_app.scenes.title import Title
+from tests.scenes.arcade import KEYS, Arcade
+
+FACTS = {
+    "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
+    "factory": {"delivered": 9, "steps": 18, "bumps": 112},
+    "race": {"laps": 9, "best": 75.12, "total": 599.99},
+}
+TEAMS = (0, 1, 0, 1)
+ALONE = (0, 1, 2, 3)
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a match ended: who drove, for which teams, with which points, and who won."""
+
+    game: str
+    brains: str
+    teams: tuple[int, ...]
+    scores: Sequence[int]
+    winners: tuple[int, ...]
+
+    def results(self, arcade: Arcade, finished: bool = True) -> Results:
+        seats = [Seat(brain, team) for brain, team in zip(self.brains.split(), self.teams, strict=True)]
+        one, two, three, four = seats
+        game = GAMES[self.game]
+        goal = max(game.goals, default=0)
+        arena = max(arenas(self.game), key=len)
+        setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, game.variants[-1], goal)
+        devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
+        scene = Results(arcade.house, self.outcome(), setup, devices, MatchScene, finished)
+        scene.age = 9.0
+        return scene
+
+    def outcome(self) -> Outcome:
+        sums = {team: sum(s for s, t in zip(self.scores, self.teams, strict=True) if t == team) for team in self.teams}
+        order = sorted(range(4), key=lambda seat: (-sums[self.teams[seat]], self.teams[seat], -self.scores[seat]))
+        rows = []
+        for seat in order:
+            place = 1 + sum(sums[self.teams[other]] > sums[self.teams[seat]] for other in order)
+            facts = FACTS[self.game]
+            rows.append(Row(seat, self.teams[seat], place, self.scores[seat], facts, {}, (75.12, 80.0)))
+        series = tuple(((0.0, 0), (20.0, score)) for score in self.scores)
+        return Outcome(tuple(rows), self.winners, series, 300.0)
+
+
+ENDINGS = {
+    "alone": Ending("pitanks", "human human hard human", ALONE, (-100, -33, 999, 5), (2,)),
+    "in teams": Ending("pitanks", "human human q2 human", TEAMS, (-100, -133, 999, -105), (0, 2)),
+    "tie": Ending("pitanks", "human human human human", ALONE, (-10, -10, -10, -10), ()),
+    "factory": Ending("factory", "human human hard normal", TEAMS, (2, 8, 1, 1), (1, 3)),
+    "race": Ending("race", "human easy normal hard", ALONE, (9, 9, 9, 5), (0,)),
+}
+
+
+def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
+    def opened(arcade: Arcade) -> Scene:
+        scene = Lobby(arcade.house, game)
+        for device in KEYS[:people]:
+            scene.on(Press(Act.FIRE, device))
+        for _ in range(ais):
+            scene.on(Press(Act.ALT, KEYS[0]))
+        return scene
+
+    return opened
+
+
+def seats(game: str) -> Seats:
+    found = Seats(sides=GAMES[game].sides, rivals=RIVALS[game])
+    for device in KEYS[:2]:
+        found.join(device)
+    found.add()
+    found.add()
+    return found
+
+
+def match(arcade: Arcade) -> MatchScene:
+    one, two, three, four = (Seat("human", i) for i in range(4))
+    setup = Setup("pitanks", "classic", (one, two, three, four), 2.0, 3, "plain")
+    return MatchScene(arcade.house, setup, [*KEYS[:3], Device("pad", 77)])
+
+
+def best(game: str) -> Callable[[Arcade], Scene]:
+    def opened(arcade: Arcade) -> Scene:
+        scene = Best(arcade.house, game, max(arenas(game), key=len), max(GAMES[game].goals, default=0))
+        scene.age = 9.0
+        return scene
+
+    return opened
+
+
+def lesson(game: str) -> Callable[[Arcade], Scene]:
+    return lambda arcade: HowTo(arcade.house, game)
+
+
+def choice(game: str) -> Callable[[Arcade], Scene]:
+    return lambda arcade: SetupPage(arcade.house, game, seats(game))
+
+
+SCREENS: dict[str, Callable[[Arcade], Scene]] = {
+    "title": lambda arcade: Title(arcade.house),
+    "options": lambda arcade: OptionsPage(arcade.house),
+    "operator": lambda arcade: OptionsPage(arcade.house, operator=True),
+    "robots menu": lambda arcade: RobotsMenu(arcade.house),
+    "pad test": lambda arcade: PadTest(arcade.house),
+    "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
+    "reconnect": lambda arcade: Reconnect(match(arcade), 3),
+    "still there": lambda arcade: StillThere(match(arcade)),
+    "devices": lambda arcade: DeviceTable(arcade.house, KEYS),
+    **{f"how to play {game}": lesson(game) for game in GAMES},
+    **{f"setup {game}": choice(game) for game in GAMES},
+    **{f"lobby {game}": lobby(game, 0, 0) for game in GAMES},
+    **{f"full lobby {game}": lobby(game, 3, 1) for game in GAMES},
+    **{f"best {game}": best(game) for game in GAMES},
+    **{f"results {name}": ending.results for name, ending in ENDINGS.items()},
+}

@@ -1,0 +1,47 @@
+"""No text of any screen touches another one, crosses a frame or leaves the picture: both languages, longest values."""
+
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.scenes.canvas import Canvas
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.words import LANGUAGES
+from pigaming_app.settings import Settings
+from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.measuring import faults, measuring
+from tests.scenes.screens import SCREENS
+
+LISTS = ("options", "operator", "robots menu", "setup")  # each of their rows is looked at
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls)
+    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    return arcade
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", SCREENS)
+def test_texts_keep_off_each_other_and_off_frames(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, name: str, language: str
+) -> None:
+    arcade.house.words.switch(language)
+    with measuring(monkeypatch) as screen:
+        scene = SCREENS[name](arcade)
+        for _ in range(12 if name.startswith(LISTS) else 1):
+            scene.update(0.4)
+            screen.marks.clear()
+            scene.draw(screen)
+            assert len(screen.texts) > 5, "it is measured"
+            assert meant(name, faults(screen)) == []
+            scene.on(Press(Act.DOWN, KEYS[0]))
+
+
+def meant(name: str, found: list[str]) -> list[str]:
+    """Without the numbers of the lessons, which lie in discs on the frames."""
+    numbers = {f"'{number}' crosses its frame" for number in range(1, 5)} if name.startswith("how to") else set()
+    return [fault for fault in found if fault not in numbers]

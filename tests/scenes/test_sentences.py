@@ -1,0 +1,163 @@
+"""Sentences that are put together: who wins, how many laps, what the rules limit, who drives."""
+
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.scenes import card
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.headline import headline, winning_color
+from pigaming_app.scenes.howto import HowTo
+from pigaming_app.scenes.ink import PLAYERS
+from pigaming_app.scenes.limits import limits, numbers, tagline
+from pigaming_app.scenes.match import MatchScene
+from pigaming_app.scenes.page import LEVELS
+from pigaming_app.scenes.setup import SetupPage
+from pigaming_app.scenes.title import Title
+from pigaming_app.scenes.words import LANGUAGES, Words
+from pigaming_app.sim.world import DT
+from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.measuring import measuring
+from tests.scenes.screens import seats
+
+ALONE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
+
+
+def ended(game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ...]) -> tuple[Outcome, Setup]:
+    """A match of two minutes that ended so."""
+    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
+    setup = Setup(game, "classic", (one, two, three, four), 2.0, 1, GAMES[game].variants[0], GAMES[game].default_goal)
+    there = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
+    rows = tuple(Row(i, teams[i], 1, 3, {}, {}, ()) for i in there)
+    return Outcome(rows, winners, ((), (), (), ()), 120.0), setup
+
+
+WHO_WINS = [
+    ("pitanks", "human human hard off", ALONE, (1,), "Player 2 wins!", "Jogador 2 ganha!"),
+    ("pitanks", "human human hard off", ALONE, (2,), "AI 3 (hard) wins!", "Computador 3 (difícil) ganha!"),
+    ("pitanks", "human q2 off off", ALONE, (1,), "AI 2 (self-taught 2) wins!", "Computador 2 (autodidata 2) ganha!"),
+    ("pitanks", "human fsm off off", ALONE, (1,), "AI 2 (fsm) wins!", "Computador 2 (fsm) ganha!"),
+    ("pitanks", "human human human easy", PAIRS, (0, 2), "Team 1 wins!", "Equipa 1 ganha!"),
+    ("pitanks", "human human human human", (0, 1, 1, 1), (1, 2, 3), "Team 2 wins!", "Equipa 2 ganha!"),
+    ("factory", "human normal human hard", PAIRS, (0, 2), "Ice wins!", "Gelo ganha!"),
+    ("factory", "human human hard normal", PAIRS, (1, 3), "Fire wins!", "Fogo ganha!"),
+    ("factory", "human hard off off", PAIRS, (1,), "Fire wins!", "Fogo ganha!"),
+    ("race", "human easy off off", ALONE, (1,), "AI 2 (easy) wins!", "Computador 2 (fácil) ganha!"),
+    ("race", "human human off off", ALONE, (), "It's a tie!", "Empate!"),
+]
+
+
+@pytest.mark.parametrize(("game", "brains", "teams", "winners", "english", "portuguese"), WHO_WINS)
+def test_a_winner_is_called_what_it_is(
+    game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ...], english: str, portuguese: str
+) -> None:
+    outcome, setup = ended(game, brains, teams, winners)
+    assert headline(Words("en"), outcome, setup) == english
+    assert headline(Words("pt"), outcome, setup) == portuguese
+
+
+def test_an_ai_that_drove_on_for_somebody_is_called_one() -> None:
+    outcome, setup = ended("race", "human human off off", ALONE, (1,))
+    assert headline(Words("en"), outcome, setup, [1]) == "The AI for player 2 wins!"
+    assert headline(Words("en"), outcome, setup, [0]) == "Player 2 wins!"
+
+
+def test_the_line_of_a_team_has_the_teams_colour() -> None:
+    fire = winning_color(*ended("factory", "human human hard normal", PAIRS, (1, 3)))
+    assert fire[0] > fire[2], "fire is warm"
+    ice = winning_color(*ended("factory", "human human hard normal", PAIRS, (0, 2)))
+    assert ice[2] > ice[0], "ice is cold"
+    assert winning_color(*ended("race", "human human off off", ALONE, (1,))) == PLAYERS[1]
+
+
+def test_the_race_says_how_many_laps_it_has(
+    controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    assert tagline(Words("en"), "race", 3) == "3 laps. Go!"
+    assert tagline(Words("en"), "race", 1) == "1 lap. Go!"
+    assert tagline(Words("pt"), "race", 5) == "5 voltas. Partida!"
+    assert tagline(Words("pt"), "race", 1) == "1 volta. Partida!"
+    arcade = Arcade(controls)
+    arcade.house.settings.choice("race").goal = 7
+    one, two, three, four = (Seat("human", i) for i in range(4))
+    setup = Setup("race", "classic", (one, two, three, four), 10.0, 1, "standard", 7)
+    for scene in (Title(arcade.house), MatchScene(arcade.house, setup, KEYS)):
+        with measuring(monkeypatch) as screen:
+            scene.draw(screen)
+            assert "7 laps. Go!" in " ".join(mark.text for mark in screen.texts)
+
+
+def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
+    assert numbers("pitanks", 2, "plain") == {
+        "minutes": "2", "protection": "0.75", "patience": "0", "turbo": "2", "refill": "4"
+    }  # fmt: skip
+    assert numbers("race", 10, "standard")["patience"] == "30"
+    for game in GAMES:
+        drain = 1.0 / (float(numbers(game, 5, GAMES[game].variants[0])["turbo"]) / DT)
+        assert drain == pytest.approx(0.01), "of the meter, per tick"
+
+
+def test_the_lessons_say_what_limits_a_match() -> None:
+    english, portuguese = Words("en"), Words("pt")
+    assert "0.75 s of protection" in limits(english, "pitanks", 2)
+    assert "0,75 s" in limits(portuguese, "pitanks", 2)
+    assert "Time limit: 5 min." in limits(english, "factory", 5)
+    assert "Time limit: 10 min, 30 s after the winner." in limits(english, "race", 10)
+    assert "10 min; 30 s" in limits(portuguese, "race", 10)
+    for game in GAMES:
+        assert "Turbo lasts 2 s and refills in 4 s." in limits(english, game, 5)
+        assert "O turbo dura 2 s e enche em 4 s." in limits(portuguese, game, 5)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_page_of_a_game_shows_its_limits(
+    controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    arcade = Arcade(controls, language)
+    arcade.house.settings.choice("factory").minutes = 8
+    with measuring(monkeypatch) as screen:
+        HowTo(arcade.house, "factory").draw(screen)
+        shown = [mark.text for mark in screen.texts]
+    assert limits(arcade.house.words, "factory", 8) in shown
+    assert any("8 min" in text for text in shown)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_sentences_about_the_rules_are_not_cut_off(
+    controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls, language)
+    words = arcade.house.words
+    for variant in GAMES["pitanks"].variants:
+        arcade.house.settings.choice("pitanks").variant = variant
+        with measuring(monkeypatch) as screen:
+            SetupPage(arcade.house, "pitanks", seats("pitanks")).draw(screen)
+            shown = " ".join(mark.text for mark in screen.texts)
+        assert words(f"setup.{variant}_line") in shown
+
+
+def test_the_button_follows_the_question(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:
+    arcade = Arcade(controls)
+    with measuring(monkeypatch) as screen:
+        card.asked("SPACE", arcade.house.words("lobby.if_ready"), LEVELS).draw(screen, 200, 200)
+        ready, space = sorted(screen.texts, key=lambda mark: mark.box[0])
+    assert (ready.text, space.text) == ("Ready?", "SPACE")
+
+
+SENTENCES = {
+    "results.high_score": ("New record!", "Novo recorde!"),
+    "results.hits": ("Hits", "Acertos"),
+    "results.taken": ("Taken", "Sofridos"),
+    "match.back_in": ("An AI drives. FIRE takes the seat back", "O computador conduz. FOGO retoma o lugar"),
+    "lobby.hint_add": ("Add AI", "Pôr computador"),
+    "pause.hint_ai": ("Let an AI drive", "Pôr computador"),
+}
+
+
+@pytest.mark.parametrize("key", SENTENCES)
+def test_these_sentences_stand_so(key: str) -> None:
+    assert (Words("en")(key), Words("pt")(key)) == SENTENCES[key]

@@ -1,0 +1,297 @@
+"""Readers of files: whatever stands in one, it is used, or refused in one line; nothing else ever happens."""
+
+import json
+import os
+import random
+import tomllib
+import zipfile
+import zlib
+from dataclasses import asdict
+from functools import partial
+from io import BytesIO
+
+import numpy as np
+import pytest
+
+from pigaming_app import ASSETS
+from pigaming_app.ai import seated, tables
+from pigaming_app.ai.tables import TableError
+from pigaming_app.games import arenas, replay
+from pigaming_app.games.arenas import load as load_arena
+from pigaming_app.games.choices import choose
+from pigaming_app.games.replay import ReplayError
+from pigaming_app.hardware import ground, runs
+from pigaming_app.hardware.assembly import ground_of, measured
+from pigaming_app.hardware.fidelity import TooShort, measure
+from pigaming_app.hardware.fidelity import replay as replay_run
+from pigaming_app.hardware.ground import NoGround
+from pigaming_app.hardware.runs import RunError
+from pigaming_app.parsing import LINE
+from pigaming_app.scenes import ghosts
+from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, tell
+from tests.hostile import HUGE, mutated, toml
+
+BYTES = (
+    b"", b"\0" * 1000, b"\xff\xfe\x00", b"\xef\xbb\xbf", b"[" * 5000, b'{"a":' * 5000, b"a." * 5000 + b"a = 1",
+    b"a = " + b"9" * 5000, b'{"a": ' + b"9" * 5000 + b"}", b"1" * 400, b"null", b"\n" * 1000,
+    b"PK\x03\x04" + b"\0" * 50,
+)  # fmt: skip
+
+
+def refused_or_used(read, errors):
+    """Whether a file was used; otherwise it was refused with one of these errors, in one line."""
+    try:
+        read()
+    except errors as error:
+        line = str(error)
+    else:
+        return True
+    assert line.isprintable()
+    assert 0 < len(line) <= 2 * LINE
+    return False
+
+
+def arena_files():
+    return [pytest.param(game, id=game) for game in ("pitanks", "factory", "race")]
+
+
+@pytest.mark.parametrize("game", arena_files())
+def test_arenas(game, tmp_path):
+    name = arenas.arenas(game)[0]
+    tree = tomllib.loads((ASSETS / "arenas" / game / f"{name}.toml").read_text(encoding="utf-8"))
+    some = random.Random(1).sample(list(mutated(tree)), 300)
+    used = [refused_or_used(partial(arenas.parse, game, toml(one), "a.toml"), ArenaError) for one in some]
+    assert any(used)
+    assert used.count(False) > len(used) / 2
+
+
+def robots_tree():
+    return tomllib.loads(tell([NOMINAL, NOMINAL]))
+
+
+def test_robots():
+    for one in mutated(robots_tree()):
+        refused_or_used(partial(parse, toml(one), "robots.toml"), DrivetrainError)
+
+
+@pytest.mark.filterwarnings("error")
+def test_calibrations(tmp_path):
+    tree = tomllib.loads(ground.written(ground.nominal()))
+    tree.pop("check")
+    path = tmp_path / "calibration.toml"
+    used = 0
+    for one in mutated(tree):
+        kept = tomllib.loads(toml(one))
+        path.write_text(toml({**one, "check": ground._check(kept)}), encoding="utf-8")
+        with np.errstate(all="raise", under="ignore"):
+            used += refused_or_used(lambda: ground_of(path).fixes([], 0.0), NoGround)
+    assert used > 50
+
+
+def run_lines(count):
+    """A run in which one robot is told and seen so many times."""
+    lines = [{"kind": "head", "format": runs.FORMAT, "mm": 1.3, "emulated": True}]
+    chance = random.Random(3)
+    for i in range(count):
+        wheels = [chance.uniform(-0.3, 0.3), chance.uniform(-0.3, 0.3)]
+        lines.append({"kind": "sent", "time": 0.0625 * i, "seq": i + 1, "wheels": [wheels, None, None, None]})
+        fixes = [[0, 300.0 + i % 200, 200.0 + i % 50, 0.01 * i]]
+        lines.append({"kind": "seen", "captured": 0.0625 * i, "time": 0.0625 * i + 0.05, "fixes": fixes})
+        lines.append({"kind": "pose", "time": 0.0625 * i, "poses": [[300.0, 200.0, 0.0]] * 4})
+    return lines
+
+
+def test_runs(tmp_path):
+    lines, path = run_lines(50), tmp_path / "run.jsonl"
+    packed = [json.dumps(line) for line in lines]
+    used = 0
+    for number in (0, 1, 2, 3):
+        for one in random.Random(number).sample(list(mutated(lines[number])), 80):
+            changed = [*packed[:number], json.dumps(one), *packed[number + 1 :]]
+            path.write_text("\n".join(changed))
+            used += refused_or_used(lambda: runs.load(path), RunError)
+    assert used > 20
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        {"kind": "sent", "time": 1.0, "seq": 1, "wheels": []},
+        {"kind": "sent", "time": 1.0, "seq": 1, "wheels": [[], [], [], []]},
+        {"kind": "seen", "captured": 1.0, "time": 1.0, "fixes": [[-1, 1.0, 1.0, 1.0]]},
+        {"kind": "seen", "captured": 1.0, "time": 1.0, "fixes": [[4, 1.0, 1.0, 1.0]]},
+        {"kind": "seen", "captured": 1.0, "time": 1.0, "fixes": [[True, 1.0, 1.0, 1.0]]},
+        {"kind": "seen", "captured": HUGE, "time": 1.0, "fixes": [[0, 1.0, 1.0, 1.0]]},
+        {"kind": "seen", "captured": 1e9, "time": 1.0, "fixes": [[0, 1.0, 1.0, 1.0]]},
+    ],
+    ids=str,
+)
+def test_a_run_with_a_line_that_no_robot_drives_is_refused(tmp_path, line):
+    path = tmp_path / "run.jsonl"
+    path.write_text("\n".join(json.dumps(one) for one in (*run_lines(50), line, run_lines(1)[1])))
+    with pytest.raises(RunError):
+        runs.load(path)
+
+
+def test_what_is_accepted_as_a_run_is_measured_and_replayed(tmp_path):
+    path, chance = tmp_path / "run.jsonl", random.Random(5)
+    lines = run_lines(400)
+    extremes = ([0, -1e5, 1e5, 1e5], [0, 1e5, -1e5, -1e5], [3, 0, 0, 0])
+    for _ in range(3):
+        for number in chance.sample(range(len(lines)), 30):
+            if lines[number]["kind"] == "seen":
+                lines[number]["fixes"] = [chance.choice(extremes)]
+            elif lines[number]["kind"] == "sent":
+                lines[number]["wheels"] = [[2, -2], [0, -0.0], None, None]
+                lines[number]["time"] = chance.uniform(-100.0, 100.0)
+        path.write_text("\n".join(map(json.dumps, lines)))
+        run = runs.load(path)
+        refused_or_used(lambda run=run: measure(run), TooShort)
+        replay_run(run, [NOMINAL] * 4)
+
+
+def test_ghosts(tmp_path, caplog):
+    arena = load_arena("race", arenas.arenas("race")[0])
+    ghost = ghosts.Ghost(0, 1.5, (0.0, 0.3, 0.6, 0.9), ((1.0, 2.0, 3.0),) * 16)
+    tree = json.loads(json.dumps({"engine": "x", **asdict(ghost)}))
+    used = 0
+    for one in mutated(tree):
+        text = json.dumps(one)
+        if refused_or_used(lambda text=text: ghosts._parsed(text), ValueError):
+            _, found = ghosts._parsed(text)
+            assert all(found.pose(0, 0.1 * i) for i in range(15))
+            assert 0.0 < found.since(1, 2) < found.seconds
+            used += 1
+    assert used > 10
+    path = ghosts.file_of(tmp_path, arena)
+    path.parent.mkdir()
+    for raw in BYTES:
+        path.write_bytes(raw)
+        assert ghosts.call(tmp_path, arena) == (None, "lost")
+
+
+def packed_replay(path):
+    match = seated(choose("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
+    while not match.over:
+        match.tick()
+    replay.save(match, path)
+    line, _, packed = path.read_bytes().partition(b"\n")
+    return json.loads(line), packed
+
+
+def forged(head, packed):
+    """A replay that was edited by somebody who knows the check."""
+    head = json.loads(json.dumps(head))
+    known = dict(head, check=replay._check(head, packed)) if isinstance(head, dict) else head
+    return json.dumps(known).encode() + b"\n" + packed
+
+
+def test_replays(tmp_path):
+    path = tmp_path / "a.replay"
+    head, packed = packed_replay(path)
+    used = 0
+    for one in mutated(head):
+        path.write_bytes(forged(one, packed))
+        used += refused_or_used(lambda: replay.load(path), ReplayError)
+    assert used > 20
+
+
+def test_a_forged_replay_plays_to_its_end(tmp_path):
+    path, chance = tmp_path / "a.replay", random.Random(6)
+    head, packed = packed_replay(path)
+    for _ in range(4):
+        noise = zlib.compress(chance.randbytes(len(zlib.decompress(packed))))
+        path.write_bytes(forged(head, noise))
+        assert replay.verify(replay.load(path)) is False
+
+
+def test_a_bomb_of_ticks_is_refused(tmp_path):
+    path = tmp_path / "a.replay"
+    head, _ = packed_replay(path)
+    path.write_bytes(forged(head, zlib.compress(bytes(100_000_000), 9)))
+    assert not refused_or_used(lambda: replay.load(path), ReplayError)
+
+
+def forged_table(head, q, n, check=True):
+    packed = BytesIO()
+    known = {**head, "check": tables._check(head, q, n)} if check and isinstance(head, dict) else head
+    np.savez_compressed(packed, head=np.array(json.dumps(known)), q=q, n=n)
+    return packed.getvalue()
+
+
+def test_tables(tmp_path):
+    shipped, path = ASSETS / "brains" / "q1.npz", tmp_path / "a.npz"
+    with np.load(shipped) as file:
+        head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
+    used = 0
+    values = [None, True, -1, HUGE, 2**63, 1e308, float("nan"), "", "\n" * 300, [], {}]
+    for one in random.Random(2).sample(list(mutated(head, values)), 60):
+        path.write_bytes(forged_table(json.loads(json.dumps(one)), q, n))
+        used += refused_or_used(lambda: tables.load(path), TableError)
+    assert 1 < used < 30
+    for wrong in (q * np.nan, q[:5], q.astype("<f4"), q.reshape(2, -1), q.astype(object)):
+        packed = BytesIO()
+        np.savez_compressed(packed, head=np.array(json.dumps(head)), q=wrong, n=n)
+        path.write_bytes(packed.getvalue())
+        assert not refused_or_used(lambda: tables.load(path), TableError)
+
+
+NPY = (
+    "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000,), }",
+    "{'descr': '<f8', 'fortran_order': False, 'shape': (-1,), }",
+    "{'descr': '|O', 'fortran_order': False, 'shape': (10,), }",
+    "{'descr': '<f8', 'fortran_order': False, 'shape': (10L,), }",
+    "{'descr': [('', '<f8')], 'fortran_order': False, 'shape': (10,), }",
+    "(" * 5000,
+    "{'descr': '<f8', 'fortran_order': False, 'shape': (" + "9" * 5000 + ",), }",
+)
+
+
+@pytest.mark.parametrize("header", NPY, ids=lambda header: header[:60])
+def test_a_table_with_a_hostile_header_is_refused(tmp_path, header):
+    raw = header.encode().ljust(len(header) + 63 - (len(header) + 10) % 64) + b"\n"
+    array = b"\x93NUMPY\x01\x00" + len(raw).to_bytes(2, "little") + raw + bytes(80)
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        for part in ("head", "q", "n"):
+            archive.writestr(f"{part}.npy", array)
+    assert not refused_or_used(lambda: tables.load(tmp_path / "a.npz"), TableError)
+
+
+READERS = {
+    "arena.toml": (lambda path: load_arena("pitanks", str(path)), ArenaError),
+    "robots.toml": (measured, DrivetrainError),
+    "calibration.toml": (ground_of, NoGround),
+    "run.jsonl": (runs.load, RunError),
+    "a.replay": (replay.load, ReplayError),
+    "a.npz": (tables.load, TableError),
+}
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_bytes_that_are_no_such_file_are_refused(tmp_path, name):
+    read, error = READERS[name]
+    for raw in BYTES:
+        (tmp_path / name).write_bytes(raw)
+        assert not refused_or_used(lambda: read(tmp_path / name), error)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="devices and pipes are files on POSIX only")
+@pytest.mark.parametrize("name", READERS)
+@pytest.mark.parametrize("kind", ["endless", "pipe", "folder", "loop", "huge"])
+def test_what_is_no_regular_file_is_refused_at_once(tmp_path, name, kind):
+    read, error = READERS[name]
+    path = tmp_path / name
+    match kind:
+        case "endless":
+            path.symlink_to("/dev/zero")
+        case "pipe":
+            os.mkfifo(path)
+        case "folder":
+            path.mkdir()
+        case "loop":
+            path.symlink_to(path)
+        case "huge":
+            path.touch()
+            os.truncate(path, 10**12)  # sparse
+    assert not refused_or_used(lambda: read(path), error)
