@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from pigaming_app import ASSETS
-from pigaming_app.parsing import one_line
+from pigaming_app.parsing import json_of, one_line
 from pigaming_app.scores import migrations
 from pigaming_app.settings import folders
 from pigaming_app.start import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
@@ -171,8 +171,12 @@ def _probed() -> dict[str, tuple[str, str]]:
         ).stdout
     except subprocess.TimeoutExpired as stopped:
         said = stopped.stdout or b""
-    answers = (json.loads(line) for line in said.decode().splitlines() if line.endswith("]"))
-    return {name: (found, wrong) for name, found, wrong in answers}
+    answers: dict[str, tuple[str, str]] = {}
+    for line in said.decode(errors="replace").splitlines():
+        with contextlib.suppress(ValueError):  # a driver may print as well
+            name, found, wrong = json_of(line)
+            answers[str(name)] = str(found), str(wrong)
+    return answers
 
 
 def _engine() -> Line:

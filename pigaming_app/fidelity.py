@@ -6,6 +6,7 @@ run again in the simulator.
 """
 
 import json
+import os
 from argparse import Namespace
 from dataclasses import asdict
 from math import isfinite
@@ -147,7 +148,7 @@ def replay(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.sim.drivetrain import DrivetrainError
 
     run = _load(arguments.file)
-    if arguments.robots and not arguments.robots.exists():
+    if arguments.robots and not os.path.exists(arguments.robots):
         raise NotDone(f"{arguments.robots}: there is no such file")
     try:
         drivetrains = measured(arguments.robots or kept_robots(run.emulated))

@@ -1,6 +1,7 @@
 """The log of the arcade and of the jobs of real robots: one file among the user's own, of bounded size."""
 
 import contextlib
+import errno
 import logging
 import os
 import sys
@@ -40,6 +41,7 @@ class LogFile(RotatingFileHandler):
 def log_file(data: Path) -> LogFile:
     """The handler that writes the log in the data folder. Raises OSError where that cannot be written."""
     data.mkdir(parents=True, exist_ok=True)
+    require_file(data / FILE)
     handler = LogFile(data / FILE)
     handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
     return handler
@@ -53,6 +55,12 @@ def note(data: Path, sentence: str) -> None:
         return
     handler.handle(logging.LogRecord("pigaming", logging.WARNING, __file__, 0, sentence, None, None))
     handler.close()
+
+
+def require_file(path: Path) -> None:
+    """Raises OSError if something else than a regular file is there: opening a pipe would wait for its reader."""
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "it is not a file")
 
 
 def _cut_torn_line(path: str) -> None:

@@ -13,6 +13,7 @@ CASES = {
     "fits": "drives marker {marker}, as it should",
     "swapped": "drives marker {marker}: swap the markers, or go on like this",
     "none": "no marker turned: is it covered, off the mat, or the battery empty?",
+    "wired": "the robot with marker {marker} turned the wrong way or drove off: check the wires of its motors",
     "several": "more than one robot turned: two radios have the same number",
     "twice": "two robots wear the same marker",
     "absent": "nobody answers there",

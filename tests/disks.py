@@ -28,6 +28,8 @@ def failing_at(step):
 
     def failing(name, call):
         def one(*args, **options):
+            if name == "open" and not args[1] & os.O_CREAT and os.path.isfile(args[0]):
+                return call(*args, **options)  # a file is read
             made.append(name)
             if len(made) == step + 1:
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))

@@ -222,6 +222,24 @@ def test_an_odd_home_is_no_trouble(here, monkeypatch, capsys, home):
     assert "Traceback" not in capsys.readouterr().err
 
 
+def test_what_a_killed_process_left_is_swept_at_the_next_start(here, tmp_path):
+    left = [
+        tmp_path / "home" / name / ".pigaming-0123abcd.tmp" for name in ("config", "data", "data/ghosts", "data/robots")
+    ]
+    left.append(tmp_path / "home" / "config" / ".settings.toml-a_b1c2d3")
+    for path in left:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("half")
+    assert cli.main(["--frames", "1"]) == 0
+    assert not any(path.exists() for path in left)
+
+
+def test_what_a_killed_recording_left_is_swept_by_the_next_one(here):
+    (here / ".pigaming-0123abcd.tmp").write_text("half")
+    assert cli.main([*PLAY, "--record", "a.replay"]) == 0
+    assert not (here / ".pigaming-0123abcd.tmp").exists()
+
+
 def everything(part, parts):
     """Answer all cases (every `parts`-th of them), and print what is wrong: python -m tests.test_hostile_options."""
     chosen = list(cases())[part::parts]

@@ -41,6 +41,13 @@ def test_a_rotation_on_a_full_disk_keeps_the_log_before(tmp_path, capsys):
     assert capsys.readouterr().err == ""
 
 
+def test_a_pipe_in_place_of_the_log_makes_nobody_wait(tmp_path):
+    os.mkfifo(tmp_path / FILE)
+    with pytest.raises(OSError, match="not a file"):
+        log_file(tmp_path)
+    note(tmp_path, "lost")
+
+
 def test_a_mistake_in_a_message_is_still_reported(tmp_path, capsys):
     handler = log_file(tmp_path)
     handler.handle(logging.LogRecord("test", logging.WARNING, __file__, 0, "%d", ("text",), None))

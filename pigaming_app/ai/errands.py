@@ -6,12 +6,13 @@
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.games.factory.state import WORKERS
+from pigaming_app.games.factory.state import SLOTS, WORKERS
 from pigaming_app.games.factory.view import OTHERS
 from pigaming_app.sim.action import press
 from pigaming_app.sim.chance import chance
+from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import DT
+from pigaming_app.sim.world import CELL, DT, HZ
 
 PERIOD = 5
 AT = 24.0  # px between the fork and a slot at which it presses fire
@@ -26,6 +27,9 @@ STOP = 96.0  # px from a person within which it does not back up
 HELD_UP = 16.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 45
 FREEING = 25  # ticks of backing out
+NEARER = 10.0  # px that count as getting nearer
+PATIENCE, SHUN = 8 * HZ, 12 * HZ  # ticks without getting nearer to a slot, and for which others come first then
+DETOUR = 4 * HZ  # ticks of driving towards another slot
 
 
 @kernel
@@ -128,6 +132,43 @@ def gap(distance: float, bearing: float, clearance: float) -> float:
         return 1000.0
     before = ahead - sqrt(clearance * clearance - aside * aside)
     return before if before > 0.0 else 0.0
+
+
+@kernel
+def lose_patience(view: Any, mind: Any) -> None:
+    """Prefer other slots for a while if it comes no nearer to its target, by the way that it has to drive.
+
+    If there is no other, and it comes no nearer again, it tries to come from somewhere else.
+    """
+    left = view.goal_distance
+    if not view.straight:
+        left = CELL * mind.eyes.errand.reach[node_at(view.x, view.y)]
+    if mind.near or mind.sought != mind.target:
+        mind.sought, mind.least, mind.late = mind.target, 1e9, 0
+    if 0.0 < left < mind.least - NEARER:
+        mind.least, mind.late = left, 0
+    else:
+        mind.late += PERIOD
+    if mind.late <= PATIENCE:
+        return
+    if mind.shun > 0 and mind.shunned == mind.target:
+        mind.detour, mind.via = DETOUR, int(chance(mind) * SLOTS)
+    mind.shunned, mind.shun, mind.least, mind.late, mind.plan_in = mind.target, SHUN, 1e9, 0, 0
+
+
+@kernel
+def make_detour(view: Any, mind: Any, action: Any) -> None:
+    """Drive towards another slot for a while, so that the way to the target is another one."""
+    slot, errand = view.slots[mind.via], mind.eyes.errand
+    moved = errand.goal_x != slot.x or errand.goal_y != slot.y
+    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
+    mind.detour -= PERIOD
+    if moved:
+        press(action, 0.0, 0.0, 0, 0)
+        return
+    if view.goal_distance < STAND_OFF:
+        mind.detour = 0
+    follow(view, mind, action)
 
 
 @kernel

@@ -10,7 +10,7 @@ three strengths differ in speed, in how long they think after each job, and in h
 from typing import Any
 
 from pigaming_app.ai.brain import Kind
-from pigaming_app.ai.errands import drive_to, feel_held_up, free_itself
+from pigaming_app.ai.errands import drive_to, feel_held_up, free_itself, lose_patience, make_detour
 from pigaming_app.ai.jobs import choose_job
 from pigaming_app.ai.thoughts import Thoughts
 from pigaming_app.games.factory.view import Eyes, View, see
@@ -45,6 +45,13 @@ class ForemanMind:
     anchor_x: float  # where it was when it last got anywhere
     anchor_y: float
     held_up: int  # ticks since
+    sought: int  # the target for which the next two count
+    least: float  # px, the shortest way there that was left
+    late: int  # ticks since that was reached
+    shunned: int  # a slot that it could not get at
+    shun: int  # ticks for which it prefers others
+    via: int  # the slot towards which it makes a detour
+    detour: int  # ticks left of that
     freeing: int  # ticks left of breaking free
     escape: float  # the stick while it does
     escape_turn: float
@@ -67,6 +74,7 @@ def act(view: Any, mind: Any, action: Any) -> None:
     if view.carries != mind.carried:  # a job is done
         mind.carried, mind.plan_in, mind.resting = view.carries, 0, mind.pause
     mind.plan_in -= PERIOD
+    mind.shun -= PERIOD
     if mind.plan_in <= 0:
         mind.plan_in = PLAN
         choose_job(view, mind)
@@ -78,7 +86,11 @@ def act(view: Any, mind: Any, action: Any) -> None:
     if mind.freeing > 0:
         free_itself(view, mind, action)
         return
-    drive_to(view, mind, action)
+    if mind.detour > 0:
+        make_detour(view, mind, action)
+    else:
+        drive_to(view, mind, action)
+        lose_patience(view, mind)
     feel_held_up(view, mind, action)
 
 

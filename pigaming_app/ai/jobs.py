@@ -19,6 +19,9 @@ QUEUE = 900.0  # px that it costs to lift what cannot be put down yet
 FREES = 300.0  # px that it is worth to free a machine
 HOME = 5000.0  # px by which waiting at home seems farther than where something will come out
 NOISE = 600.0  # px by which who reckons badly is wrong
+STALLED = 12.0  # s without a worker after which a pallet is taken out of a machine's input again
+SLOW = 6.0  # s without one that count against a machine at all; less is common
+SHUN = 2000.0  # px by which a slot seems farther that could not be got at
 LATER = 260.0  # px by which a raw pallet seems farther: what is nearer to the exit comes first
 
 
@@ -34,7 +37,7 @@ def choose_job(view: Any, mind: Any) -> None:
         return
     mind.waiting += 1
     mind.near = 1
-    mind.target = waiting_place(view)
+    mind.target = waiting_place(view, mind)
 
 
 @kernel
@@ -63,6 +66,26 @@ def between(view: Any, s: int, t: int) -> float:
 
 
 @kernel
+def hindrance(slot: Any) -> float:
+    """The px that it costs to put something into a slot whose machine cannot begin at once."""
+    if slot.kind != INPUT:
+        return 0.0
+    return delay(slot) + (BLOCKED if slot.output_blocked else 0.0)
+
+
+@kernel
+def delay(slot: Any) -> float:
+    """The px that the time weighs for which nobody has come to the machine of an input."""
+    return slot.stalled * SPEED if slot.stalled > SLOW else 0.0
+
+
+@kernel
+def shyness(mind: Any, s: int) -> float:
+    """The px by which slot s seems farther because it could not be got at."""
+    return SHUN if mind.shun > 0 and mind.shunned == s else 0.0
+
+
+@kernel
 def takes(slot: Any, state: int) -> bool:
     """Whether a pallet in a state is at its right place in a slot."""
     if slot.kind == INPUT:
@@ -82,7 +105,7 @@ def cheapest_place(view: Any, mind: Any) -> int:
         right = slot.kind == ENTRY if state == DAMAGED else takes(slot, state)
         if not right:
             continue
-        cost = away(view, s) + (BLOCKED if slot.kind == INPUT and slot.output_blocked else 0.0)
+        cost = away(view, s) + hindrance(slot) + shyness(mind, s)
         if mind.target == s:
             cost -= KEEP
         if cost < least:
@@ -102,9 +125,7 @@ def onward(view: Any, s: int, state: int) -> float:
     for t in range(SLOTS):
         slot = view.slots[t]
         if takes(slot, state) and not slot.holds and not taken(view, t):
-            cost = between(view, s, t)
-            if slot.kind == INPUT and slot.output_blocked:
-                cost += BLOCKED
+            cost = between(view, s, t) + hindrance(slot)
             if cost < least:
                 least = cost
     return least
@@ -117,9 +138,13 @@ def cost_of(view: Any, s: int, queue: float) -> float:
     if not slot.lift:
         return NO
     state = slot.holds - 1
-    if state == DAMAGED or takes(slot, state):  # spoiled, or where it should be
+    if state == DAMAGED:
         return NO
     then = onward(view, s, state)
+    if takes(
+        slot, state
+    ):  # where it should be, unless nobody comes to the machine and it would be better off elsewhere
+        return then if slot.kind == INPUT and slot.stalled > STALLED and then < slot.stalled * SPEED else NO
     if slot.kind == OUTPUT:  # whatever it is, it frees a machine
         return min(then, queue) - FREES
     return then + LATER if state == RAW and then < NO else then
@@ -139,7 +164,7 @@ def share_out(view: Any, mind: Any) -> int:
         then = cost_of(view, s, queue)
         if then >= NO - FREES or (alone and taken(view, s)):
             continue
-        cost = away(view, s) + then - (KEEP if mind.target == s else 0.0)
+        cost = away(view, s) + then + shyness(mind, s) - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
             cost += mind.noise * NOISE * chance(mind)
         if not alone:
@@ -166,7 +191,7 @@ def best_other(view: Any, mate: Any, without: int, queue: float) -> float:
 
 
 @kernel
-def waiting_place(view: Any) -> int:
+def waiting_place(view: Any, mind: Any) -> int:
     """The slot near which to wait: where what is carried will go, or the own next pallet come out, or at home."""
     best, least = -1, NO
     state = view.carries - 1
@@ -177,7 +202,9 @@ def waiting_place(view: Any) -> int:
         else:
             good = slot.mine == 1 or (slot.kind == OUTPUT and slot.ours == 1)
         if good and not taken(view, s):
-            cost = away(view, s) + slot.wait * SPEED + (HOME if slot.mine == 1 else 0.0)
+            cost = away(view, s) + slot.wait * SPEED + delay(slot) + shyness(mind, s)
+            if slot.mine == 1:
+                cost += HOME
             if cost < least:
                 best, least = s, cost
     return best

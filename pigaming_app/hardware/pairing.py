@@ -6,6 +6,7 @@ says that all is done; `channels` is then what a rig needs, and `findings` what 
 
 from collections.abc import Sequence
 from enum import StrEnum
+from math import hypot
 from typing import NamedTuple
 
 from pigaming_app.hardware.rig import Rig
@@ -17,6 +18,7 @@ REST, SPIN, BRAKE = 0.6, 1.3, 0.5  # s
 SHARE = 0.14  # of full speed, forth and back: about 2.5 rad/s
 TURNED = 1.2  # rad that the marker of the robot that spins turns at least
 STILL = 0.4  # rad that the others turn at most
+ASTRAY = 25.0  # px that a robot may move while it spins
 SEEN = 0.3  # s within which a marker must have been seen
 
 
@@ -28,6 +30,7 @@ class Case(StrEnum):
     NONE = "none"  # no marker turned
     SEVERAL = "several"  # more than one turned
     TWICE = "twice"  # the marker that turned is seen twice, or was another radio's already
+    WIRED = "wired"  # a robot turned the other way, or drove off: its motors are not connected as they should be
     ABSENT = "absent"  # nobody was heard at this radio
 
 
@@ -53,6 +56,8 @@ class Pairing:
         self._turned = [0.0] * ROBOTS
         self._doubled: set[int] = set()
         self._before: list[float | None] = [None] * ROBOTS
+        self._began: dict[int, tuple[float, float]] = {}  # px: where each robot was when this spin began
+        self._astray: int | None = None  # the robot that drives off instead of spinning
 
     @property
     def spinning(self) -> int | None:
@@ -77,10 +82,13 @@ class Pairing:
         self._ticks += 1
         time = self._ticks * DT
         self._watch(counts=time > REST)
+        if self._astray is not None and time < REST + SPIN:
+            self._ticks, time = round((REST + SPIN) / DT), REST + SPIN + DT
         self.rig.tell_one(self._todo[0], Wheels(SHARE, -SHARE) if REST < time <= REST + SPIN else Wheels(0.0, 0.0))
         if time >= REST + SPIN + BRAKE:
             self.findings.append(self._judged(self._todo.pop(0)))
             self._ticks, self._turned, self._doubled = 0, [0.0] * ROBOTS, set()
+            self._began, self._astray = {}, None
         return not self._todo
 
     def _watch(self, counts: bool) -> None:
@@ -92,16 +100,21 @@ class Pairing:
                 self._before[robot] = seen.heading
                 if counts and before is not None:
                     self._turned[robot] += turn_to(seen.heading - before)
+                    x, y = self._began.setdefault(robot, (seen.x, seen.y))
+                    if hypot(seen.x - x, seen.y - y) > ASTRAY:
+                        self._astray = robot
 
     def _judged(self, channel: int) -> Finding:
         turned = [robot for robot in range(ROBOTS) if self._turned[robot] > TURNED]
         moved = [robot for robot in range(ROBOTS) if abs(self._turned[robot]) > STILL]
         if self._doubled:
             return Finding(channel, None, Case.TWICE)
-        if not turned:
-            return Finding(channel, None, Case.NONE)
         if len(moved) > 1:
             return Finding(channel, None, Case.SEVERAL)
+        if self._astray is not None or (moved and not turned):
+            return Finding(channel, moved[0] if self._astray is None else self._astray, Case.WIRED)
+        if not turned:
+            return Finding(channel, None, Case.NONE)
         if turned[0] in [one.marker for one in self.findings]:
             return Finding(channel, None, Case.TWICE)
         return Finding(channel, turned[0], Case.FITS if turned[0] == channel else Case.SWAPPED)

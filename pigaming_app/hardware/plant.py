@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterable, Sequence
 from math import exp
 from typing import Any
 
+from pigaming_app.hardware.greeting import Greeting
 from pigaming_app.hardware.homing import Homing, Place
 from pigaming_app.hardware.rig import Rig
 from pigaming_app.hardware.safety import Does, Fault, Safety
@@ -17,6 +18,7 @@ from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
 
 FORGOTTEN = 1.0  # s after which a robot that nobody sees is nobody's obstacle
+PUSH = 2600.0  # px/s^2 at which real robots gather speed: one that drives the wrong way is noticed before it is fast
 REST: Twist = (0.0, 0.0)
 
 
@@ -29,7 +31,9 @@ class RealPlant:
         self.real = set(real)
         self.safety = Safety()
         self.motion: list[Twist] = [REST] * ROBOTS  # px/s and rad/s, when what was said last begins to act
+        self._pushed = [0.0] * ROBOTS  # px/s, what was asked of each robot last
         self._homing: Homing | None = None
+        self._greeting = Greeting()
         self._left_at: list[float | None] = [None] * ROBOTS  # s, when a robot left the arena
 
     @property
@@ -77,7 +81,9 @@ class RealPlant:
         """One tick of driving there; whether all have arrived. Faults hold for it as for a match."""
         if self._homing is None:
             return True
-        told = self._homing.twists(self.sense_all() | self._projected(self._homing.goals))
+        seen = self.sense_all()
+        told = self._homing.twists(seen | self._projected(self._homing.goals))
+        told |= self._greeting.twists(seen.keys() & told.keys())
         real = self.real
         self.real = real | set(told)
         try:
@@ -153,12 +159,15 @@ class RealPlant:
             return None
         kinematics = self.rig.kinematics[robot]
         if held == Does.STOP:
+            self._pushed[robot] = 0.0
             return kinematics.stand()
         if held == Does.HALF:
             asked = (0.5 * asked[0], 0.5 * asked[1])
         x, y, _ = ahead[robot]
         others = [(ahead[i][0], ahead[i][1]) for i in solid if i != robot]
+        asked = eased(asked[0], self._pushed[robot]), asked[1]
         left = clipped(ahead[robot], asked, limits(self.world, x, y, others), kinematics.drivetrain.lag)
+        self._pushed[robot] = left[0]
         return kinematics.wheels(left)
 
     def _roll(self, robot: int, wheels: Wheels | None, dt: float) -> None:
@@ -168,6 +177,13 @@ class RealPlant:
         share = 1.0 - exp(-dt / kinematics.drivetrain.lag)
         linear, angular = self.motion[robot]
         self.motion[robot] = (linear + (goal[0] - linear) * share, angular + (goal[1] - angular) * share)
+
+
+def eased(asked: float, before: float) -> float:
+    """A speed, px/s, that is not farther from standing still than PUSH allows in a tick; slowing down is free."""
+    start = before if before * asked > 0.0 else 0.0
+    most = abs(start) + PUSH * DT
+    return max(-most, min(most, asked))
 
 
 def _recorded(robot: Any) -> Sighting:

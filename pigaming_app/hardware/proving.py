@@ -126,6 +126,7 @@ class Played(NamedTuple):
     seconds: float  # of simulated time, pauses and all
     paused: float
     places: float  # s until all had taken their places
+    alarms: int  # how often a robot seemed not to do as it was told
 
 
 def play(bed: Bed, match: Playable, seconds: float) -> Played:
@@ -134,8 +135,9 @@ def play(bed: Bed, match: Playable, seconds: float) -> Played:
     Pauses are as the arcade makes them: as long as a fault that pauses is there, nobody plays.
     """
     plant: RealPlant = match.plant
-    ready = 0
+    ready = alarms = 0
     while not plant.take_places():
+        alarms += _calm(plant)
         ready += 1
         bed.tick()
         if ready > 90 * HZ:
@@ -144,6 +146,7 @@ def play(bed: Bed, match: Playable, seconds: float) -> Played:
     deepest, ticks, paused = 0.0, 0, 0
     while not match.over:
         if plant.safety.pauses:
+            alarms += _calm(plant)
             plant.watch()
             paused += 1
         else:
@@ -153,7 +156,15 @@ def play(bed: Bed, match: Playable, seconds: float) -> Played:
         deepest = max(deepest, *(entered(match.state, x, y) for x, y, _ in bed.arena.poses()))
         if ticks > 1.5 * HZ * seconds + 20 * HZ:
             raise RuntimeError(f"the match did not end: {plant.faults}")
-    return Played(deepest * bed.ground.mm, ticks * DT, paused * DT, ready * DT)
+    return Played(deepest * bed.ground.mm, ticks * DT, paused * DT, ready * DT, alarms)
+
+
+def _calm(plant: RealPlant) -> int:
+    """Let robots go on that wait until somebody has looked after them; how many there were."""
+    waiting = plant.safety.lasting
+    for robot in waiting:
+        plant.safety.forgive(robot)
+    return len(waiting)
 
 
 def entered(world: Any, x: float, y: float) -> float:

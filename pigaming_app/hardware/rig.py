@@ -14,6 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from pigaming_app.hardware.kinematics import Kinematics
+from pigaming_app.hardware.obedience import Obedience
 from pigaming_app.hardware.packets import DEADMAN, EMPTY
 from pigaming_app.hardware.rolling import Wear
 from pigaming_app.hardware.safety import Signs
@@ -97,7 +98,8 @@ class Rig:
     ) -> None:
         self.eye, self.tracker, self.link, self.clock = eye, tracker, link, clock
         self.kinematics = [Kinematics(one) for one in drivetrains]
-        self.channels: Sequence[int] = tuple(range(ROBOTS))
+        self.obedience = Obedience(drivetrains)
+        self._channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # mm by which the corner markers have moved
         self.recorder: Notes | None = None
         self._begun = clock()
@@ -106,6 +108,17 @@ class Rig:
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
+
+    @property
+    def channels(self) -> Sequence[int]:
+        """The place of each robot's radio in what the link sends."""
+        return self._channels
+
+    @channels.setter
+    def channels(self, channels: Sequence[int]) -> None:
+        self._channels = channels
+        with self._lock:
+            self.obedience.forget()
 
     def pump(self) -> None:
         """Look at the newest picture, if there is a new one, and let the link do its part. Idle while a thread runs."""
@@ -127,6 +140,7 @@ class Rig:
         now = self.clock()
         with self._lock:
             self.tracker.sent(now, twists)
+            self.obedience.sent(now, twists)
             if self.recorder:
                 self.recorder.sent(now, wheels)
                 self.recorder.believed(now, self.tracker.sense(now))
@@ -137,6 +151,8 @@ class Rig:
         """Tell the robot of one radio what to do, whichever marker it wears; the others are off."""
         sent: list[Wheels | None] = [None] * ROBOTS
         sent[channel] = wheels
+        with self._lock:
+            self.obedience.forget()
         self.link.send(sent)
         self.pump()
 
@@ -153,6 +169,7 @@ class Rig:
         with self._lock:
             looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
             ages = [sighting.age for sighting in self.tracker.sense(now)]  # by `now`, which is past by now
+            contradictions = [self.obedience.contradiction(robot) for robot in range(ROBOTS)]
         found = {}
         for robot, seconds in outside.items():
             report = self.telemetry(robot)
@@ -166,6 +183,9 @@ class Rig:
                 battery=report.battery if report else Signs().battery,
                 refuses=report is not None and bool(report.flags & EMPTY),
                 deaf=self._deaf(robot, report),
+                astray=contradictions[robot].astray,
+                stuck=contradictions[robot].stuck,
+                leaving=contradictions[robot].leaving,
                 unlinked=gone,
                 drift=drift,
             )
@@ -215,6 +235,7 @@ class Rig:
             return  # a driver that hands out the same picture again: real ones differ by their noise
         with self._lock:
             fixes = self.tracker.see(frame)
+            self.obedience.seen(fixes)
             for robot, kinematics in enumerate(self.kinematics):
                 kinematics.wear = self.tracker.wear(robot)
             if self.recorder:

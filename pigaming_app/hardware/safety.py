@@ -37,6 +37,9 @@ class Signs(NamedTuple):
     refused: str = ""  # why a marker with its number was lately not believed: see Tracker.refused
     doubled: bool = False  # its marker was seen twice at once
     outside: float = 0.0  # s for which it has been outside the arena
+    astray: float = 0.0  # s for which it has moved as no command explains: see obedience
+    stuck: float = 0.0  # s for which it has stood though it was told to move
+    leaving: bool = False  # astray on its way out of the arena
     silence: float = 0.0  # s since it was heard
     battery: float = 9.9  # V
     refuses: bool = False  # its battery was empty, and it keeps its motors off until that has recovered
@@ -55,6 +58,12 @@ class Rule:
     does: Does
     everyone: bool = False
     pauses: bool = False
+    lasts: bool = False  # until somebody has looked: see Safety.forgive. Meanwhile nobody moves
+
+
+def _disobeys(signs: Signs) -> bool:
+    """Whether a robot does not do as it is told; one that stands and was not heard lately may just be switched off."""
+    return signs.leaving or signs.astray > 0.4 or (signs.stuck > 0.4 and signs.silence < 0.35)
 
 
 RULES = (
@@ -65,6 +74,7 @@ RULES = (
     Rule("twice", lambda s: s.doubled, Does.STOP, pauses=True),
     Rule("held", lambda s: s.unseen > 1.000 and s.refused in IN_A_HAND, Does.STOP, pauses=True),
     Rule("lost", lambda s: s.unseen > 1.000 and s.refused not in (*IN_A_HAND, BEYOND), Does.STOP, pauses=True),
+    Rule("disobeys", _disobeys, Does.STOP, pauses=True, lasts=True),
     Rule("unseen", lambda s: s.unseen > 0.250, Does.STOP),
     Rule("unseen", lambda s: s.unseen > 0.100, Does.HALF),
     Rule("empty", lambda s: s.battery < 4.0 or s.refuses, Does.OFF, pauses=True),
@@ -106,6 +116,7 @@ class Safety:
     def __init__(self) -> None:
         self.stopped = False
         self.faults: list[Fault] = []  # what is wrong now, worst first, each once
+        self._lasting: set[tuple[Rule, int]] = set()
         self._bad: dict[tuple[Rule, int | None], tuple[float, float]] = {}  # since when, and when last
 
     def all_stop(self) -> None:
@@ -116,8 +127,18 @@ class Safety:
         """Somebody has looked and lets the robots go on."""
         self.stopped = False
 
+    @property
+    def lasting(self) -> set[int]:
+        """The robots that wait until somebody has looked after them."""
+        return {robot for _, robot in self._lasting}
+
+    def forgive(self, robot: int) -> None:
+        """Somebody has looked after this robot: what it did is past."""
+        self._lasting = {key for key in self._lasting if key[1] != robot}
+
     def forget(self, robot: int, last: bool) -> None:
         """This robot is no real one any more, and so nothing is wrong with it; `last`: there are no others."""
+        self.forgive(robot)
         self._bad = {key: times for key, times in self._bad.items() if key[1] != robot and not last}
         self.faults = [fault for fault in self.faults if fault.robot != robot and not last]
 
@@ -134,14 +155,25 @@ class Safety:
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
                 concerned = list(real) if robot is None else [robot]
-                since = self._since(rule, robot, any(rule.bad(real[one]) for one in concerned), now)
+                bad = any(rule.bad(real[one]) for one in concerned)
+                if rule.lasts and robot is not None:
+                    self._lasting |= {(rule, robot)} if bad else set()
+                    bad = (rule, robot) in self._lasting
+                since = self._since(rule, robot, bad, now)
                 if since is None:
                     continue
-                for one in concerned:
+                for one in real if rule.lasts else concerned:
                     held[one] = max(held[one], rule.does)
                 if (rule.name, robot) not in [(fault.name, fault.robot) for fault in self.faults]:
                     self.faults.append(Fault(rule.name, robot, rule.does, rule.pauses, since))
+        self._explain()
         return held
+
+    def _explain(self) -> None:
+        """What a robot did is explained by another fault that pauses: it goes on by itself once that is gone."""
+        for fault in self.faults:
+            if fault.pauses and not any(rule.lasts for rule in RULES if rule.name == fault.name):
+                self._lasting = {key for key in self._lasting if fault.robot not in (None, key[1])}
 
     def _since(self, rule: Rule, robot: int | None, bad: bool, now: float) -> float | None:
         """Since when a rule has been in force; None: it is not. One that pauses outlasts its sign by CALM."""

@@ -19,7 +19,7 @@ from typing import IO, Any
 import pygame
 
 from pigaming_app.keeping import NotSaved
-from pigaming_app.logbook import log_file
+from pigaming_app.logbook import log_file, require_file
 from pigaming_app.parsing import reason
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
@@ -349,6 +349,7 @@ def _keep_log(data: Path) -> "IO[Any] | None":
     try:
         log.handlers[:] = [log_file(data)]
         log.propagate = False
+        require_file(data / "crash.log")
         crash_file = (data / "crash.log").open("a", encoding="utf-8")
     except OSError as trouble:
         print(f"PiGaming: {data} cannot be written: {reason(trouble)}. There is no log.", file=sys.stderr)

@@ -1,12 +1,14 @@
 """Who wants a rematch: everyone who played presses FIRE once; somebody missing does not hold the others up for long."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Collection, Sequence
 
 import pygame
 
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut, dim, icon, text_width
 from pigaming_app.scenes.pane import Lit, Pane
+from pigaming_app.scenes.plate import RING_STEPS, filling
 from pigaming_app.scenes.press import Device
 from pigaming_app.scenes.surface_cache import cached
 
@@ -37,6 +39,23 @@ class Ballot:
             seat = self.seats[0]
         else:
             return False
+        return self._count(seat)
+
+    @property
+    def takeable(self) -> list[int]:
+        """The seats of AIs, in the order in which free devices get them."""
+        return [seat for seat in reversed(self.seats) if seat not in self.humans]
+
+    def take(self, device: Device) -> bool:
+        """Give a free device the seat of an AI; that counts as its vote. True: it has one now."""
+        if device in self.devices or not self.takeable:
+            return False
+        seat = self.takeable[0]
+        self.devices[seat] = device
+        self.humans.append(seat)
+        return self._count(seat)
+
+    def _count(self, seat: int) -> bool:
         new = seat not in self.votes
         self.votes.add(seat)
         return new
@@ -58,16 +77,19 @@ class Ballot:
         wanted = [seat for seat in self.humans if (everyone and self.here(seat)) or seat in self.votes]
         return [device if seat in wanted else None for seat, device in enumerate(self.devices)]
 
-    def draw(self, screen: pygame.Surface) -> None:
-        """Add the question and the votes to the screen."""
+    def draw(self, screen: pygame.Surface, held: Collection[float] = ()) -> None:
+        """Add the question and the votes to the screen; `held`: how far free devices are with taking seats, 0..1."""
         text = self.house.words("results.rematch")
         width = text_width(text, LABEL)
         x = 960 - (width + 48 + len(self.seats) * PITCH - 44) / 2
         question(text).draw(screen, x)
         x += width + 78
+        taken = dict(zip(self.takeable, held, strict=False))
         for seat in self.seats:
             said = "ai" if seat not in self.humans else "check" if seat in self.votes else ""
             answer(seat, said).draw(screen, x)
+            if seat in taken:
+                filling(seat, math.ceil(taken[seat] * RING_STEPS)).draw(screen, x, Y)
             x += PITCH
         if self.votes and self.waited > 0.5 and self.humans:
             left = 1.0 - self.waited / PATIENCE

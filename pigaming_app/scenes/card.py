@@ -48,6 +48,7 @@ ROBOT_LOW = (204, 1.25, 78)  # with two
 REAL_Y = 316
 TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
 BAR = (24, 500, W - 48, 76)
+ASKS_Y, BUTTONS_Y, BUTTON_PITCH, GAP = 398, 502, 66, 12
 SPOKES, TURNS = 5, 8  # arcs of a turntable, and how many positions are kept between two of them
 UP = -math.pi / 2
 UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and how far it looks to either side
@@ -80,16 +81,33 @@ def empty(player: int, said: str) -> Steps[Lit]:
 
 
 @cached
-def invitation(player: int, press: str, join: str, level: int) -> Lit:
-    """What an empty seat says; a `level` of 0 means: another seat comes first."""
+def invitation(player: int, said: str, labels: tuple[str, ...], level: int) -> Lit:
+    """What an empty seat asks for: one of the buttons `labels`. A `level` of 0 means: another seat comes first."""
     if 0 < level < LEVELS:
-        return dimmed(invitation(player, press, join, LEVELS), level / LEVELS)
-    pane = Pane(0, 230, W, 320)
+        return dimmed(invitation(player, said, labels, LEVELS), level / LEVELS)
+    pane = Pane(0, 230, W, 370)
     icon(pane.hot, "plus", MIDDLE, 272, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
-    size = fitted(press, LABEL, W - 48)
-    pane.page.text(press, size, MIDDLE, 436, FOCUS if level else STEEL, "head", "c")
-    pane.page.body(join, MIDDLE, 496, ICE if level else STEEL, "c", fitted(join, BODY, W - 48, "body"))
+    pane.page.body(said, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fitted(said, BODY, W - 48, "body"))
+    rows = rows_of(labels)
+    for i, row in enumerate(rows):
+        x = MIDDLE - (sum(map(button_width, row)) + GAP * (len(row) - 1)) / 2
+        y = BUTTONS_Y + BUTTON_PITCH * (i - (len(rows) - 1) / 2)
+        for label in row:
+            x += button(pane.page, x, y, label, FOCUS if level else STEEL) + GAP
     return pane.done()
+
+
+def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
+    """Buttons in rows not wider than a card, as few as possible: each goes where it still fits, the widest first."""
+    rows: list[list[str]] = []
+    for label in sorted(labels, key=button_width, reverse=True):
+        room = W - 36 - button_width(label) - GAP
+        row = next((row for row in rows if sum(button_width(one) + GAP for one in row) <= room + GAP), None)
+        if row is None:
+            rows.append([label])
+        else:
+            row.append(label)
+    return [sorted(row, key=labels.index) for row in sorted(rows, key=lambda row: min(map(labels.index, row)))]
 
 
 @cached

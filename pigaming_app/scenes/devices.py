@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import pygame
 
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.frame_budget import budget
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
@@ -17,27 +18,29 @@ NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
 
 
 class DeviceTable:
-    """One row for every seat that a device drives; None: an AI, or nobody."""
+    """One row for every seat that a device drives; None: an AI, or nobody. `access`: whose presses count."""
 
-    def __init__(self, house: House, devices: Sequence[Device | None]) -> None:
-        self.house = house
+    def __init__(self, house: House, devices: Sequence[Device | None], access: Access) -> None:
+        self.house, self.access = house, access
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[Lit] = []
         self.pieces = self._make()
-        self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")])
+        self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""
 
     def on(self, press: Press) -> Turn:
         """Any button leads back."""
-        if self.prompts.meant(press).act in (Act.FIRE, Act.START, Act.BACK):
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted and admitted.act in (Act.FIRE, Act.START, Act.BACK):
             self.house.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Nothing moves."""
+        """Nothing moves, but a pause belongs to somebody only for a while."""
+        self.access.update(seconds)
         return None
 
     def draw(self, screen: pygame.Surface) -> None:

@@ -6,6 +6,7 @@ import pygame
 
 from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import (
+    ALARM,
     BODY,
     FOCUS,
     HAIR,
@@ -26,7 +27,7 @@ from pigaming_app.scenes.ink import (
 from pigaming_app.scenes.logo import seat_robot
 from pigaming_app.scenes.page import stamp, text
 from pigaming_app.scenes.pane import Lit, Pane, fitted, lines_of, span
-from pigaming_app.scenes.sprites import Sprite
+from pigaming_app.scenes.sprites import Sprite, trim
 from pigaming_app.scenes.surface_cache import cached
 
 PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 660)
@@ -35,6 +36,7 @@ AT = 500  # px from a row's left edge to its value
 ROOM = W - AT - 40
 CELL, CELLS = 40, 10  # px from one cell of a meter to the next
 CENTRE = (PANEL.centerx, PANEL.y + 190)  # of the picture
+RING_R, RING_STEPS = 150, 24  # px, and pictures of the ring
 
 
 def label(said: str, hot: bool) -> Lit:
@@ -144,6 +146,21 @@ def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> No
         stamp(screen, _robot(), x + jolt, y + jolt // 2)
     else:
         drawn(name, chosen, seconds).draw(screen, x, y)
+
+
+def ring(screen: pygame.Surface, share: float) -> None:
+    """What is being held down, round the picture in the panel: `share` of the time has passed, 0..1."""
+    image, dx, dy = filling(math.ceil(share * RING_STEPS))
+    screen.blit(image, (CENTRE[0] + dx, CENTRE[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
+
+
+@cached
+def filling(step: int) -> Sprite:
+    """A ring, `step` of RING_STEPS full, round (0, 0)."""
+    half = RING_R + 22
+    ink = Ink(2 * half, 2 * half)
+    ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), ALARM, LINE)
+    return trim(ink.lit(0.8), half, half)
 
 
 def drawn(name: str, chosen: int, seconds: float = 0.0) -> Lit:

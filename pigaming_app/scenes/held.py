@@ -16,9 +16,12 @@ ON, OFF = 0.6, 0.4  # a stick or trigger counts as pressed beyond ON until it fa
 
 @dataclass(frozen=True)
 class Change:
-    """A button, key or stick of a device went down or up. `part` tells a stick from a d-pad with the same meaning."""
+    """A button, key or stick of a device went down or up. `part` tells a stick from a d-pad with the same meaning.
 
-    act: Act
+    `act`: None for a button that is turbo and means nothing in a menu.
+    """
+
+    act: Act | None
     down: bool
     part: str = "button"
 
@@ -31,6 +34,7 @@ class Held:
 
     def take(self, device: Device, change: Change) -> bool:
         """Note a direction that went down or up; true if that is a press."""
+        assert change.act is not None
         key = (device, change.act, change.part)
         if not change.down:
             self._due.pop(key, None)
@@ -71,17 +75,17 @@ class StickDirection:
 
 
 class Trigger:
-    """An analogue trigger as a fire button, with hysteresis."""
+    """An analogue trigger as a button that means `act`, with hysteresis."""
 
-    def __init__(self) -> None:
-        self.down = False
+    def __init__(self, act: Act | None = Act.FIRE) -> None:
+        self.act, self.down = act, False
 
     def moved(self, value: float) -> Iterator[Change]:
         """What changes when the trigger goes to `value` in [0, 1]."""
         down = value > (OFF if self.down else ON)
         if down != self.down:
             self.down = down
-            yield Change(Act.FIRE, down, "trigger")
+            yield Change(self.act, down, "trigger")
 
 
 def outside_dead_zone(x: float, y: float) -> tuple[float, float]:

@@ -1,232 +1,201 @@
-"""Three letters for the table of best scores, chosen with a stick and one button: up and down change, FIRE goes on."""
+"""Three letters for the tables of the best: everybody who is in the top eight chooses at once, each on the own device.
+
+After ten seconds the letters are taken as they are; of somebody who has not chosen any, none.
+"""
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import pygame
 
+from pigaming_app.games import GAMES
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.keeping import NotSaved
-from pigaming_app.scenes.best import ROWS, Best
-from pigaming_app.scenes.feats import Board, boards, contest, counts, told
+from pigaming_app.scenes import initials_page as page
+from pigaming_app.scenes.best import Best
+from pigaming_app.scenes.feats import contest, counts, table_of, told
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import (
-    BODY,
-    FOCUS,
-    HERO,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    THIN,
-    TITLE,
-    badge,
-    brackets,
-    cut,
-    icon,
-    text_width,
-)
-from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted, word
+from pigaming_app.scenes.ink import FOCUS, LABEL
+from pigaming_app.scenes.page import blacked, calling, heading, pulse
+from pigaming_app.scenes.pane import Lit, backdrop
 from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.spelling import Spelling
 from pigaming_app.scenes.stack import Pop, Swap, Turn
-from pigaming_app.scores import LETTERS, Score
+from pigaming_app.scores import Score, Table
 from pigaming_app.settings import folders
 
-DEAF = 0.8  # seconds in which presses are ignored
-PATIENCE = 25.0  # seconds without a press until the letters are taken as they are
-WARNED = 10.0  # seconds before that
-ROLL = 0.09  # seconds in which a letter rolls into its place
-SLOT_W, SLOT_H, SLOT_GAP, MIDDLE = 216, 268, 48, 520
+TOP = 8  # places of today's best, and of the best ever, for which letters are asked
+SECONDS = 10.0  # for all players together
+DEAF = 0.5  # seconds in which presses are ignored
+SPANS = {"results.today": 1, "results.ever": None}  # headings, and of how many days
 
 _log = logging.getLogger(__name__)
 
 
+Feats = tuple[tuple[Table, int], ...]
+
+
 @dataclass(frozen=True)
 class Claim:
-    """What somebody did that belongs into a table: boards (one for each feat) and values."""
+    """What somebody did that belongs into tables: each table with the value.
+
+    `places`: for each of them the places that the value has, with the headings of the spans.
+    """
 
     seat: int
     device: Device
-    feats: tuple[tuple[Board, int], ...]
+    feats: Feats
+    places: tuple[tuple[tuple[str, int], ...], ...]
 
 
 def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
-    """What people did, above zero, in a match that counts, that is among the rows shown."""
+    """What people did that is among the best, those of this very match included. `devices`: who played each seat."""
+    done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
     out = []
-    for row in outcome.rows:
-        device = devices[row.seat]
-        if setup.seats[row.seat].brain == "human" and device and counts(setup, row.seat):
-            there = {board.table.feat: board for board in boards(contest(setup, row.seat))}
-            feats = [(there[name], value) for name, value in row.feats.items() if value > 0]
-            kept = tuple((board, value) for board, value in feats if places(house, board, value))
-            if kept:
-                out.append(Claim(row.seat, device, kept))
+    for seat, feats in done.items():
+        rivals = [feat for other, theirs in done.items() if other != seat for feat in theirs]
+        found = [(feat, places(house, *feat, rivals)) for feat in feats]
+        kept = [(feat, here) for feat, here in found if here]
+        device = devices[seat]
+        if kept and device:
+            out.append(Claim(seat, device, tuple(feat for feat, _ in kept), tuple(here for _, here in kept)))
     return out
 
 
-def places(house: House, claimed: Board, value: int) -> list[tuple[Board, int]]:
-    """The places of a value in the boards of its table in which it is shown."""
-    found = [
-        (board, house.scores.place(board.table, value, board.days))
-        for board in boards(claimed.table)
-        if board.table == claimed.table
-    ]
-    return [(board, place) for board, place in found if place and place <= ROWS]
+def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Feats]:
+    """By seat, what people did above zero in a match that counts for them."""
+    feats = GAMES[setup.game].feats
+    done = {}
+    for row in outcome.rows:
+        if row.seat in seats and setup.seats[row.seat].brain == "human" and counts(setup, row.seat):
+            conditions = contest(setup, row.seat)
+            values = [(table_of(conditions, feat), row.feats.get(feat.name, 0)) for feat in feats]
+            done[row.seat] = tuple((table, value) for table, value in values if value > 0)
+    return done
+
+
+def places(house: House, table: Table, value: int, rivals: Sequence[tuple[Table, int]]) -> tuple[tuple[str, int], ...]:
+    """The places of a value among today's best and the best ever, by heading, as far as they are in the top eight.
+
+    `rivals`: what the other people of the match did; those who did better stand ahead.
+    """
+    others = [other for there, other in rivals if there == table]
+    ahead = sum(other < value if table.timed else other > value for other in others)
+    found = []
+    for title, days in SPANS.items():
+        place = house.scores.place(table, value, days)
+        if place and place + ahead <= TOP:
+            found.append((title, place + ahead))
+    return tuple(found)
 
 
 class Initials:
-    """Asks everyone in `claims`, one after the other, and shows the tables."""
+    """Asks everyone in `claims` at once, and shows the tables."""
 
     def __init__(self, house: House, setup: Setup, claims: Sequence[Claim]) -> None:
-        self.house, self.setup, self.claims = house, setup, list(claims)
-        self.fresh: list[Score] = []
-        self.prompts = Prompts(house, [(Act.FIRE, "results.next_letter"), (Act.BACK, "results.last_letter"),
-                                       (Act.START, "results.done")])  # fmt: skip
-        self._begin()
+        self.house, self.setup, self.claims = house, setup, sorted(claims, key=lambda claim: claim.seat)
+        self.spellings = {claim.device: Spelling() for claim in self.claims}
+        self.age = 0.0
+        self.ahead = self._ahead()
 
-    def _begin(self) -> None:
-        self.claim = self.claims.pop(0)
-        self.letters, self.slot = [0, 0, 0], 0
-        self.age = self.idle = 0.0
-        self.rolled, self.rolling, self.touched = 0, 0.0, False
-        self.lit: list[Lit] = []
+    def warm(self) -> None:
+        """Make one piece of the page, so that it does not come in one long frame."""
+        if piece := next(self.ahead, None):
+            piece()
 
     def entered(self) -> None:
         """Nothing to begin."""
 
     def on(self, press: Press) -> Turn:
-        """Only the one who is asked chooses; START, by anyone, takes the letters as they are."""
-        press = self.prompts.meant(press)
-        theirs = press.device == self.claim.device or not self.house.controls.connected(self.claim.device)
-        if self.age < DEAF or not (theirs or press.device.kind == "mouse" or press.act is Act.START):
+        """Each player's presses change the own letters alone."""
+        device = self._meant(press)
+        if self.age < DEAF or device is None:
             return None
-        self.idle, self.touched = 0.0, True
-        match press.act:
-            case Act.UP | Act.DOWN:
-                self._turn(-1 if press.act is Act.UP else 1)
-            case Act.LEFT | Act.BACK:
-                self._move(max(0, self.slot - 1))
-            case Act.RIGHT:
-                self._move(min(2, self.slot + 1))
-            case Act.FIRE if self.slot < 2:
-                self._move(self.slot + 1)
-            case Act.FIRE | Act.START:
-                return self._enter()
-            case _:
-                pass
-        return None
+        if sound := self.spellings[device].on(press.act):
+            self.house.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
+        return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
 
     def update(self, seconds: float) -> Turn:
-        """Let the letters roll; take them as they are when nobody chooses any more, none when nobody ever did."""
+        """Let time run out."""
         self.age += seconds
-        self.idle += seconds
-        self.rolling += seconds
-        if self.idle <= PATIENCE:
-            return None
-        return self._enter() if self.touched else self._next()
+        for spelling in self.spellings.values():
+            spelling.update(seconds)
+        return self._end() if self.age >= SECONDS else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the question and the letters."""
-        if not self.lit:
-            self.lit = [self._heading(), self._slots()]
+        """Paint a panel for every player, and the time that is left."""
+        words = self.house.words
         screen.blit(backdrop(), (0, 0))
-        for lit in self.lit:
-            lit.draw(screen)
-        color = PLAYERS[self.claim.seat]
-        for i, letter in enumerate(self.letters):
-            here = i == self.slot
-            dy = self.rolled * 60 * max(0.0, 1 - self.rolling / ROLL) if here else 0.0
-            word(LETTERS[letter], HERO, FOCUS if here else color).draw(screen, middle(i), MIDDLE + dy)
-        focus(middle(self.slot)).draw(screen)
-        left = PATIENCE - self.idle
-        if left < WARNED:
-            half = 300 * left / WARNED
-            pygame.draw.line(screen, FOCUS, (960 - half, 928), (960 + half, 928), 4)
-        self.prompts.draw(screen)
+        heading(words("results.high_score"), color=FOCUS).draw(screen)
+        page.clock(screen, max(0.0, SECONDS - self.age), SECONDS)
+        corners = page.corners(len(self.claims))
+        blacked(screen, *(page.panel_at(x) for x in corners))
+        for x, claim in zip(corners, self.claims, strict=True):
+            self._panel(screen, x, claim)
+        calling(words("results.three"), "", LABEL).draw(screen, 960, page.FOOT_Y)
 
-    def _turn(self, by: int) -> None:
-        self.letters[self.slot] = (self.letters[self.slot] + by) % len(LETTERS)
-        self.rolled, self.rolling = by, 0.0
-        self.house.sounds.play("move")
+    # ---- inside
 
-    def _move(self, slot: int) -> None:
-        self.house.sounds.play("accept" if slot > self.slot else "back")
-        self.rolled = 0
-        self.slot = slot
+    def _meant(self, press: Press) -> Device | None:
+        """Whose letters a press is about; nobody's, if it is of a key that two players on one keyboard share."""
+        if not press.among:
+            return press.device if press.device in self.spellings else None
+        clusters = [device for device in press.among if device in self.spellings]
+        return clusters[0] if len(clusters) == 1 else None
 
-    def _enter(self) -> Turn:
-        initials = "".join(LETTERS[letter] for letter in self.letters)
-        for board, value in self.claim.feats:
-            row = self.house.scores.add(board.table, initials, value)
-            self.fresh.append(row)
-        self.house.sounds.play("ready", self.claim.seat)
-        return self._next()
+    def _panel(self, screen: pygame.Surface, x: int, claim: Claim) -> None:
+        words, spelling = self.house.words, self.spellings[claim.device]
+        self._frame(claim, spelling.done).draw(screen, x, page.TOP_Y)
+        page.letters(screen, x, claim.seat, spelling)
+        if spelling.done:
+            page.ready(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
+            return
+        if spelling.refused:
+            page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
+            return
+        key = "done" if spelling.slot == 2 else "next_letter"
+        label = words.printed(self.house.controls.label(claim.device, Act.FIRE))
+        page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
-    def _next(self) -> Turn:
-        """Ask the next one, or show the tables; nothing new in them, nothing to show."""
-        if self.claims:
-            self._begin()
-            return None
-        if not self.fresh:
+    def _frame(self, claim: Claim, done: bool) -> Lit:
+        return page.frame(claim.seat, self.house.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
+
+    def _ahead(self) -> Iterator[Callable[[], object]]:
+        words = self.house.words
+        yield partial(heading, words("results.high_score"), color=FOCUS)
+        for done in (False, True):
+            for claim in self.claims:
+                yield partial(self._frame, claim, done)
+        for claim in self.claims:
+            yield partial(page.ready, claim.seat, words("results.done"))
+
+    def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
+        """What the panel says about a claim: each feat with its value, and the places that it has."""
+        words = self.house.words
+        lines = []
+        for (table, value), found in zip(claim.feats, claim.places, strict=True):
+            shown = found if len(claim.feats) == 1 else found[-1:]
+            lines.append((words(f"setup.best_{table.feat}"), words.decimal(told(value, table))))
+            lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
+        return tuple(lines)
+
+    def _end(self) -> Turn:
+        """Enter what was chosen, and show the tables; nothing new in them, nothing to show."""
+        fresh = list(self._entered())
+        if not fresh:
             return Pop()
         try:
             self.house.scores.save(folders().data)
         except NotSaved as reason:
             _log.warning("%s", reason)
-        return Swap(Best(self.house, contest(self.setup, self.claim.seat), self.fresh))
+        return Swap(Best(self.house, contest(self.setup, self.claims[0].seat), fresh))
 
-    def _heading(self) -> Lit:
-        """Who is asked, for what."""
-        words, seat = self.house.words, self.claim.seat
-        pane = Pane(LEFT, 54, RIGHT - LEFT, 260)
-        badge(pane.hot, seat, LEFT + 52, 110, 50)
-        text = words("results.high_score")
-        size = fitted(text, TITLE, RIGHT - LEFT - 330 - 300 * (len(self.claim.feats) - 1))
-        pane.page.text(text, size, LEFT + 132, 112, PLAYERS[seat])
-        told_all = "   ".join(words.decimal(told(value, board.table)) for board, value in self.claim.feats)
-        pane.page.text(told_all, TITLE, RIGHT, 112, ICE, "hero", "r")
-        pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line(
-            [(LEFT, 176), (LEFT + 218, 176)], PLAYERS[seat], LINE
-        )
-        pane.page.text(words("results.three"), LABEL, 960, 256, ICE, "head", "c")
-        return pane.done()
-
-    def _slots(self) -> Lit:
-        """Three boxes, and the places that the score has."""
-        pane = Pane(middle(0) - 400, MIDDLE - 160, 2 * 400 + 2 * (SLOT_W + SLOT_GAP), 440)
-        for i in range(3):
-            pane.hot.line(cut(middle(i) - SLOT_W / 2, MIDDLE - SLOT_H / 2, SLOT_W, SLOT_H, 20), STEEL, THIN, True)
-        words = self.house.words
-        found = [one for board, value in self.claim.feats for one in places(self.house, board, value)]
-        text = "   ·   ".join(
-            words("results.place", board=words(board.heading, goal=self.setup.goal), place=place)
-            for board, place in found
-        )
-        x = 960 - text_width(text, BODY, "body") / 2
-        icon(pane.hot, "crown", x - 52, MIDDLE + 262, 24, FOCUS, THIN)
-        pane.page.body(text, x, MIDDLE + 264, MIST)
-        return pane.done()
-
-
-def middle(slot: int) -> float:
-    """Where a letter stands, x in px."""
-    return 960 + (slot - 1) * (SLOT_W + SLOT_GAP)
-
-
-_FOCUS: list[Lit] = []
-
-
-def focus(x: float) -> Lit:
-    """The corners round the letter that is chosen, and what changes it, its middle at x."""
-    if not _FOCUS:
-        pane = Pane(-SLOT_W / 2 - 20, MIDDLE - 230, SLOT_W + 40, 460)
-        brackets(pane.hot, -SLOT_W / 2, MIDDLE - SLOT_H / 2, SLOT_W, SLOT_H, FOCUS, 40, 20)
-        for side, name in ((-1, "up"), (1, "down")):
-            icon(pane.hot, name, 0, MIDDLE + side * 178, 32, FOCUS, LINE)
-        _FOCUS.append(pane.done())
-    lit = _FOCUS[0]
-    return Lit(lit.image, (round(lit.at[0] + x), lit.at[1]))
+    def _entered(self) -> list[Score]:
+        return [
+            self.house.scores.add(table, initials, value)
+            for claim in self.claims
+            if (initials := self.spellings[claim.device].taken)
+            for table, value in claim.feats
+        ]

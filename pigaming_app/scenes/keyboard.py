@@ -1,6 +1,7 @@
 """One keyboard as four devices: clusters of keys by their place (scancode), so that every layout plays alike.
 
-Enter, Escape and the like belong to nobody; they count as pressed by the cluster that was used last.
+Enter, Escape and the like are shared by all clusters; they count as pressed by the one that was used last, and where
+only seated devices act, by the seated one that was used last.
 """
 
 from collections.abc import Iterator
@@ -84,6 +85,7 @@ _SHARED = {
     pygame.KSCAN_F4: Act.BRAIN,
     pygame.KSCAN_F1: Act.STOP,
 }
+SHARED = frozenset(_SHARED.values())
 _SHARED_PRINTED = {Act.START: "ENTER", Act.BACK: "ESC", Act.ALT: "TAB", Act.EXTRA: "X", Act.BRAIN: "F4", Act.STOP: "F1"}
 _SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # held with another key, these speak to the window manager
 
@@ -111,7 +113,7 @@ class Keyboard:
 
     def __init__(self) -> None:
         self._down: set[int] = set()
-        self._latest = Device("keys", 0)
+        self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # the last used first
 
     def changes(self, event: pygame.Event) -> Iterator[tuple[Device, Change]]:
         """What a KEYDOWN or KEYUP event means, and for which cluster."""
@@ -121,10 +123,12 @@ class Keyboard:
             return
         (self._down.add if down else self._down.discard)(code)
         if code in _OWN:
-            self._latest, act = _OWN[code]
-            yield self._latest, Change(act, down, str(code))
+            device, act = _OWN[code]
+            if down:
+                self.latest = (device, *(other for other in self.latest if other != device))
+            yield device, Change(act, down, str(code))
         elif code in _SHARED:
-            yield self._latest, Change(_SHARED[code], down, str(code))
+            yield self.latest[0], Change(_SHARED[code], down, str(code))
 
     def release(self) -> None:
         """Let go of every key: the window lost the focus, and nobody will say when they come up."""

@@ -1,8 +1,11 @@
 """The lobby: press fire to join, again to be ready. AIs fill the seats that are wished for, teams are one press away.
 
 When all people are ready and at least two robots are there, the choice of the arena follows after a moment in which
-anybody may still join. Every device acts for its own seat; the mouse acts on what it points at.
+anybody may still join. Every seated device acts for its own seat, a free one can only join (see `access`); the mouse
+acts on what it points at.
 """
+
+from collections.abc import Sequence
 
 import pygame
 
@@ -11,6 +14,7 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.scenes import card
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.frame_budget import Ahead
@@ -18,7 +22,7 @@ from pigaming_app.scenes.house import House
 from pigaming_app.scenes.lobby_page import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.mat import unfit
 from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, Seats
+from pigaming_app.scenes.seats import AI, EMPTY, HUMAN, PLACES, Seats
 from pigaming_app.scenes.setup import SetupPage, chosen, summary
 from pigaming_app.scenes.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.stage import Stage
@@ -31,15 +35,19 @@ POINTED = 4.0  # seconds after the mouse moved in which its focus shows
 
 
 class Lobby:
-    """Who plays a game."""
+    """Who plays a game. `drivers`: who sits there already, for each seat a device, the strength of an AI, or None."""
 
-    def __init__(self, house: House, game: str) -> None:
+    def __init__(self, house: House, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.house, self.game = house, game
         self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game], mat=house.robots)
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in house.settings.real and not unfit(house.settings)
+        for seat, driver in enumerate(drivers):
+            if driver is not None:
+                self.seats.seat(seat, driver)
         self.now = Moment()
-        self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game))
+        self.access = Access(house, self.seats.devices)
+        self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game), self.access)
         self.focus = Focus(spots(self.seats))
         self.ahead = Ahead(card.ahead())
         self.rehearsal: Stage | None = None
@@ -56,8 +64,13 @@ class Lobby:
 
     def on(self, press: Press) -> Turn:
         """Join, be ready, leave, call AIs, choose teams, begin."""
-        press = self.page.prompts.meant(press)
-        device = press.device
+        meant = self.page.prompts.meant(press)
+        admitted = self.access.admit(meant)
+        if admitted is None:
+            self._knock(meant)
+            self._watch()
+            return None
+        press, device = admitted, admitted.device
         match press.act:
             case Act.FIRE:
                 self._fire(device)
@@ -87,6 +100,9 @@ class Lobby:
         """Let the robots turn; go on when everybody is ready; leave when nobody is there."""
         self.now.pass_by(seconds)
         self.focus.update(seconds)
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
         if self.now.starting is not None:
             self.now.starting -= seconds
             if self.now.starting <= 0.0:
@@ -113,6 +129,17 @@ class Lobby:
             self.rehearsal.warm(AHEAD)
 
     # ---- what presses do
+
+    def _knock(self, press: Press) -> None:
+        """A free device while others are seated: it joins, or hears which of its buttons does that."""
+        if press.act in (Act.FIRE, Act.START):
+            self._fire(press.device)
+        elif press.act in (Act.BACK, Act.EXTRA, Act.ALT):
+            words = self.house.words
+            full = len(self.seats.like(HUMAN)) == PLACES
+            self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
+            self.now.label = words.printed(self.house.controls.label(press.device, Act.FIRE))
+            self.now.said = SAID
 
     def _fire(self, device: Device) -> None:
         if device.kind == "mouse":  # somebody clicked on the hint
@@ -256,5 +283,5 @@ class Lobby:
             self.now.since[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:
-        self.now.message, self.now.said = message, SAID
+        self.now.message, self.now.label, self.now.said = message, "", SAID
         self.house.sounds.play(sound)

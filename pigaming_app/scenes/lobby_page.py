@@ -8,6 +8,7 @@ import pygame
 
 from pigaming_app.games.game import FREE, PAIRS
 from pigaming_app.scenes import card
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.focus import Spot
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, LABEL, dim
@@ -32,6 +33,7 @@ class Moment:
     starting: float | None = None  # until the choice of the arena
     whole: float = 1.0  # how long that was in the beginning
     message: str = ""  # what has just happened
+    label: str = ""  # of the button in it
     said: float = 0.0  # how long that will still be shown
     pointed: float = 0.0  # how long the focus of the mouse will still be shown
 
@@ -46,8 +48,8 @@ class Moment:
 class LobbyPage:
     """The page of these seats; `now` is what moves on it."""
 
-    def __init__(self, house: House, seats: Seats, now: Moment, fact: Callable[[], str]) -> None:
-        self.house, self.seats, self.now, self.fact = house, seats, now, fact
+    def __init__(self, house: House, seats: Seats, now: Moment, fact: Callable[[], str], access: Access) -> None:
+        self.house, self.seats, self.now, self.fact, self.access = house, seats, now, fact, access
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page; `fact` tells what stands beside its title."""
@@ -61,8 +63,8 @@ class LobbyPage:
 
     @property
     def prompts(self) -> Prompts:
-        """The hints that are true for the device used last."""
-        seat = self.seats.of(self.house.controls.last)
+        """The hints that are true for the device used last, if it may act."""
+        seat = self.seats.of(self.access.voice)
         full = not self.seats.like(EMPTY)
         hints = [
             (Act.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
@@ -71,7 +73,14 @@ class LobbyPage:
         ]
         if self.seats.sides == FREE:
             hints.append((Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
-        return Prompts(self.house, [*hints, (Act.START, "lobby.hint_begin")])
+        return Prompts(self.house, [*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
+
+    @property
+    def invited(self) -> tuple[str, ...]:
+        """The button of each device that could join, each once: of the pads, then of the keyboard's clusters."""
+        controls, words = self.house.controls, self.house.words
+        free = [device for device in controls.players() if self.seats.of(device) is None]
+        return tuple(dict.fromkeys(words.printed(controls.label(device, Act.FIRE)) for device in free))
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.house.words, self.seats.places[seat], card_rect(seat).topleft
@@ -79,7 +88,7 @@ class LobbyPage:
         if place.kind == EMPTY:
             card.empty(seat, said).draw(screen, x, y)
             level = pulse(self.now.clock) if seat == self.seats.like(EMPTY)[0] else 0
-            card.invitation(seat, words("lobby.press"), words("lobby.join"), level).draw(screen, x, y)
+            card.invitation(seat, words("lobby.press_to_join"), self.invited, level).draw(screen, x, y)
             return
         card.frame(seat, said, place.ready or place.kind == AI).draw(screen, x, y)
         self._robot(screen, seat)
@@ -132,7 +141,7 @@ class LobbyPage:
             screen.fill(FOCUS, (960 - reach, LINE_Y - 2, 2 * reach, 4))
             return
         if self.now.said > 0.0:
-            calling(self.now.message, "", LABEL).draw(screen, 960, MESSAGE_Y)
+            calling(self.now.message, self.now.label, LABEL).draw(screen, 960, MESSAGE_Y)
             return
         if waiting:
             place = self.seats.places[waiting[0]]

@@ -1,7 +1,6 @@
 """Hints in the margins beside an arena, one below the other, where they hide nothing of a match."""
 
 from dataclasses import replace
-from functools import lru_cache
 
 import pygame
 
@@ -10,6 +9,7 @@ from pigaming_app.scenes.pane import Lit, Pane, lines_of
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stage import LEFT
+from pigaming_app.scenes.surface_cache import cached
 from pigaming_app.sim.world import WIDTH
 
 ROOM = 136  # px of the 160 px between the arena and the edge of the picture
@@ -55,7 +55,7 @@ def shrunk(said: tuple[tuple[str, str], ...]) -> float:
     return min(LARGEST, ROOM / max(*lines, *(button_width(label) for label, _ in said)))
 
 
-@lru_cache(maxsize=16)
+@cached
 def column(said: tuple[tuple[str, str], ...]) -> Lit:
     """Each button over its text."""
     k, places = shrunk(said), boxes(said)
@@ -69,7 +69,7 @@ def column(said: tuple[tuple[str, str], ...]) -> Lit:
     return pane.done()
 
 
-@lru_cache(maxsize=8)
+@cached
 def note(said: str, figure: str) -> Lit:
     """A word over a figure, in the left margin."""
     size = min(BODY, round(BODY * ROOM / text_width(said, BODY)))

@@ -1,9 +1,11 @@
 """A match: three, two, one, go; people and AIs drive; time is up; the results.
 
 Only here devices meet seats. A seat whose device is gone asks for it, and when nobody comes an AI drives on until
-somebody presses FIRE for it.
+somebody presses FIRE for it; so does a seat at which nothing moves (see `walkoff`). Any free device takes the seat of
+an AI by holding FIRE (see `access`).
 """
 
+import math
 import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -15,20 +17,23 @@ import pygame
 from pigaming_app.ai import make, seated
 from pigaming_app.ai.brain import Hands
 from pigaming_app.games.game import Setup
+from pigaming_app.scenes.access import TAKE, Access
 from pigaming_app.scenes.countdown import CENTRE, Countdown, clear_of, popped, show, signs
 from pigaming_app.scenes.frame_budget import Ahead
+from pigaming_app.scenes.hold import Holds
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, FOCUS, LABEL, PLAYERS
 from pigaming_app.scenes.limits import tagline
 from pigaming_app.scenes.page import text
 from pigaming_app.scenes.pane import lines_of
 from pigaming_app.scenes.pause import Pause
-from pigaming_app.scenes.plate import Plate, plate
+from pigaming_app.scenes.plate import RING_STEPS, Plate, filling, plate
 from pigaming_app.scenes.press import Act, Device, Drive, Press
 from pigaming_app.scenes.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.results import Results
 from pigaming_app.scenes.stack import Push, Scene, Swap, Turn
 from pigaming_app.scenes.stage import Stage
+from pigaming_app.scenes.walkoff import WalkOff
 from pigaming_app.settings import folders
 from pigaming_app.sim.plant import Plant, SimPlant
 
@@ -42,7 +47,11 @@ STAND_IN = "normal"  # the brain that drives on for somebody
 
 
 class MatchScene:
-    """One match, from its countdown to its results. `devices`: who drives each seat; None: an AI, or nobody yet."""
+    """One match, from its countdown to its results. `devices`: who drives each seat; None: an AI, or nobody yet.
+
+    `humans`: the seats of people, of whom some may be away; `helped`: those for whom an AI has driven for a while;
+    `open`: whether a free device may take the seat of an AI.
+    """
 
     def __init__(
         self,
@@ -64,6 +73,11 @@ class MatchScene:
         self.idle = self.frozen = self.noticed = 0.0
         self.notice: Plate | None = None
         self.results: Results | None = None
+        self.access = Access(house, lambda: self.devices)
+        self.joining = Holds(house.controls, TAKE)
+        self.walkoff = WalkOff()
+        self.helped: set[int] = set()
+        self.open = True
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans:
@@ -74,22 +88,33 @@ class MatchScene:
     def entered(self) -> None:
         """Begin, or go on after an interruption."""
         self.house.sounds.music(True)
+        self.house.controls.forget_taps()
+        self.joining.clear()
         if self.begun and not self.match.over:
             self.count = Countdown(RESUME) if not self.count.locked else Countdown()
         self.begun = True
         self.idle = 0.0
 
     def on(self, press: Press) -> Turn:
-        """START or Escape pauses; FIRE on a free device takes back a seat that an AI holds for somebody."""
-        self.idle = 0.0
+        """START or Escape of a seated device pauses; a free one takes a seat that an AI holds."""
         if self.match.over:
             return None
+        if press.act is Act.LOST:
+            self.walkoff.forget(press.device)
+        if self.welcome(press):
+            return None
+        admitted = self.access.admit(press)
+        if press.act is Act.FIRE and self.free(press.device):
+            self._knock(press)
+        if admitted is None:
+            return None
+        self.idle = 0.0
+        if admitted.device in self.devices:
+            self.walkoff.alive(self.devices.index(admitted.device))
         if press.act is Act.BRAIN:
             self.think_aloud()
-        if press.act is Act.START or (press.act is Act.BACK and press.device.kind == "keys"):
-            return Push(Pause(self, press.device))
-        if press.act is Act.FIRE and self.stood_in and self.free(press.device):
-            self.hand(self.stood_in[0], press.device)
+        if press.act is Act.START or (press.act is Act.BACK and self._escapes(admitted.device)):
+            return Push(Pause(self, admitted.device))
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -99,16 +124,22 @@ class MatchScene:
             return Swap(self.again(self.house, self.setup, self.devices))
         if self.match.over or self.stopped:
             return self._end(seconds)
+        if held := self.access.update(seconds):
+            return Push(Pause(self, held.device))
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
+        for press in self.joining.update(seconds):
+            self._join(press.device)
         self.signs.work(0.0)
         self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
             self.house.sounds.play(sound)
         if self.count.locked:
+            self.house.controls.forget_taps()
             self.stage.wait(seconds)
             return None
         self.idle += seconds
+        self._miss(seconds)
         self.stage.advance(seconds, self.speed)
         if self.humans and self.idle > STILL:
             return Push(StillThere(self))
@@ -129,6 +160,10 @@ class MatchScene:
                 self.stage.captions(screen, self.devices)
                 self.spot = clear_of(self.stage.robots())
             self.count.draw(screen, words("match.go"), self.spot)
+        for seat, left in self.walkoff.asked().items():
+            said = words("match.still", seconds=max(1, math.ceil(left)))
+            self.stage.beside(screen, seat, plate(said, PLAYERS[seat], player=seat))
+        self._draw_joining(screen)
         if self.notice and self.noticed > 0.0:
             self.notice.draw(screen, 960, 206)
 
@@ -160,10 +195,19 @@ class MatchScene:
     def hand(self, seat: int, device: Device | None) -> None:
         """Give a seat to a device, or to an AI that drives until somebody comes."""
         self._sit(seat, device)
+        self.walkoff.settle(seat, device)
         name, sign = self.stage.driver(seat, device)
         name = name if device else self.house.words("match.back_in")
         self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.house.sounds.play("join", seat)
+
+    def welcome(self, press: Press) -> bool:
+        """Give its seat back to a device that has walked off and now presses something; true if it did."""
+        if press.device not in self.walkoff.away or press.act in (Act.STOP, Act.BRAIN):
+            return False
+        self.idle = 0.0
+        self.hand(self.walkoff.away[press.device], press.device)
+        return True
 
     def think_aloud(self) -> None:
         """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
@@ -185,11 +229,11 @@ class MatchScene:
 
     def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck."""
-        return MatchScene(house, replace(setup, seed=new_seed()), devices)
+        return MatchScene(house, anew(setup, devices), devices)
 
     @property
-    def extras(self) -> Mapping[str, Callable[[], Scene]]:
-        """What else the pause offers: by its name, a page."""
+    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+        """What else the pause offers: by its name, a page for those whose presses count there."""
         return {}
 
     @property
@@ -205,25 +249,80 @@ class MatchScene:
 
     # ---- inside
 
+    @property
+    def takeable(self) -> list[int]:
+        """The seats that AIs drive, in the order in which a free device gets them: first those of absent people."""
+        if not self.open:
+            return self.stood_in
+        robots = self.match.state.robots
+        ais = [i for i, robot in enumerate(robots) if robot.present and i not in self.humans]
+        return [*self.stood_in, *reversed(ais)]
+
+    def _escapes(self, device: Device) -> bool:
+        """Whether BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
+        return device.kind != "pad" or not self.access.seated
+
+    def _knock(self, press: Press) -> None:
+        """FIRE on a free device: a seat that nobody has a claim to is taken at once, any other one after a while."""
+        claimed = self.walkoff.away.values()
+        if vacant := [seat for seat in self.stood_in if seat not in claimed]:
+            self.hand(vacant[0], press.device)
+        elif self.takeable:
+            self.joining.begin(press)
+            self.notice, self.noticed = plate(self.house.words("match.hold"), sign="ai"), NOTICE
+
+    def _join(self, device: Device) -> None:
+        """Give a device the seat of an AI."""
+        if self.takeable and self.free(device):
+            seat = self.takeable[0]
+            if seat not in self.humans:
+                self.humans.append(seat)
+                self.helped.add(seat)
+            self.idle = 0.0
+            self.hand(seat, device)
+
+    def _draw_joining(self, screen: pygame.Surface) -> None:
+        """A ring that fills beside each robot that is about to be taken."""
+        for (device, share), seat in zip(self.joining.shares.items(), self.takeable, strict=False):
+            if self.free(device):
+                self.stage.beside(screen, seat, filling(seat, math.ceil(share * RING_STEPS)))
+
+    def _miss(self, seconds: float) -> None:
+        """Let an AI drive on for everybody who has walked off."""
+        controls = self.house.controls
+        driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
+        for seat, device in driven.items():
+            if controls.touched(device):
+                self.walkoff.alive(seat)
+        for seat in self.walkoff.update(seconds, driven):
+            self.hand(seat, None)
+            self.walkoff.leave(driven[seat], seat)
+
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
+        if device is None:
+            self.helped.add(seat)
         scene = proxy(self)  # a cycle would keep the surfaces of a match that is over
-        brain = Hands(lambda: scene._held(device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        brain = Hands(lambda: scene._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
         self.stage.players[seat] = "human" if device else STAND_IN
 
-    def _held(self, device: Device) -> Drive:
+    def _held(self, seat: int, device: Device) -> Drive:
         """How a device is held on the tick that acts on it."""
         drive = self.house.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
+            self.walkoff.alive(seat)
         return drive
 
     def _end(self, seconds: float) -> Turn:
         """The last picture stands while the results are made."""
         if self.results is None:
             finished = self.match.over and not self.stopped
-            self.results = Results(self.house, self.match.outcome(), self.setup, self.devices, self.again, finished)
+            helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
+            self.results = Results(
+                self.house, self.match.outcome(), self.setup, self.devices, self.again, finished, helped
+            )
             if finished:
                 self.house.sounds.play("go")
         ready = self.results.warm(WARM)
@@ -233,6 +332,13 @@ class MatchScene:
             results, self.results = self.results, None  # which hold this scene, for a rematch
             return Swap(results)
         return None
+
+
+def anew(setup: Setup, devices: Sequence[Device | None]) -> Setup:
+    """The same match with other luck, and people on all seats that now have a device."""
+    drivers = [*devices, None, None, None, None]
+    one, two, three, four = (replace(seat, brain="human") if drivers[i] else seat for i, seat in enumerate(setup.seats))
+    return replace(setup, seats=(one, two, three, four), seed=new_seed())
 
 
 def new_seed() -> int:

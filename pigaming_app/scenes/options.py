@@ -15,6 +15,7 @@ from pigaming_app.scenes import dials
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.ghosts import forget
+from pigaming_app.scenes.hold import Holds
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import LABEL
 from pigaming_app.scenes.page import blacked, calling, glow_bar, heading
@@ -22,13 +23,13 @@ from pigaming_app.scenes.pane import backdrop, span
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Home, Pop, Push, Quit, Turn
-from pigaming_app.scenes.words import LANGUAGES
+from pigaming_app.scenes.words import LANGUAGES, NAMES
 from pigaming_app.settings import folders
 
 IDLE = 90.0  # seconds without a press until the title
-SAID, SURE = 3.0, 3.0  # seconds for which a sentence stays; in which a second press deletes
+SAID = 3.0  # seconds for which a sentence stays
+CLEAR = 2.0  # seconds for which a button is held to empty the tables
 AHEAD = 2.0  # ms of a frame for pieces that a move of the focus will need
-NAMES = {"en": "English", "pt": "Português"}
 FLASHES = ("off", "soft", "full")
 ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
 FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
@@ -53,8 +54,9 @@ class OptionsPage:
         self.rows: Sequence[str] = ROWS
         if house.kiosk:
             self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
-        self.clock, self.sure, self.said, self.sentence = 0.0, 0.0, 0.0, ""
+        self.clock, self.said, self.sentence = 0.0, 0.0, ""
         self.cleared = False
+        self.clearing = Holds(house.controls, CLEAR)
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
         self.ahead = Ahead(self._ahead())
         self.prompts = Prompts(
@@ -74,20 +76,21 @@ class OptionsPage:
             case Act.LEFT | Act.RIGHT:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
             case Act.FIRE | Act.START:
-                return self._do(self.focus.name)
+                return self._do(self.focus.name, press)
             case Act.CLICK:
                 self.focus.on(press)
                 return self._click(press)
             case _:
                 if self.focus.on(press):
                     self.house.sounds.play("move")
-                    self.sure = 0.0
+                    self.clearing.clear()
         return None
 
     def update(self, seconds: float) -> Turn:
         """Let sentences fade; leave when nobody is there."""
         self.clock += seconds
-        self.sure -= seconds
+        if self.clearing.update(seconds):
+            self._clear()
         self.said -= seconds
         self.focus.update(seconds)
         self.ahead.work(AHEAD)
@@ -105,6 +108,8 @@ class OptionsPage:
         dials.beside().draw(screen, *dials.PANEL.topleft)
         dials.about(screen, words(f"options.{focus}"), words(f"options.{focus}_line"))
         dials.sketch(screen, focus, self._value(focus).chosen, self.clock)
+        if self.clearing.share:
+            dials.ring(screen, self.clearing.share)
         self.focus.draw(screen)
         if self.said > 0.0:
             calling(self.sentence, "", LABEL).draw(screen, 960, 926)
@@ -123,7 +128,8 @@ class OptionsPage:
         """Where the i-th row is."""
         x, w = span(0, 8)
         pitch = min(96.0, (BOTTOM - TOP - HIGH) / max(1, len(self.rows) - 1))
-        return pygame.Rect(x, round(TOP - HIGH / 2 + pitch * i), w, HIGH)
+        high = min(HIGH, int(pitch))  # rows that overlap could not be told apart by the focus
+        return pygame.Rect(x, round(TOP + pitch * i) - high // 2, w, high)
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
         """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
@@ -158,7 +164,7 @@ class OptionsPage:
             case "display":
                 return Value("arrows", tuple(canvas.displays()), canvas.display)
             case "reset":
-                key = "cleared" if self.cleared else "sure" if self.sure > 0.0 else "clear"
+                key = "cleared" if self.cleared else "clear"
                 return Value("deed", (words(f"options.{key}"),))
         return Value("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
 
@@ -168,14 +174,14 @@ class OptionsPage:
         most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
         self._take(name, max(0, min(most, value.chosen + by)))
 
-    def _do(self, name: str) -> Turn:
+    def _do(self, name: str, press: Press) -> Turn:
         """Fire: the next value, round and round; or the deed."""
         value = self._value(name)
         if value.kind != "deed":
             count = 11 if value.kind == "meter" else len(value.options)
             self._take(name, (value.chosen + 1) % count)
             return None
-        self.house.sounds.play("accept")
+        self.house.sounds.play("move" if name == "reset" else "accept")
         if name == "close":
             return Quit()
         if name == "padtest":
@@ -186,7 +192,8 @@ class OptionsPage:
             from pigaming_app.scenes.robots_menu import RobotsMenu
 
             return Push(RobotsMenu(self.house))
-        self._clear()
+        self.cleared = False
+        self.clearing.begin(press)
         return None
 
     def _click(self, press: Press) -> Turn:
@@ -195,7 +202,7 @@ class OptionsPage:
             return None
         value = self._value(name)
         if value.kind == "deed":
-            return self._do(name)
+            return self._do(name, press)
         hit = dials.hit(value.kind, value.options, value.chosen, press.at[0] - self.focus.rect(name).x)
         if hit is not None:
             self._take(name, hit)
@@ -225,12 +232,10 @@ class OptionsPage:
         self._keep()
 
     def _clear(self) -> None:
-        """Empty the tables of scores; only the second press does it."""
-        if self.sure <= 0.0:
-            self.sure, self.cleared = SURE, False
-            return
+        """Empty the tables of scores."""
         self.house.scores.reset()
-        self.sure, self.cleared = 0.0, True
+        self.cleared = True
+        self.house.sounds.play("accept")
         self._keep(scores=True)
         try:
             forget(folders().data)

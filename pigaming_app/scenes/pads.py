@@ -25,6 +25,7 @@ _BUTTONS = {
     pygame.CONTROLLER_BUTTON_DPAD_LEFT: Act.LEFT,
     pygame.CONTROLLER_BUTTON_DPAD_RIGHT: Act.RIGHT,
 }
+_STICK = (pygame.CONTROLLER_AXIS_LEFTX, pygame.CONTROLLER_AXIS_LEFTY)
 _SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
 _PLAIN_SHOULDERS = (4, 5)
 _PLAIN = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT)  # the first four buttons of a plain joystick
@@ -59,32 +60,48 @@ class Pad(Protocol):
     def drive(self) -> Drive:
         """How the pad is held now."""
 
+    def attached(self) -> bool:
+        """Whether its cable is still in, as far as the system knows."""
+
 
 class MappedPad:
-    """A pad SDL has a mapping for; every such pad has the buttons of an Xbox pad in the same places."""
+    """A pad SDL has a mapping for; every such pad has the buttons of an Xbox pad in the same places.
+
+    Changes are read off the events alone: in a long frame a button or stick may be back before anybody looks at it.
+    """
 
     def __init__(self, index: int) -> None:
         self._pad = controller.Controller(index)
         self._stick = StickDirection()
-        self._trigger = Trigger()
+        self._at = {axis: self._axis(axis) for axis in _STICK}
+        self._triggers = {
+            pygame.CONTROLLER_AXIS_TRIGGERRIGHT: Trigger(),
+            pygame.CONTROLLER_AXIS_TRIGGERLEFT: Trigger(None),
+        }
+        self._shoulders: set[int] = set()
         self.kind = _kind(self._pad.name)
 
     def changes(self, event: pygame.Event) -> Iterator[Change]:
         if event.type in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):
+            down = event.type == pygame.CONTROLLERBUTTONDOWN
             if event.button in _BUTTONS:
-                yield Change(_BUTTONS[event.button], event.type == pygame.CONTROLLERBUTTONDOWN)
-            elif event.button in _SHOULDERS and all(map(self._pad.get_button, _SHOULDERS)):
-                yield Change(Act.STOP, event.type == pygame.CONTROLLERBUTTONDOWN)
+                yield Change(_BUTTONS[event.button], down)
+            elif event.button in _SHOULDERS:
+                yield from _both(self._shoulders, event.button, down, _SHOULDERS)
+                if event.button == pygame.CONTROLLER_BUTTON_RIGHTSHOULDER:
+                    yield Change(None, down, "shoulder")
         elif event.type == pygame.CONTROLLERAXISMOTION:
-            if event.axis in (pygame.CONTROLLER_AXIS_LEFTX, pygame.CONTROLLER_AXIS_LEFTY):
-                yield from self._stick.moved(
-                    self._axis(pygame.CONTROLLER_AXIS_LEFTX), self._axis(pygame.CONTROLLER_AXIS_LEFTY)
-                )
-            elif event.axis == pygame.CONTROLLER_AXIS_TRIGGERRIGHT:
-                yield from self._trigger.moved(event.value / _FULL)
+            if event.axis in _STICK:
+                self._at[event.axis] = max(-1.0, event.value / _FULL)
+                yield from self._stick.moved(*(self._at[axis] for axis in _STICK))
+            elif event.axis in self._triggers:
+                yield from self._triggers[event.axis].moved(event.value / _FULL)
+
+    def attached(self) -> bool:
+        return bool(self._pad.attached())
 
     def drive(self) -> Drive:
-        if not self._pad.attached():
+        if not self.attached():
             return Drive()
         held = self._pad.get_button
         x, y = outside_dead_zone(self._axis(pygame.CONTROLLER_AXIS_LEFTX), self._axis(pygame.CONTROLLER_AXIS_LEFTY))
@@ -110,7 +127,9 @@ class PlainPad:
         self._pad = joystick
         self._stick = StickDirection()
         self._hat: dict[Act, bool] = {}
+        self._shoulders: set[int] = set()
         self._axes = joystick.get_numaxes() >= 2
+        self._at = [joystick.get_axis(0), joystick.get_axis(1)] if self._axes else [0.0, 0.0]
         count = joystick.get_numbuttons()
         self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start comes behind them
         start = 9 if self._shoulders_too else min(7, count - 1)
@@ -118,13 +137,11 @@ class PlainPad:
 
     def changes(self, event: pygame.Event) -> Iterator[Change]:
         if event.type in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP):
-            if event.button in self._acts:
-                yield Change(self._acts[event.button], event.type == pygame.JOYBUTTONDOWN)
-            elif event.button in _PLAIN_SHOULDERS and all(map(self._held, _PLAIN_SHOULDERS)):
-                yield Change(Act.STOP, event.type == pygame.JOYBUTTONDOWN)
+            yield from self._button(event.button, event.type == pygame.JOYBUTTONDOWN)
         elif event.type == pygame.JOYAXISMOTION:
             if event.axis < 2 and self._axes:
-                yield from self._stick.moved(self._pad.get_axis(0), self._pad.get_axis(1))
+                self._at[event.axis] = event.value
+                yield from self._stick.moved(*self._at)
         elif event.type == pygame.JOYHATMOTION and event.hat == 0:
             yield from self._hat_moved(*event.value)
 
@@ -138,6 +155,19 @@ class PlainPad:
             self._held(0) or (self._shoulders_too and self._held(7)),
             self._held(1) or self._held(5) or (self._shoulders_too and self._held(6)),
         )
+
+    def attached(self) -> bool:
+        return True  # a plain joystick that is gone reads as one at rest
+
+    def _button(self, button: int, down: bool) -> Iterator[Change]:
+        if button in self._acts:
+            yield Change(self._acts[button], down)
+        elif button in _PLAIN_SHOULDERS:
+            yield from _both(self._shoulders, button, down, _PLAIN_SHOULDERS)
+        if button == _PLAIN_SHOULDERS[1] or (self._shoulders_too and button == 6):
+            yield Change(None, down, str(button))
+        elif self._shoulders_too and button == 7:
+            yield Change(Act.FIRE, down, str(button))
 
     def _held(self, button: int) -> bool:
         return button < self._pad.get_numbuttons() and bool(self._pad.get_button(button))
@@ -185,6 +215,14 @@ class Pads:
 def label(kind: str, act: Act) -> str:
     """What is printed on the button of a kind of pad that means `act`; empty if none does."""
     return _DIRECTIONS.get(act) or _PRINTED[kind].get(_SHARED.get(act, act), "")
+
+
+def _both(held: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[Change]:
+    """The all-stop, when the second button of a pair goes down or the first of both comes up."""
+    together = held.issuperset(pair)
+    (held.add if down else held.discard)(button)
+    if together or held.issuperset(pair):
+        yield Change(Act.STOP, down, "shoulders")
 
 
 def _kind(name: str) -> str:

@@ -1,24 +1,51 @@
-"""The page over a match that stands still: who paused, and what now. The match is one dark picture behind it."""
+"""The page over a match that stands still: who paused, and what now. The match is one dark picture behind it.
 
+Whoever paused chooses alone for a while (see `access`); a ring shows for how long. To restart or end the match takes a
+second press within a few seconds.
+"""
+
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol
 
 import pygame
 
+from pigaming_app.scenes.access import OWNED, Access, Ownership
 from pigaming_app.scenes.devices import DeviceTable
+from pigaming_app.scenes.effects import timer_ring
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, MIST, PLAYERS, TITLE, Color, badge
+from pigaming_app.scenes.ink import (
+    ALARM,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    TITLE,
+    Color,
+    badge,
+    button,
+    button_width,
+    text_width,
+)
 from pigaming_app.scenes.overlay import FOOT, HEAD, PROMPTS, W, X, Y, overlay
-from pigaming_app.scenes.pane import Pane, fitted, word
+from pigaming_app.scenes.pane import Lit, Pane, fitted, word
+from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.stack import Pop, Push, Scene, Turn
+from pigaming_app.scenes.surface_cache import cached
 
 ITEMS = ("continue", "restart", "controls", "end")
 PITCH, ITEM_H = 74, 66
 ITEM_W = 620
+ASKED = ("restart", "end")  # items that have to be chosen twice
+SURE = 3.0  # seconds in which the second press counts
+WAITS = 2.0  # seconds for which somebody whose press did not count is told why
+RING = X + W - 112, Y + 116
 
 
 class Held(Protocol):
@@ -40,8 +67,15 @@ class Held(Protocol):
         """End the match now."""
 
     @property
-    def extras(self) -> Mapping[str, Callable[[], Scene]]:
-        """What else the pause offers: by its name, a page."""
+    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+        """What else the pause offers: by its name, a page for those whose presses count there."""
+
+    @property
+    def access(self) -> Access:
+        """Whose presses count in the match."""
+
+    def welcome(self, press: Press) -> bool:
+        """Give its seat back to a device that has walked off."""
 
     def hold(self, seconds: float) -> None:
         """Let time pass under a page."""
@@ -56,10 +90,12 @@ class Pause:
     def __init__(self, match: Held, device: Device) -> None:
         self.match, self.house = match, match.house
         self.player = match.devices.index(device) if device in match.devices else None
+        self.access = Ownership(match.house, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
+        self.sure = self.waits = 0.0
         self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80)
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Quiet."""
@@ -70,19 +106,33 @@ class Pause:
         press = self.prompts.meant(press)
         if press.act is Act.ALT:
             press = replace(press, act=Act.BRAIN)
+        admitted = self.access.admit(press)
+        acting = self.access.acting
+        if admitted is None or (press.act is Act.BRAIN and acting and admitted.device not in acting):
+            self.waits = WAITS
+            return None
+        press = admitted
         if press.act is Act.BRAIN:
             self.match.think_aloud()
         if press.act in (Act.START, Act.BACK, Act.BRAIN):
             return self._do("continue")
         if self.focus.on(press):
+            self.sure = 0.0
             self.house.sounds.play("move")
         chosen = self.focus.chosen(press)
+        if chosen in ASKED and self.sure <= 0.0:
+            self.sure = SURE
+            self.house.sounds.play("move")
+            return None
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
-        """Only the focus moves."""
+        """The focus moves, questions and the pause's ownership run out."""
         self.match.hold(seconds)
+        self.access.update(seconds)
         self.focus.update(seconds)
+        self.sure -= seconds
+        self.waits -= seconds
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -91,11 +141,41 @@ class Pause:
             color = ICE if self.player is None else PLAYERS[self.player]
             self.picture = overlay(self.match.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
-        self.focus.draw(screen)
-        text = self.house.words(f"pause.{self.focus.name}")
-        word(text, LABEL, FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
-        self.prompts.draw(screen)
+        color, box = (ALARM if self.sure > 0.0 else FOCUS), self.focus.spot.rect
+        self.focus.draw(screen, color)
+        if self.sure > 0.0:
+            pygame.draw.rect(screen, (0, 0, 0), box)
+            sure(self.house.words(f"pause.sure_{self.focus.name}", button="{button}"), self._button()).draw(
+                screen, *box.center
+            )
+        else:
+            word(self.house.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
+        self._draw_owned(screen)
+        if self.waits > 0.0:
+            plate(self._why(), FOCUS).draw(screen, 960, PROMPTS)
+        else:
+            self.prompts.draw(screen)
         self.match.shine(screen)
+
+    # ---- inside
+
+    def _button(self) -> str:
+        """What is printed on the button that takes what has the focus."""
+        return self.house.words.printed(self.house.controls.label(self.access.voice, Act.FIRE))
+
+    def _draw_owned(self, screen: pygame.Surface) -> None:
+        """For how long the pause belongs to whoever asked for it."""
+        if not self.access.owned or len(self.access.seated) < 2:
+            return
+        image, dx, dy = timer_ring(FOCUS, math.ceil(12 * self.access.left / OWNED) * 4, 46, LINE)
+        screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
+        word(str(math.ceil(self.access.left)), LABEL, FOCUS, "head").draw(screen, *RING)
+
+    def _why(self) -> str:
+        """Why a press did not count."""
+        if self.player is None or not self.access.owned:
+            return self.house.words("pause.wait")
+        return self.house.words("pause.wait_for", player=self.player + 1)
 
     def _do(self, name: str) -> Turn:
         self.house.sounds.play("back" if name == "continue" else "accept")
@@ -105,15 +185,15 @@ class Pause:
             case "end":
                 self.match.stop()
             case "controls":
-                return Push(DeviceTable(self.house, self.match.devices))
+                return Push(DeviceTable(self.house, self.match.devices, self.access))
             case extra if extra in self.match.extras:
-                return Push(self.match.extras[extra]())
+                return Push(self.match.extras[extra](self.access))
         return Pop()
 
     def _paint(self, pane: Pane) -> None:
         words = self.house.words
         text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
-        title(pane, self.player, text, ICE)
+        title(pane, self.player, text, ICE, RING[0] - 80)
         for spot in self.focus.spots:
             pane.page.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
 
@@ -126,10 +206,25 @@ def items(names: Sequence[str] = ITEMS) -> list[Spot]:
     return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + pitch * i, ITEM_W, high)) for i, name in enumerate(names)]
 
 
-def title(pane: Pane, player: int | None, text: str, color: Color) -> None:
-    """The head of a sheet: a badge, if it is about somebody, and one line."""
+@cached
+def sure(said: str, label: str) -> Lit:
+    """A question that a second press answers, round (0, 0); {button} in it is the button."""
+    before, _, after = said.partition("{button}")
+    wide = button_width(label) + 36
+    size = fitted(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
+    ends = [text_width(part.strip(), size) for part in (before, after)]
+    x = -(sum(ends) + wide) / 2
+    pane = Pane(x, -40, -2 * x, 80)
+    pane.page.text(before.strip(), size, x, 0, ALARM)
+    button(pane.page, x + ends[0] + 18, 0, label, ALARM)
+    pane.page.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
+    return pane.done()
+
+
+def title(pane: Pane, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
+    """The head of a sheet: a badge, if it is about somebody, and one line that ends before `right`."""
     x = X + 72
     if player is not None:
         badge(pane.hot, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
         x = X + 232
-    pane.page.text(text, fitted(text, TITLE, X + W - 60 - x), x, Y + 116, color)
+    pane.page.text(text, fitted(text, TITLE, right - x), x, Y + 116, color)

@@ -1,10 +1,11 @@
 """A line of text on a black plate with cut corners: what is said over a running match, made once and kept."""
 
+import math
 from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.scenes.ink import BODY, ICE, STEEL, THIN, Color, Ink, badge, cut, icon, text_width
+from pigaming_app.scenes.ink import BODY, FOCUS, ICE, LINE, STEEL, THIN, Color, Ink, badge, cut, icon, text_width
 from pigaming_app.scenes.surface_cache import cached
 
 MARGIN = 24  # px of glow round a plate
@@ -22,6 +23,22 @@ class Plate:
         """Paint it with its middle at (x, y)."""
         corner = round(x - self.image.get_width() / 2), round(y - self.image.get_height() / 2)
         screen.blit(self.image, corner, special_flags=pygame.BLEND_PREMULTIPLIED)
+
+
+RING_STEPS = 12  # pictures of a ring that fills
+
+
+@cached
+def filling(player: int, step: int) -> Plate:
+    """A player's badge in a ring that is `step` of RING_STEPS full, on black: a button that has to be held."""
+    r = 46
+    ink = Ink(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).to(r + MARGIN, r + MARGIN)
+    ink.solid([(1.2 * r * math.cos(i * math.tau / 32), 1.2 * r * math.sin(i * math.tau / 32)) for i in range(32)])
+    ink.ring(0, 0, r - 2, STEEL, THIN)
+    if step:
+        ink.arc(0, 0, r - 2, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), FOCUS, LINE)
+    badge(ink, player, 0, 0, 24)
+    return Plate(ink.sprite(0.6), 2 * r, 2 * r)
 
 
 @cached

@@ -35,12 +35,16 @@ class Device:
 
 @dataclass(frozen=True)
 class Press:
-    """One press. `repeat`: a direction held down, repeated. `at`: canvas position, 1920 x 1080, of the mouse."""
+    """One press. `repeat`: a direction held down, repeated. `at`: canvas position, 1920 x 1080, of the mouse.
+
+    `among`: of a key that all clusters of the keyboard share (Enter, Escape …), the clusters, the last used first.
+    """
 
     act: Act
     device: Device
     repeat: bool = False
     at: tuple[float, float] | None = None
+    among: tuple[Device, ...] = ()
 
 
 @dataclass(frozen=True)

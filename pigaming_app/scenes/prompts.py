@@ -1,6 +1,6 @@
 """The row at the foot of a page: which button of the device used last does what. The mouse clicks on it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import pygame
@@ -18,7 +18,7 @@ from pigaming_app.scenes.ink import (
     text_width,
 )
 from pigaming_app.scenes.pane import Lit, Pane
-from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.surface_cache import cached
 
 ROOM = 1760  # px for the whole row
@@ -29,13 +29,20 @@ HIGH = 34  # px from the middle of the row to the edge of what can be clicked
 class Prompts:
     """A row of (act, key of its text), centred on the line y px of the canvas, not wider than `room` px.
 
-    `solid`: the row lies on a black plate.
+    `solid`: the row lies on a black plate. `voice`: the device whose buttons are named, if not the one used last.
     """
 
     def __init__(
-        self, house: House, items: Sequence[tuple[Act, str]], y: int = 980, room: int = ROOM, solid: bool = False
+        self,
+        house: House,
+        items: Sequence[tuple[Act, str]],
+        y: int = 980,
+        room: int = ROOM,
+        solid: bool = False,
+        voice: Callable[[], Device] | None = None,
     ) -> None:
         self.house, self.items, self.y, self.room, self.solid = house, tuple(items), y, room, solid
+        self.voice = voice
 
     @property
     def said(self) -> tuple[tuple[str, str], ...]:
@@ -68,7 +75,7 @@ class Prompts:
 
     def _label(self, act: Act) -> str:
         """What is printed on the button; RIGHT stands for left and right."""
-        return "<>" if act is Act.RIGHT else self.house.controls.label(None, act)
+        return "<>" if act is Act.RIGHT else self.house.controls.label(self.voice() if self.voice else None, act)
 
 
 def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:

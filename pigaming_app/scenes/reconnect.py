@@ -43,9 +43,8 @@ class Reconnect:
         self.match, self.house, self.seat = match, match.house, seat
         self.age, self.found = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
-        self.prompts = Prompts(
-            self.house, [(Act.EXTRA, "pause.hint_ai"), (Act.BACK, "pause.hint_menu")], PROMPTS, W - 80
-        )
+        hints = [(Act.EXTRA, "pause.hint_ai"), (Act.BACK, "pause.hint_menu")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
@@ -55,6 +54,7 @@ class Reconnect:
     def on(self, press: Press) -> Turn:
         """FIRE on a free device takes the seat; EXTRA gives it to an AI; BACK opens the menu."""
         press = self.prompts.meant(press)
+        admitted = self.match.access.admit(press)
         if press.act is Act.FOUND:
             self.found = True
             self.house.sounds.play("move")
@@ -62,18 +62,20 @@ class Reconnect:
             self.found = False
         elif press.act in (Act.FIRE, Act.START) and self.match.free(press.device):
             return self._hand(press.device)
-        elif self.age < DEAF:
+        elif admitted is None or self.age < DEAF:
             return None
-        elif press.act is Act.EXTRA:
+        elif admitted.act is Act.EXTRA:
             return self._hand(None)
-        elif press.act is Act.BACK:
-            return Swap(Pause(self.match, press.device))
+        elif admitted.act is Act.BACK:
+            return Swap(Pause(self.match, admitted.device))
         return None
 
     def update(self, seconds: float) -> Turn:
         """The ring runs out."""
         self.match.hold(seconds)
         self.age += seconds
+        if held := self.match.access.update(seconds):
+            return Swap(Pause(self.match, held.device))
         return self._hand(None) if self.age >= WAIT else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -119,8 +121,10 @@ class StillThere:
         self.house.sounds.play("error")
 
     def on(self, press: Press) -> Turn:
-        """Whatever is pressed, the match goes on."""
-        return Pop() if press.act not in (Act.LOST, Act.FOUND, Act.POINT) else None
+        """Whatever is pressed, the match goes on, and whoever has walked off has the seat back."""
+        if press.act in (Act.LOST, Act.FOUND, Act.POINT):
+            return None
+        return Pop() if self.match.welcome(press) or self.match.access.admit(press) else None
 
     def update(self, seconds: float) -> Turn:
         """The ring runs out."""

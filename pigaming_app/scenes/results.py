@@ -1,25 +1,33 @@
 """The results: rows and plot, and one button for a rematch.
 
 The rows come in from the last to the first, then the winner's name. Nothing is heard until that is over, so that nobody
-who is still firing leaves it unseen. Everyone who played votes with FIRE; START begins at once.
+who is still firing leaves it unseen; B, the turbo, counts even later and has to be held. Everyone who played votes with
+FIRE; START begins at once; a free device holds FIRE to play instead of an AI.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import pygame
 
 from pigaming_app.games.game import Outcome, Setup
+from pigaming_app.scenes.access import TAKE, Access
 from pigaming_app.scenes.ballot import Ballot
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.feats import contest
+from pigaming_app.scenes.game_choice import GameChoice
+from pigaming_app.scenes.hold import Holds
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.initials import Initials, claims
+from pigaming_app.scenes.ink import FOCUS
+from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.results_page import ResultsPage
-from pigaming_app.scenes.stack import Home, Pop, Push, Scene, Swap, Turn
+from pigaming_app.scenes.stack import Home, Push, Scene, Swap, Turn
 
-DEAF = 1.2  # seconds in which presses are ignored
+DEAF = 2.5  # seconds in which presses are ignored
+LATE, LEAVE = 5.0, 0.5  # seconds in which BACK is ignored, and for which it then has to be held
+SAID = 3.0  # seconds for which a sentence stays
 CLAIMS = 2.6  # seconds before initials are asked for
 IDLE = 60.0  # seconds without a press until the title
 
@@ -27,7 +35,10 @@ Again = Callable[[House, Setup, Sequence[Device | None]], Scene]
 
 
 class Results:
-    """How a match ended. `devices`: who drove each seat; `finished`: it was played to its end."""
+    """How a match ended. `devices`: who drove each seat; `finished`: it was played to its end.
+
+    `helped`: the seats that were not driven by the same person all the time; what they scored is no record.
+    """
 
     def __init__(
         self,
@@ -37,25 +48,28 @@ class Results:
         devices: Sequence[Device | None],
         again: Again,
         finished: bool = True,
+        helped: Collection[int] = (),
     ) -> None:
         self.house, self.setup, self.again = house, setup, again
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
-        humans = [seat for seat in seats if setup.seats[seat].brain == "human"]
+        humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = Ballot(house, seats, humans, devices)
         absent = [seat for seat in humans if devices[seat] is None]
         self.page = ResultsPage(house, outcome, setup, finished, absent)
-        self.claims = claims(house, outcome, setup, devices) if finished else []
+        own = [None if seat in helped else device for seat, device in enumerate(devices)]
+        self.claims = claims(house, outcome, setup, own) if finished else []
+        self.initials = Initials(house, setup, self.claims)
         self.sounds = self.page.sounds(humans)
-        self.age = self.idle = 0.0
-        self.prompts = Prompts(
-            house,
-            [
-                (Act.FIRE, "results.again"),
-                (Act.EXTRA, "results.change"),
-                (Act.ALT, "results.scores"),
-                (Act.BACK, "results.menu"),
-            ],
-        )
+        self.age = self.idle = self.told = 0.0
+        self.access = Access(house, lambda: self.ballot.devices)
+        self.leaving, self.joining = Holds(house.controls, LEAVE), Holds(house.controls, TAKE)
+        hints = [
+            (Act.FIRE, "results.again"),
+            (Act.EXTRA, "results.change"),
+            (Act.ALT, "results.scores"),
+            (Act.BACK, "results.menu"),
+        ]
+        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
 
     def warm(self, milliseconds: float) -> bool:
         """Make the page for so long; true when all of it is there."""
@@ -66,25 +80,29 @@ class Results:
         self.idle = 0.0
 
     def on(self, press: Press) -> Turn:
-        """FIRE votes, START begins, EXTRA goes back to the choice of the match, BACK to the title."""
-        self.idle = 0.0
+        """FIRE votes, START begins, EXTRA leads to another game, BACK, held, to the title."""
         press = self.prompts.meant(press)
+        admitted = self.access.admit(press)
+        if admitted is None and press.act is not Act.FIRE:
+            return None
+        self.idle = 0.0
         if self.age < DEAF or self.claims:
             return None
-        match press.act:
-            case Act.FIRE if press.device.kind != "mouse":
-                if self.ballot.vote(press.device):
-                    self.house.sounds.play("ready", None)
+        if admitted is None or (press.act is Act.FIRE and press.device.kind != "mouse"):
+            self._fire(press)
+            return None
+        match admitted.act:
             case Act.START | Act.FIRE:
                 return self._rematch(everyone=True)
             case Act.EXTRA:
                 self.house.sounds.play("accept")
-                return Pop()
+                return Push(GameChoice(self.house, self.setup, self.ballot.devices))
             case Act.ALT:
                 return Push(Best(self.house, contest(self.setup)))
-            case Act.BACK:
-                self.house.sounds.play("back")
-                return Home()
+            case Act.BACK if admitted.device.kind == "mouse":
+                return self._leave()
+            case Act.BACK if self.age >= LATE:
+                self.leaving.begin(admitted)
             case _:
                 pass
         return None
@@ -93,13 +111,21 @@ class Results:
         """Let the page come, ask for initials, count the votes, leave when nobody is there."""
         self.age += seconds
         self.idle += seconds
+        self.told -= seconds
         self.page.update(seconds, self.age)
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
             self.house.sounds.play(name, player)
-        if self.claims and self.age >= CLAIMS:
-            claims, self.claims = self.claims, []
-            return Push(Initials(self.house, self.setup, claims))
+        if self.claims:
+            self.initials.warm()
+            if self.age >= CLAIMS:
+                self.claims = []
+                return Push(self.initials)
+        if self.leaving.update(seconds) or self.access.update(seconds):
+            return self._leave()
+        for press in self.joining.update(seconds):
+            if self.ballot.take(press.device):
+                self.house.sounds.play("join", self.ballot.devices.index(press.device))
         if self.ballot.update(seconds):
             return self._rematch(everyone=False)
         return Home() if self.idle > IDLE else None
@@ -108,9 +134,31 @@ class Results:
         """Paint the page, the votes and what the buttons do."""
         self.page.draw(screen, self.age)
         if self.age >= self.page.ready_at:
-            self.ballot.draw(screen)
-            self.prompts.draw(screen)
+            self.ballot.draw(screen, self.joining.shares.values())
+            if self.told > 0.0:
+                plate(self.house.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
+            else:
+                self.prompts.draw(screen)
+            if self.leaving.share:
+                filled(screen, self.leaving.share)
+
+    def _fire(self, press: Press) -> None:
+        """A vote; of a free device a seat, for which FIRE is held where it is an AI's."""
+        if self.ballot.vote(press.device):
+            self.house.sounds.play("ready", None)
+        elif press.device not in self.ballot.devices and self.ballot.takeable:
+            self.joining.begin(press)
+            self.told = SAID
+
+    def _leave(self) -> Turn:
+        self.house.sounds.play("back")
+        return Home()
 
     def _rematch(self, everyone: bool) -> Turn:
         self.house.sounds.play("accept")
         return Swap(self.again(self.house, self.setup, self.ballot.drivers(everyone)))
+
+
+def filled(screen: pygame.Surface, share: float) -> None:
+    """A line at the foot of a page that fills while BACK is held, `share` 0..1."""
+    pygame.draw.line(screen, FOCUS, (960 - 400 * share, 1034), (960 + 400 * share, 1034), 6)

@@ -3,7 +3,7 @@
 Whoever presses fire gets the next empty seat, and so becomes player 1, 2, 3 or 4. The last AI makes room for a person.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from pigaming_app.ai import STRENGTHS
 from pigaming_app.games.game import FREE, PAIRS, Seat
@@ -97,6 +97,11 @@ class Seats:
             self.places[seat] = Place(HUMAN, device, team=self._wanted(seat), real=self.places[seat].real)
         return seat
 
+    def seat(self, seat: int, driver: Device | str) -> None:
+        """Give an empty seat to a device, or to an AI of that strength, or of the usual one where it is no rival."""
+        place = Place(HUMAN, driver) if isinstance(driver, Device) else Place(AI, strength=self._strength(driver))
+        self.places[seat] = replace(place, team=self._wanted(seat), real=self.places[seat].real)
+
     def leave(self, seat: int) -> None:
         """Empty a seat."""
         self.places[seat] = Place(team=self.places[seat].team, real=self.places[seat].real)
@@ -156,6 +161,9 @@ class Seats:
         others = [place.team for i, place in enumerate(self.places) if place.kind != EMPTY and i != seat]
         more = others.count(0) - others.count(1)
         return self.places[seat].team if more == 0 else int(more > 0)
+
+    def _strength(self, wished: str) -> str:
+        return wished if wished in self.rivals else self.strength
 
     def _brain(self, place: Place) -> str:
         return {EMPTY: "off", HUMAN: "human"}.get(place.kind, place.strength)

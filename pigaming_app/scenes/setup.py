@@ -1,6 +1,6 @@
 """Where, how long and by which rules: the last page before a match. Whatever was chosen last is chosen again.
 
-Any device may steer it: up and down from row to row, left and right change, fire begins.
+Any seated device may steer it: up and down from row to row, left and right change, fire begins.
 """
 
 import logging
@@ -15,6 +15,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import choice, effects
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.feats import contest, table_of, told
 from pigaming_app.scenes.focus import Focus, Spot
 from pigaming_app.scenes.frame_budget import Steps, sliced
@@ -55,10 +56,10 @@ class SetupPage:
         self.chosen = chosen(house, game)
         self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
+        self.access = Access(house, seats.devices)
         self.going = False  # a match was asked for
-        self.prompts = Prompts(
-            house, [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
-        )
+        hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
+        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
         self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
 
     def entered(self) -> None:
@@ -68,9 +69,10 @@ class SetupPage:
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
-        press = self.prompts.meant(press)
-        if self.going:
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None or self.going:
             return None
+        press = admitted
         match press.act:
             case Act.LEFT | Act.RIGHT:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
@@ -91,6 +93,9 @@ class SetupPage:
         """Let the picture slide in; go back when a seat has lost its device, and leave when nobody is there."""
         self.clock += seconds
         if any(device and not self.house.controls.connected(device) for device in self.seats.devices()):
+            return Pop()
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
             return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
         self.focus.update(seconds)

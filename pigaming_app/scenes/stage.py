@@ -14,7 +14,7 @@ from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.pace import Pace
-from pigaming_app.scenes.plate import plate
+from pigaming_app.scenes.plate import Plate, plate
 from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.surface_cache import surfaces
 from pigaming_app.scenes.views import VIEWS
@@ -87,11 +87,15 @@ class Stage:
         for seat, robot in enumerate(self.match.state.robots):
             if robot.present:
                 name, sign = self.driver(seat, devices[seat])
-                sheet = plate(name, PLAYERS[seat], sign=sign)
-                margin = LEFT + 24 + sheet.width / 2
-                x = min(max(LEFT + robot.x, margin), 1920 - margin)
-                beside = self.view.reach(seat, BESIDE)
-                sheet.draw(screen, x, TOP + robot.y + (beside if robot.y < HEIGHT / 2 else -beside))
+                self.beside(screen, seat, plate(name, PLAYERS[seat], sign=sign))
+
+    def beside(self, screen: pygame.Surface, seat: int, sheet: Plate) -> None:
+        """Paint something beside a robot, on the side where the arena has more room."""
+        robot = self.match.state.robots[seat]
+        margin = LEFT + 24 + sheet.width / 2
+        x = min(max(LEFT + robot.x, margin), 1920 - margin)
+        beside = self.view.reach(seat, BESIDE)
+        sheet.draw(screen, x, TOP + robot.y + (beside if robot.y < HEIGHT / 2 else -beside))
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
         """What drives a seat, in words, and the icon for it."""

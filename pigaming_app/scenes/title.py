@@ -44,7 +44,7 @@ from pigaming_app.scenes.parade import dot_robot, parade
 from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Push, Quit, Scene, Turn
 from pigaming_app.scenes.surface_cache import cached, surfaces
-from pigaming_app.scenes.words import LANGUAGES
+from pigaming_app.scenes.words import LANGUAGES, NAMES
 
 TILE_Y, TILE_H = 416, 416
 PROMPT_Y, FOOT_Y = 906, 990
@@ -170,16 +170,27 @@ class Title:
         return there if self.house.kiosk else (*there, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:
-        """The line that asks for a press, between arrows that run towards it."""
-        words = self.house.words
-        label = words.printed(self.house.controls.label(None, Act.FIRE))
-        said = words("title.press", button="{button}")
+        """The line that asks for a press, and says what it opens, between arrows that run towards it."""
+        said, label = self.asked
         calling(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
         reach = calling_width(said, label, SUB) / 2 + 44
         for k in range(3):
             level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
             sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
             sign("left", 24, FOCUS, LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
+
+    @property
+    def asked(self) -> tuple[str, str]:
+        """The line that asks for a press, and the label of the button in it."""
+        words, name = self.house.words, self.focus.name
+        label = words.printed(self.house.controls.label(None, Act.FIRE))
+        if name in GAMES:
+            return words("title.press", button="{button}"), label
+        return words("title.choose", button="{button}", what=self._what(name)), label
+
+    def _what(self, name: str) -> str:
+        """What a chip opens, as its label says."""
+        return NAMES[name] if name in LANGUAGES else self.house.words(f"title.{name}")
 
     def _foot(self, screen: pygame.Surface) -> None:
         words = self.house.words

@@ -12,6 +12,7 @@ from pigaming_app import ASSETS
 
 LANGUAGES = ("en", "pt")
 DECIMAL = re.compile(r"[+−-]?\d+\.\d+")
+NAMES = {"en": "English", "pt": "Português"}
 
 
 class Words:

@@ -5,6 +5,7 @@ and adds its new rows. Then a row of another copy is never lost, and a table tha
 """
 
 import logging
+import os
 from collections.abc import Iterable
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -39,7 +40,7 @@ class Scores:
         What version 1.3.0 kept is backed up and carried over.
         """
         scores = cls()
-        if not folder.is_dir():
+        if not os.path.isdir(folder):  # which never raises
             return scores, []
         try:
             with locked(folder / FILE):

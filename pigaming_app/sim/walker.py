@@ -1,18 +1,20 @@
 """People who walk: a flow field leads them round walls; they stop for robots, and step round whoever stands still.
 
-A walker is any record with x, y, heading, walking (1: on the move), side (on which it goes round somebody: -1, 0 or 1)
-and an `errand` (see `navigate`).
+A walker is any record with x, y, heading, walking (1: on the move), side (on which it goes round somebody: -1, 0 or 1),
+an `errand` (see `navigate`), and `least` and `held_up`, by which it is known whether it gets on. The world has a Motion
+for each robot, brought up to date once a tick: people go by how robots move, not by how their motors turn.
 """
 
-from math import atan2, cos, sin, sqrt
+from math import atan2, exp, sqrt
 from typing import Any
 
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.navigate import find_way
+from pigaming_app.sim.navigate import find_way, free_node
+from pigaming_app.sim.record import record
 from pigaming_app.sim.robots import RADIUS
-from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.sim.world import CELL, DT, ROBOTS
 
 THERE = 6.0  # px from the goal that count as there
 NEARLY = 70.0  # px that do, if somebody stands in the way
@@ -21,6 +23,30 @@ PAST = 24.0  # px more than that, from which on it has come past somebody
 DRIVING = 20.0  # px/s
 AHEAD = 0.5  # s that it looks ahead at how a robot drives
 TURN = 8.0  # rad/s
+NEARER = 10.0  # px that count as getting on
+CARRIED = 40.0  # px in a tick: a robot that moved further was carried
+SMOOTH = 1.0 - exp(-DT / 0.1)  # share of a velocity measured in one tick; to and fro within 0.1 s is no driving
+
+
+@record
+class Motion:
+    """How a robot moves, by the poses at which it is found."""
+
+    x: float  # px, on the tick before
+    y: float
+    vx: float  # px/s
+    vy: float
+
+
+@kernel
+def observe(motion: Any, robot: Any) -> None:
+    """Take in where a robot is now."""
+    dx, dy = robot.x - motion.x, robot.y - motion.y
+    motion.x, motion.y = robot.x, robot.y
+    if dx * dx + dy * dy > CARRIED * CARRIED:
+        dx, dy = 0.0, 0.0
+    motion.vx += (dx / DT - motion.vx) * SMOOTH
+    motion.vy += (dy / DT - motion.vy) * SMOOTH
 
 
 @kernel
@@ -28,6 +54,7 @@ def send(walker: Any, x: float, y: float) -> None:
     """Send a walker to a place."""
     errand = walker.errand
     errand.wanted, errand.goal_x, errand.goal_y = 1, x, y
+    walker.least, walker.held_up = 1e9, 0
 
 
 @kernel
@@ -40,6 +67,7 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     if left < THERE:
         return 1
     find_way(world, errand, walker.x, walker.y)
+    get_on(world, walker, left)
     dx, dy = errand.way_x - walker.x, errand.way_y - walker.y
     gap = sqrt(dx * dx + dy * dy)
     if gap < 1e-6:
@@ -51,10 +79,22 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
         if in_the_way(world, walker, walker.x + ux, walker.y + uy, radius + PAST) < 0:
             walker.side = 0
         return 0
-    if block >= 0 and left < NEARLY and not drives(world.robots[block]):
+    if block >= 0 and left < NEARLY and not drives(world.motions[block]):
         return 1
     go_round(world, walker, block, ux, uy, radius)
     return 0
+
+
+@kernel
+def get_on(world: Any, walker: Any, left: float) -> None:
+    """Count the ticks since a walker last came nearer to its goal, by the way that it has to go."""
+    errand = walker.errand
+    if not errand.straight:
+        left = CELL * errand.reach[free_node(world, walker.x, walker.y)]
+    if left < walker.least - NEARER:
+        walker.least, walker.held_up = left, 0
+    else:
+        walker.held_up += 1
 
 
 @kernel
@@ -97,9 +137,9 @@ def look(walker: Any, vx: float, vy: float) -> None:
 
 
 @kernel
-def drives(robot: Any) -> bool:
+def drives(motion: Any) -> bool:
     """Whether a robot is on the move."""
-    return robot.linear > DRIVING or robot.linear < -DRIVING  # type: ignore[no-any-return]
+    return motion.vx * motion.vx + motion.vy * motion.vy > DRIVING * DRIVING  # type: ignore[no-any-return]
 
 
 @kernel
@@ -109,11 +149,13 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
         robot = world.robots[k]
         if not robot.present:
             continue
-        reach = RADIUS + radius + (ROOM if drives(robot) else CLOSE)
-        ahead = AHEAD * robot.linear
-        vx, vy = ahead * cos(robot.heading), ahead * sin(robot.heading)
-        for half in range(3):
-            rx, ry = robot.x + 0.5 * half * vx, robot.y + 0.5 * half * vy
+        motion = world.motions[k]
+        looks, reach = (3, RADIUS + radius + ROOM) if drives(motion) else (1, RADIUS + radius + CLOSE)
+        for half in range(looks):
+            ahead = 0.5 * half * AHEAD
+            rx, ry = robot.x + ahead * motion.vx, robot.y + ahead * motion.vy
+            if half and in_wall(world, rx, ry):  # a wall will stop it
+                break
             dx, dy = x - rx, y - ry
             gap = dx * dx + dy * dy
             if gap < reach * reach:

@@ -37,7 +37,7 @@ def main(arguments: Sequence[str]) -> int:
         return soak(round(seconds * 30), 1 / 30, lambda: None, ATTRACT_MB)
     count, seed = (int(number) for number in (*numbers, *("200000", "1")[len(numbers) :]))
     rng = random.Random(seed)
-    return soak(count // A_FRAME, 1 / 20, lambda: press(rng), PRESSES_MB)
+    return soak(count // A_FRAME, 1 / 20, lambda: press(rng, A_FRAME), PRESSES_MB)
 
 
 def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int:
@@ -61,9 +61,9 @@ def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int
     return int(code or max(found) > limit)
 
 
-def press(rng: random.Random) -> None:
-    """Press and release some keys; now and then the mouse is clicked somewhere."""
-    for _ in range(A_FRAME):
+def press(rng: random.Random, count: int) -> None:
+    """Press and release so many keys; now and then the mouse is clicked somewhere."""
+    for _ in range(count):
         code = rng.choice(KEYS)
         for kind in (pygame.KEYDOWN, pygame.KEYUP):
             pygame.event.post(pygame.Event(kind, key=0, scancode=code, mod=0))

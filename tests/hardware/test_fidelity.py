@@ -139,6 +139,18 @@ def test_a_recorded_run_comes_back_as_it_was(tmp_path):
     assert len(course.seen_at) == 60
 
 
+def test_a_recording_that_breaks_off_leaves_the_one_before(tmp_path):
+    path = tmp_path / "run.jsonl"
+    path.write_text("the one before")
+    for end in (Recorder.discard, Recorder.close):
+        recorder = Recorder(path, 1.3)
+        recorder.sent(0.0, [None] * 4)
+        assert path.read_text() == "the one before"
+        end(recorder)
+        assert [one.name for one in tmp_path.iterdir()] == ["run.jsonl"]
+    assert path.read_text().count("\n") == 2
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

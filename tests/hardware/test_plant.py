@@ -182,7 +182,7 @@ def test_a_robot_with_a_covered_marker_has_no_place_until_it_is_seen():
     plant.place([(robot.x, robot.y, robot.heading) for robot in mat.robots])
     mat.robots[3].hidden = True
     mat.pass_time(2.0)
-    for _ in range(50):
+    for _ in range(200):
         assert not plant.take_places()
         mat.pass_time()
     assert [place.there for place in plant.places] == [True, True, True, False]

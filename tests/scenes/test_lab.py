@@ -201,7 +201,9 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     arcade.shown(Verdict)
     assert here.workshop.training.experiences == experiences, "it rests meanwhile"
     assert here.workshop.join()
-    arcade.press(Act.BACK)
+    for kind, seconds in ((pygame.KEYDOWN, 0.2), (pygame.KEYUP, 5.0), (pygame.KEYDOWN, 0.8), (pygame.KEYUP, 0.1)):
+        pygame.event.post(pygame.Event(kind, key=0, scancode=pygame.KSCAN_ESCAPE, mod=0))
+        arcade.wait(seconds)
     assert lab(arcade) is here
     arcade.wait(0.5)
     assert here.workshop.training.experiences > experiences
@@ -234,11 +236,13 @@ def test_once_more_and_an_early_end(arcade: Arcade) -> None:
     arcade.press(Act.START)
     arcade.shown(Pause).focus.go("restart")
     arcade.press(Act.FIRE)
+    arcade.press(Act.FIRE)
     arcade.wait(0.1)
     third = arcade.shown(Fight)
     assert third is not second
     arcade.press(Act.START)
     arcade.shown(Pause).focus.go("end")
+    arcade.press(Act.FIRE)
     arcade.press(Act.FIRE)
     arcade.wait(0.1)
     lab(arcade)

@@ -54,7 +54,8 @@ def test_fire_again_is_ready_and_back_takes_that_back_then_leaves_then_goes_to_t
     assert not place.ready
     arcade.press(Act.BACK)
     assert kinds(arcade) == ".H.."
-    arcade.press(Act.BACK)
+    arcade.press(Act.BACK, KEYS[1])
+    arcade.press(Act.BACK, KEYS[1])
     assert arcade.stack.top is arcade.title
 
 

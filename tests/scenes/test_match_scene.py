@@ -99,7 +99,7 @@ def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: A
     assert arcade.shown(Pause).player == 1
     before = match.match.state.tick
     arcade.wait(5.0)
-    arcade.press(act, KEYS[0])
+    arcade.press(act, KEYS[1])
     assert arcade.shown(MatchScene) is match
     arcade.wait(1.3, draw=True)
     assert match.match.state.tick == before
@@ -126,6 +126,8 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     arcade.press(Act.BACK)
     arcade.press(Act.UP)
     arcade.press(Act.FIRE)
+    arcade.shown(Pause)
+    arcade.press(Act.FIRE)
     arcade.frame()
     fresh = arcade.shown(MatchScene)
     assert fresh is not match
@@ -134,6 +136,7 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     assert fresh.devices[0] == KEYS[0]
     arcade.press(Act.START)
     arcade.press(Act.UP)
+    arcade.press(Act.FIRE)
     arcade.shown(Pause)
     arcade.press(Act.FIRE)
     arcade.until(lambda: isinstance(arcade.stack.top, Results))
@@ -266,3 +269,14 @@ def test_the_numbers_before_a_match_stand_where_they_hide_no_robot() -> None:
     assert abs(x - 900) > 300 or abs(y - 540) > 250
     assert 370 <= y <= 830, "its ring stays inside the arena"
     assert clear_of([(x, y) for x in range(200, 1800, 300) for y in range(200, 1000, 200)]) == CENTRE, "nowhere is free"
+
+
+@pytest.mark.parametrize(("speed", "records"), [(1.0, 1), (0.5, 0), (2.0, 0)])
+def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, records: int) -> None:
+    scene = MatchScene(arcade.house, setup("human normal off off", 0.05), [KEYS[0]], speed)
+    arcade.open(scene)
+    arcade.until(lambda: scene.match.state.tick > 100)
+    scene.match.state.robots[0].score = 9
+    arcade.until(lambda: scene.results is not None)
+    assert scene.results
+    assert len(scene.results.claims) == records

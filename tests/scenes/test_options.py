@@ -4,18 +4,20 @@ import tomllib
 from datetime import datetime
 from pathlib import Path
 
+import pygame
 import pytest
 
 from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import dials
 from pigaming_app.scenes.canvas import Canvas
 from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.options import SURE, OptionsPage
+from pigaming_app.scenes.options import CLEAR, OptionsPage
 from pigaming_app.scenes.padtest import PadTest
 from pigaming_app.scenes.press import Act
 from pigaming_app.scores import Scores, Table
 from pigaming_app.settings import Settings
 from tests.scenes.arcade import Arcade
+from tests.scenes.virtual_pad import VirtualPad
 
 TABLE = Table("pitanks", "classic", "points", rules="plain", length=2, people=1)
 
@@ -94,17 +96,59 @@ def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None
             assert x + w <= dials.W - 24
 
 
-def test_high_scores_go_only_after_a_second_press(arcade: Arcade, tmp_path: Path) -> None:
+@pytest.mark.parametrize("kiosk", [False, True])
+def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcade, tmp_path: Path, kiosk: bool) -> None:
+    arcade.house.kiosk = kiosk
+    arcade.open(OptionsPage(arcade.house, operator=True))
     arcade.house.scores.add(TABLE, "ANA", 7, datetime(2026, 5, 1, 12))
-    go(arcade, "reset")
-    arcade.press(Act.FIRE)
-    assert arcade.house.scores.best(TABLE)
-    arcade.wait(SURE + 0.5)
-    arcade.press(Act.FIRE)
-    assert arcade.house.scores.best(TABLE)
-    arcade.press(Act.FIRE)
+    with VirtualPad() as pad:
+        arcade.frame()
+        go(arcade, "reset")
+        for _ in range(5):
+            pad.tap("a")
+            arcade.wait(0.3)
+        pad.press("a")
+        arcade.wait(CLEAR - 0.1, draw=True)
+        pad.release("a")
+        arcade.wait(1.0)
+        assert arcade.house.scores.best(TABLE), "taps, and a hold that is too short"
+        pad.press("a")
+        arcade.wait(CLEAR + 0.1)
     assert not arcade.house.scores.best(TABLE)
     assert not Scores.load(tmp_path / "data")[0].tables()
+
+
+@pytest.mark.parametrize("kiosk", [False, True])
+def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, kiosk: bool) -> None:
+    arcade.house.kiosk = kiosk
+    arcade.open(OptionsPage(arcade.house, operator=True))
+    page = arcade.shown(OptionsPage)
+    for name in (*page.rows[1:], page.rows[0]):
+        arcade.press(Act.DOWN)
+        assert page.focus.name == name
+
+
+def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -> None:
+    arcade.house.scores.add("pitanks", "classic", "ANA", 7)
+    with VirtualPad() as pad:
+        arcade.frame()
+        go(arcade, "reset")
+        pad.press("a")
+        arcade.wait(1.0)
+        arcade.press(Act.UP)
+        arcade.wait(2.0)
+    assert arcade.house.scores.best("pitanks", "classic")
+
+
+def test_a_mouse_holds_its_button_to_clear_high_scores(arcade: Arcade) -> None:
+    arcade.house.scores.add("pitanks", "classic", "ANA", 7)
+    row = go(arcade, "reset").focus.rect("reset")
+    for wait, kept in ((0.2, True), (CLEAR + 0.1, False)):
+        for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
+            at = (row.x + dials.AT + 20, row.centery)
+            pygame.event.post(pygame.Event(kind, button=pygame.BUTTON_LEFT, pos=at))
+            arcade.wait(wait)
+        assert bool(arcade.house.scores.best("pitanks", "classic")) is kept
 
 
 def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:

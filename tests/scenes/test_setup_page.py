@@ -50,10 +50,10 @@ def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp
         arcade.press(act)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, GAMES["pitanks"].variants[1])
-    arcade.press(Act.FIRE, KEYS[2])
+    arcade.press(Act.FIRE)
     assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
     arcade.wait(0.5)
-    arcade.press(Act.FIRE, KEYS[2])
+    arcade.press(Act.FIRE)
     match = arcade.shown(MatchScene)
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
     assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]

@@ -2,6 +2,7 @@
 
 from math import cos, hypot, pi, sin
 from random import Random
+from typing import Annotated
 
 import pytest
 
@@ -12,9 +13,9 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.navigate import Errand
 from pigaming_app.sim.record import digest, record
 from pigaming_app.sim.robots import RADIUS
-from pigaming_app.sim.walker import CLOSE, NEARLY, THERE, TURN, send, walk
-from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH, World
-from tests.floor import floor
+from pigaming_app.sim.walker import CLOSE, NEARLY, THERE, TURN, Motion, observe, send, walk
+from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, World
+from tests.floor import arena
 
 PACE, GIRTH = 130.0, 20.0  # px/s, px
 U = [(600.0, 250.0, 1000.0, 250.0), (1000.0, 250.0, 1000.0, 650.0), (1000.0, 650.0, 600.0, 650.0)]  # open to the left
@@ -31,6 +32,43 @@ class Walker:
     walking: int
     side: int
     errand: Errand
+    least: float
+    held_up: int
+
+
+@record
+class Yard(World):
+    """The least on which people walk."""
+
+    motions: Annotated[list[Motion], ROBOTS]
+
+
+def floor(walls=(), poses=()):
+    """A floor on which the robots of `poses` are present and stand."""
+    world = Yard()
+    build(world, arena(walls, poses))
+    for robot, motion in zip(world.robots, world.motions, strict=True):
+        robot.present = int(robot in world.robots[: len(poses)])
+        motion.x, motion.y = robot.x, robot.y
+    return world
+
+
+def drive_on(world, ticks=1):
+    """The first robot drives straight on at its motors' speed, whatever is in its way; it is watched."""
+    robot = world.robots[0]
+    for _ in range(ticks):
+        robot.x += DT * robot.linear * cos(robot.heading)
+        robot.y += DT * robot.linear * sin(robot.heading)
+        observe(world.motions[0], robot)
+
+
+def at_speed(world, speed):
+    """The first robot has driven at that speed for a second when it comes to where it stands."""
+    robot = world.robots[0]
+    robot.linear = speed
+    robot.x -= speed * cos(robot.heading)
+    robot.y -= speed * sin(robot.heading)
+    drive_on(world, HZ)
 
 
 def walker(x, y, to):
@@ -101,7 +139,7 @@ def test_it_finds_the_way_out_of_a_u_and_round_it():
 
 @pytest.mark.parametrize("place", [("factory", name) for name in arenas("factory")] + [("pitanks", "classic")])
 def test_it_gets_from_anywhere_to_anywhere(place):
-    world, chance = World(), Random(3)
+    world, chance = Yard(), Random(3)
     build(world, load(*place))
 
     def free():
@@ -160,8 +198,7 @@ def crossing(world, who, seconds):
     for tick in range(round(seconds * HZ)):
         if walk(world, who, PACE, GIRTH):
             return tick * DT, least
-        robot.x += DT * robot.linear * cos(robot.heading)
-        robot.y += DT * robot.linear * sin(robot.heading)
+        drive_on(world)
         least = min(least, hypot(who.x - robot.x, who.y - robot.y))
     return None, least
 
@@ -172,7 +209,7 @@ def test_it_lets_a_robot_drive_past_before_it_goes_on(late, speed):
     """Both would be at (800, 450) after 1.5 s; the robot comes from the side, ahead or backwards."""
     come = abs(speed) * (1.5 + late)
     world = floor(poses=[(800.0, 450.0 - come, 0.5 * pi if speed > 0.0 else 1.5 * pi)])
-    world.robots[0].linear = speed
+    at_speed(world, speed)
     who = walker(800.0 - 1.5 * PACE, 450.0, (1000.0, 450.0))
     took, least = crossing(world, who, 8.0)
     assert least > RADIUS + GIRTH, "they touched"
@@ -182,7 +219,7 @@ def test_it_lets_a_robot_drive_past_before_it_goes_on(late, speed):
 
 def test_it_does_not_wait_for_a_robot_that_drives_away():
     world = floor(poses=[(800.0, 450.0, 0.0)])
-    world.robots[0].linear = 260.0
+    at_speed(world, 260.0)
     who = walker(600.0, 450.0, (1000.0, 450.0))
     took, _ = crossing(world, who, 6.0)
     assert took == pytest.approx((400.0 - THERE) / PACE, abs=2 * DT)
@@ -225,6 +262,91 @@ def test_where_somebody_stands_on_the_goal_it_comes_as_near_as_it_can_and_is_the
     assert far_off(who) < NEARLY
 
 
+# ----------------------------------------------------------------------------------------------- what really moves
+
+
+@pytest.mark.parametrize("heading", [0.0, 1.0, pi])
+def test_a_robot_whose_motors_turn_but_that_stays_where_it_is_is_passed_like_one_that_stands(heading):
+    took = []
+    for speed in (0.0, 260.0, -338.0):
+        world = floor(poses=[(800.0, 440.0, heading)])
+        who = walker(500.0, 450.0, (1100.0, 450.0))
+        world.robots[0].linear = speed
+        for tick in range(8 * HZ):
+            observe(world.motions[0], world.robots[0])
+            if walk(world, who, PACE, GIRTH):
+                took.append(tick)
+                break
+    assert len(took) == 3
+    assert took[0] == took[1] == took[2]
+
+
+def test_a_stick_to_and_fro_twelve_times_a_second_is_no_driving():
+    """The robot moves, by 3 px, and gets nowhere."""
+    world = floor(poses=[(800.0, 450.0, 0.0)])
+    who = walker(500.0, 450.0, (800.0, 450.0))
+    robot = world.robots[0]
+    for tick in range(8 * HZ):
+        robot.linear = 75.0 if tick // 2 % 2 else -75.0
+        drive_on(world)
+        if walk(world, who, PACE, GIRTH):
+            break
+    assert far_off(who) < NEARLY
+
+
+def test_a_robot_that_is_pushed_sideways_is_waited_for():
+    """Its motors stand, and it moves all the same."""
+    world = floor(poses=[(800.0, 450.0, 0.0)])
+    robot, motion = world.robots[0], world.motions[0]
+    for _ in range(HZ):
+        robot.y -= 200.0 * DT
+        observe(motion, robot)
+    assert (motion.vx, motion.vy) == pytest.approx((0.0, -200.0), abs=1e-2)
+    who = walker(robot.x, robot.y - 150.0, (robot.x, robot.y + 300.0))
+    y = who.y
+    walk(world, who, PACE, GIRTH)
+    assert who.y <= y, "not towards what comes"
+
+
+def test_a_robot_that_drives_at_a_wall_is_not_expected_behind_it():
+    """The wall is 40 px ahead; half a second on, at that speed, the robot would be 90 px beyond it."""
+    walls = [(891.0, 100.0, 891.0, 800.0)]
+    world = floor(walls, [(800.0, 450.0, 0.0)])
+    at_speed(world, 260.0)
+    who = walker(980.0, 200.0, (980.0, 700.0))
+    assert go(world, who, 5.0) == pytest.approx((500.0 - THERE) / PACE, abs=2 * DT)
+
+
+def test_what_is_carried_off_has_not_driven():
+    world = floor(poses=[(800.0, 450.0, 0.0)])
+    at_speed(world, 100.0)
+    robot, motion = world.robots[0], world.motions[0]
+    before = motion.vx
+    robot.x += 300.0
+    observe(motion, robot)
+    assert 0.0 < motion.vx < before
+
+
+@pytest.mark.parametrize("walls", [(), U])
+def test_who_gets_on_is_not_held_up_and_who_is_shut_in_is(walls):
+    """On a detour the way to go counts, not the distance: in a U it first gets farther from its goal."""
+    world = floor(walls)
+    who = walker(900.0, 450.0, (1200.0, 450.0))
+    longest = 0
+    for _ in range(15 * HZ):
+        if walk(world, who, PACE, GIRTH):
+            break
+        longest = max(longest, who.held_up)
+    assert longest < HZ
+    ring = [(500.0 + 70.0 * cos(k * pi / 2), 450.0 + 70.0 * sin(k * pi / 2), 0.0) for k in range(4)]
+    world, who = floor((), ring), walker(500.0, 450.0, (1200.0, 450.0))
+    for _ in range(4 * HZ):
+        walk(world, who, PACE, GIRTH)
+    assert who.held_up > 3 * HZ
+    send(who, 520.0, 450.0)
+    assert who.held_up == 0
+
+
 @pytest.mark.parametrize("y", [70.0, 830.0])
 @pytest.mark.parametrize("x", [600.0, 1000.0])
 def test_where_a_wall_ends_one_side_it_goes_round_on_the_other(x, y):
@@ -239,8 +361,8 @@ def test_the_same_walk_is_the_same_to_the_last_bit():
         who = walker(700.0, 450.0, (1300.0, 200.0))
         for tick in range(12 * HZ):
             if tick % 25 == 0:
-                for robot in world.robots[:3]:
-                    robot.linear, robot.heading = chance.choice((0.0, 260.0, -260.0)), chance.uniform(-3.0, 3.0)
+                for motion in world.motions[:3]:
+                    motion.vx, motion.vy = chance.choice((0.0, 260.0, -260.0)), chance.uniform(-200.0, 200.0)
             walk(world, who, PACE, GIRTH)
         return digest(who), who.x, who.y
 

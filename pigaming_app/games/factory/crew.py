@@ -1,7 +1,8 @@
 """Robot Factory: machines and the people who work at them.
 
 A worker who rests is sent to the machine that has something for it: a fitting pallet in the input while the output is
-free, or a finished pallet that its owner has not collected for too long, which it carries to the owner's entry.
+free, or a finished pallet that its owner has not collected for too long, which it carries to the owner's entry. One who
+gets no nearer for a while gives up: another who rests is sent, and other machines come first.
 """
 
 from typing import Any
@@ -53,6 +54,11 @@ def run_crew(match: Any) -> None:
 def run_machine(match: Any, m: int) -> None:
     """Process, and put what is done into the output, which has been kept free for it."""
     machine = match.machines[m]
+    machine.since += 1
+    if has_work(match, m):
+        machine.stalled += 1
+    elif machine.stalled:
+        machine.stalled -= 1
     if not machine.pallet:
         if not match.slots[MACHINE_SLOTS + 2 * m + 1].pallet:
             machine.keeps = 0
@@ -85,33 +91,40 @@ def is_late(match: Any, m: int) -> bool:
 
 @kernel
 def call_worker(match: Any) -> None:
-    """Send the nearest worker who rests to the machine at which something has waited longest: one of them a tick."""
+    """Send a worker who rests to the machine at which something has waited longest: one of them a tick."""
     m, longest = -1, -1
     for i in range(MACHINES):
-        if not match.machines[i].worker and (has_work(match, i) or is_late(match, i)):
+        machine = match.machines[i]
+        if not machine.worker and (has_work(match, i) or is_late(match, i)):
             lies = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
-            waited = match.pallets[match.slots[lies].pallet - 1].waited
+            waited = min(match.pallets[match.slots[lies].pallet - 1].waited, machine.since)
             if waited > longest:
                 m, longest = i, waited
     if m < 0:
         return
-    machine = match.machines[m]
-    best, least = -1, 1e18
-    for w in range(WORKERS):
-        worker = match.workers[w]
-        dx, dy = worker.x - machine.spot_x, worker.y - machine.spot_y
-        away = dx * dx + dy * dy
-        if worker.task == RESTING and away < least:
-            best, least = w, away
-    if best < 0:
+    w = nearest_resting(match, match.machines[m])
+    if w < 0:
         return
-    worker = match.workers[best]
-    worker.task, worker.machine, machine.worker = GOING, m, best + 1
+    worker, machine = match.workers[w], match.machines[m]
+    worker.task, worker.machine, machine.worker = GOING, m, w + 1
     if has_work(match, m):
         send(worker, machine.spot_x, machine.spot_y)
     else:
         worker.task = FETCHING
         stand_at(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
+
+
+@kernel
+def nearest_resting(match: Any, machine: Any) -> int:
+    """The worker who rests nearest to a machine, preferably not the one who could not get there; -1: nobody rests."""
+    best, least = -1, 1e18
+    for w in range(WORKERS):
+        worker = match.workers[w]
+        dx, dy = worker.x - machine.spot_x, worker.y - machine.spot_y
+        away = dx * dx + dy * dy + (1e12 if machine.refused == w + 1 else 0.0)
+        if worker.task == RESTING and away < least:
+            best, least = w, away
+    return best
 
 
 @kernel
@@ -130,7 +143,9 @@ def run_worker(match: Any, w: int) -> None:
         work(match, w)
         return
     there = walk(match, worker, rules.walk, rules.worker_radius)
-    if worker.task == GOING:
+    if worker.machine >= 0 and worker.held_up >= rules.patience:
+        give_up(match, w)
+    elif worker.task == GOING:
         if not has_work(match, worker.machine):
             go_home(match, worker)
         elif there:
@@ -142,6 +157,14 @@ def run_worker(match: Any, w: int) -> None:
 
 
 @kernel
+def give_up(match: Any, w: int) -> None:
+    """Leave a machine that this worker cannot get to, to others."""
+    machine = match.machines[match.workers[w].machine]
+    machine.refused, machine.since = w + 1, 0
+    go_home(match, match.workers[w])
+
+
+@kernel
 def begin(match: Any, w: int) -> None:
     """Take what lies in the input into the machine."""
     worker = match.workers[w]
@@ -149,6 +172,7 @@ def begin(match: Any, w: int) -> None:
     machine, p = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1
     move(match, p, IN_MACHINE, m)
     machine.left, machine.keeps = match.rules.process, p + 1
+    machine.stalled, machine.refused = 0, 0
     worker.task, worker.walking = WORKING, 0
 
 

@@ -32,6 +32,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robots import RADIUS, burn
+from pigaming_app.sim.walker import observe
 from pigaming_app.sim.world import ROBOTS
 
 APART = 6.0  # px more than a touch at which a touch has ended
@@ -46,6 +47,7 @@ def judge(match: Any) -> None:
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
+            observe(match.motions[k], match.robots[k])
             grip(match, k)
     age(match)
     for team in range(TEAMS):

@@ -35,6 +35,7 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
     for i, k in enumerate(_places(setup)):
         robot, place = match.robots[i], arena.starts[k]
         robot.x, robot.y, robot.heading = place.x, place.y, place.heading
+        match.motions[i].x, match.motions[i].y = place.x, place.y
     _furnish(match, floor)
     for team in (ICE, FIRE):
         for i in range(match.rules.pallets):
@@ -73,6 +74,7 @@ def set_rules(rules: Rules, setup: Setup) -> None:
     rules.turbo_factor, rules.turbo_drain, rules.turbo_refill = 1.3, 1.0 / (2 * HZ), 1.0 / (4 * HZ)
     rules.fork, rules.reach = FORK, REACH
     rules.process, rules.replace, rules.freeze, rules.collect = 6 * HZ, 10 * HZ, 3 * HZ, 20 * HZ
+    rules.patience = 3 * HZ
     rules.walk, rules.worker_radius, rules.driving = 130.0, 20.0, 20.0
 
 

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from pigaming_app.sim.navigate import Errand
 from pigaming_app.sim.record import record
+from pigaming_app.sim.walker import Motion
 from pigaming_app.sim.world import ROBOTS, World
 
 ICE, FIRE = 0, 1  # the teams
@@ -45,6 +46,7 @@ class Rules:
     process: int
     replace: int  # from the damage to the replacement
     freeze: int
+    patience: int  # for which a worker tries to get nearer to a machine before another is sent
     collect: int  # for which a processed pallet waits for its owner before a worker carries it away
     walk: float  # speed of workers
     worker_radius: float
@@ -90,6 +92,9 @@ class Machine:
     left: int  # ticks until it is done
     worker: int  # 1 + who works, or is on the way; 0: nobody
     keeps: int  # 1 + the pallet for which the output slot is kept; 0: free
+    stalled: int  # ticks for which work has waited; without work it goes back to 0 as fast
+    refused: int  # 1 + the worker who last could not get there, until one could; 0: none
+    since: int  # ticks since then, or since the match began
 
 
 @record
@@ -106,6 +111,8 @@ class Worker:
     pallet: int  # 1 + what it carries; 0: nothing
     shelf: int  # the slot it carries that to
     errand: Errand
+    least: float  # px, the shortest way that was left on this errand
+    held_up: int  # ticks since that was reached
     home_x: float  # where it rests
     home_y: float
     touched: Annotated[list[int], ROBOTS]  # 1: the robot is still touching it, so that it counts once
@@ -136,6 +143,7 @@ class Factory(World):
     machines: Annotated[list[Machine], MACHINES]
     workers: Annotated[list[Worker], WORKERS]
     loads: Annotated[list[Load], ROBOTS]
+    motions: Annotated[list[Motion], ROBOTS]
     aisle: Annotated[list[float], 4]  # left, top, width, height of the walkway
     delivered: Annotated[list[int], TEAMS]
     winner: int  # 1 + the team that has delivered everything; 0: none

@@ -8,7 +8,7 @@ from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import SLOTS, WORKERS
+from pigaming_app.games.factory.state import INPUT, SLOTS, WORKERS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.navigate import Errand, find_way
@@ -71,6 +71,7 @@ class Place:
     put: int  # 1: this robot could put there what it carries
     output_blocked: int  # of an input: 1 while something lies in the output of its machine
     wait: float  # s until the machine is done; 0: it is not working
+    stalled: float  # of an input: s for which nobody has come to the machine that has work; falls again without work
     ours: int  # 1: what the machine works on, or has done, is of the own team
 
 
@@ -130,12 +131,11 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
 @kernel
 def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
     """Robot j as `robot` sees it."""
-    seen, load = match.robots[j], match.loads[j]
+    seen, load, motion = match.robots[j], match.loads[j], match.motions[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
     if not seen.present:
         return
-    other.x = seen.x - delay * seen.linear * cos(seen.heading)
-    other.y = seen.y - delay * seen.linear * sin(seen.heading)
+    other.x, other.y = seen.x - delay * motion.vx, seen.y - delay * motion.vy
     dx, dy = other.x - robot.x, other.y - robot.y
     other.distance = sqrt(dx * dx + dy * dy)
     other.bearing = turn_to(atan2(dy, dx) - robot.heading)
@@ -164,11 +164,13 @@ def see_slot(match: Any, seat: int, s: int, place: Any) -> None:
     place.holds = match.pallets[slot.pallet - 1].state + 1 if slot.pallet else 0
     place.lift = 1 if may_lift(match, seat, s) else 0
     place.put = 1 if match.loads[seat].pallet and may_set_down(match, seat, s) else 0
-    place.makes, place.wait, place.output_blocked, place.ours = -1, 0.0, 0, 0
+    place.makes, place.wait, place.stalled, place.output_blocked, place.ours = -1, 0.0, 0.0, 0, 0
     if slot.machine >= 0:
         machine = match.machines[slot.machine]
         place.makes = machine.kind
         place.wait = machine.left * 0.02 if machine.pallet else 0.0
+        if slot.kind == INPUT:
+            place.stalled = machine.stalled * 0.02
         if machine.keeps:
             place.output_blocked = 1
             place.ours = 1 if match.pallets[machine.keeps - 1].team == team else 0

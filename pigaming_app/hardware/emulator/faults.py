@@ -42,6 +42,11 @@ FAULTS = {
     "battery_low": "the cells of the robot have 3.9 V",
     "robot_off": "the robot is switched off",
     "robot_mute": "the robot hears, but nothing that it says arrives",
+    "pinned": "a hand holds the robot down on the mat",
+    "lids_swapped": "the robot and the next one wear each other's lids",
+    "motors_swapped": "the left motor of the robot is connected in the place of the right one",
+    "motors_reversed": "both motors of the robot are connected the wrong way round",
+    "motor_reversed": "the left motor of the robot is connected the wrong way round",
 }
 CAMERA = {"camera_frozen": "frozen", "camera_stuck": "stuck", "camera_gone": "gone"}
 RADIO = {"radio_dead": "dead", "radio_unplugged": "unplugged"}
@@ -96,6 +101,12 @@ class Faults:
             struck.powered = not on
         elif name == "robot_mute":
             arena.firmwares[robot].mute = on
+        elif name == "pinned":
+            struck.pinned = on
+        elif name == "motors_swapped":
+            struck.swapped = on
+        elif name in ("motors_reversed", "motor_reversed"):
+            struck.polarity = [-1.0 if on else 1.0, -1.0 if on and name == "motors_reversed" else 1.0]
 
     def on(self) -> list[tuple[str, int]]:
         """Every fault that is on, with the robot that it was switched on for."""
@@ -117,6 +128,14 @@ class Faults:
             carried.x, carried.y = x + way * cos(towards), y + way * sin(towards)
             carried.heading = heading + 0.004 * way
 
+    def _worn(self, robot: int) -> int:
+        """The number on a robot's lid."""
+        for one in self._robots["lids_swapped"]:
+            pair = one, (one + 1) % len(self._arena.robots)
+            if robot in pair:
+                return sum(pair) - robot
+        return robot
+
     def things(self, robot: int, poses: tuple[Placing, ...]) -> list[Thing]:
         """What the camera sees of a robot with these poses, faults and all."""
         height = self._arena.robots[robot].height
@@ -125,7 +144,7 @@ class Faults:
             return [Thing(underside(), LID_HEIGHT + height, poses)]
         seen = [
             Thing(body(), BODY_HEIGHT + height, poses[-1:], dull=True),
-            Thing(lid(robot), LID_HEIGHT + height, poses),
+            Thing(lid(self._worn(robot)), LID_HEIGHT + height, poses),
         ]
         if robot in self._robots["marker_covered"]:
             seen.append(Thing(hand(), LID_HEIGHT + 30.0, poses[-1:], HAND))

@@ -70,6 +70,7 @@ class Painter:
     def __init__(self, optics: Optics, seed: int, refresh: int = 1, noise: float = NOISE) -> None:
         """`refresh`: every which picture is whole; `noise`: grey levels, standard deviation."""
         self.refresh = refresh
+        self.ambient = 1.0  # share of the room's light that is on
         self._seed = seed
         random = np.random.default_rng(seed)
         self._noise = np.clip(np.rint(random.normal(0.0, noise, (1400, 2300))), -127, 127).astype(np.int8)
@@ -104,7 +105,7 @@ class Painter:
     ) -> Image:
         import cv2
 
-        room = self._room_light(scene.light)[window.cut()]
+        room = np.float32(self.ambient) * self._room_light(scene.light)[window.cut()]
         light = self._lit(scene, self._floor, window, room)
         cv2.multiply(light, self._mat[window.cut()], dst=light)
         for thing, place in sorted(things, key=lambda pair: pair[0].height):

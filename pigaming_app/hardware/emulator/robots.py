@@ -53,6 +53,9 @@ class Robot:
         self.battery = body.battery
         self.height = 0.0  # mm above the mat: more than nothing while somebody carries it
         self.powered = True
+        self.pinned = False  # whether a hand holds it down on the mat
+        self.swapped = False  # whether its motors are connected each in the place of the other
+        self.polarity = [1.0, 1.0]  # of the motors; -1.0: connected the wrong way round
         self._random = random
         self._slip = [0.0, 0.0]
 
@@ -67,10 +70,11 @@ class Robot:
         if not self.alive:
             self.left = self.right = 0.0
         follow = 1.0 - exp(-STEP / body.lag)
-        self.left_speed += (self._target(self.left, body.left_gain) - self.left_speed) * follow
-        self.right_speed += (self._target(self.right, body.right_gain) - self.right_speed) * follow
+        left, right = (self.right, self.left) if self.swapped else (self.left, self.right)
+        self.left_speed += (self._target(self.polarity[0] * left, body.left_gain) - self.left_speed) * follow
+        self.right_speed += (self._target(self.polarity[1] * right, body.right_gain) - self.right_speed) * follow
         self.battery -= body.drain * STEP * (abs(self.left) + abs(self.right))
-        if self.height > 0.0 or not (self.left_speed or self.right_speed):
+        if self.pinned or self.height > 0.0 or not (self.left_speed or self.right_speed):
             return
         left, right = self.left_speed * (1.0 + self._slips(0)), self.right_speed * (1.0 + self._slips(1))
         turn = STEP * (left - right) / body.base  # y down: the left wheel turns it clockwise

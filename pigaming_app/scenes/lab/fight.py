@@ -5,6 +5,8 @@ import pygame
 from pigaming_app.ai.brain import Kind, Thinker
 from pigaming_app.ai.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes.access import Access
+from pigaming_app.scenes.hold import Holds
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.scenes.match import FREEZE, MatchScene, new_seed
@@ -13,6 +15,7 @@ from pigaming_app.scenes.pane import Pane
 from pigaming_app.scenes.pause import title
 from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.results import LATE, LEAVE, filled
 from pigaming_app.scenes.stack import Pop, Swap, Turn
 
 MINUTES = 1.0
@@ -29,6 +32,7 @@ class Fight:
         off = Seat("off", 2), Seat("off", 3)
         setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
         self.inner = MatchScene(house, setup, [device])
+        self.inner.open = False  # nobody else takes the robot's seat
         self.inner.match.sit(ROBOT, Thinker(kind, setup.seed))
         self.inner.stage.players[ROBOT] = kind.name
 
@@ -70,7 +74,10 @@ class Verdict:
         self.scores = [robot.score for robot in fight.inner.match.state.robots][:2]
         self.age = self.idle = 0.0
         self.picture: pygame.Surface | None = None
-        self.prompts = Prompts(self.house, [(Act.FIRE, "results.again"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+        self.access = Access(self.house, lambda: [fight.inner.devices[0]])
+        self.leaving = Holds(self.house.controls, LEAVE)
+        hints = [(Act.FIRE, "results.again"), (Act.BACK, "lab.hint_lab")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
@@ -78,23 +85,34 @@ class Verdict:
         self.house.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
 
     def on(self, press: Press) -> Turn:
-        """FIRE plays again, BACK leads to the Lab."""
+        """FIRE plays again, with whatever device presses it; BACK leads to the Lab, held as after every match."""
         press = self.prompts.meant(press)
+        admitted = self.access.admit(press)
+        if admitted is None and press.act not in (Act.FIRE, Act.START):
+            return None
         self.idle = 0.0
         if self.age < DEAF:
             return None
         if press.act in (Act.FIRE, Act.START):
             self.house.sounds.play("accept")
             return Swap(self.fight.again(None if press.device.kind == "mouse" else press.device))
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            return Pop()
+        if admitted and press.act is Act.BACK:
+            if press.device.kind == "mouse":
+                return self._leave()
+            if self.age >= LATE:
+                self.leaving.begin(admitted)
         return None
+
+    def _leave(self) -> Turn:
+        self.house.sounds.play("back")
+        return Pop()
 
     def update(self, seconds: float) -> Turn:
         """Wait for somebody."""
         self.age += seconds
         self.idle += seconds
+        if self.leaving.update(seconds) or self.access.update(seconds):
+            return self._leave()
         return Pop() if self.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -105,6 +123,8 @@ class Verdict:
             self.picture = overlay(self.fight.inner.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
         self.prompts.draw(screen)
+        if self.leaving.share:
+            filled(screen, self.leaving.share)
 
     def _paint(self, pane: Pane) -> None:
         words = self.house.words

@@ -1,5 +1,6 @@
 """What can be known about the robots of a mat: who is heard and seen, who is who, how late it is. No drawing."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,6 +14,7 @@ from pigaming_app.sim.world import ROBOTS
 
 SEEN = 0.5  # s within which a robot has been seen if it is seen
 ALIVE = 1.5  # s within which it has been heard if it is there
+LOOKS = 3.0  # s for which robots that are heard are looked for before they move, at most
 RATE = 1.0  # s over which pictures are counted
 
 
@@ -44,6 +46,8 @@ class Checkup:
     def __post_init__(self) -> None:
         self._pace = Pace()
         self._todo: list[int] = []  # robots to be shaken
+        self._next_job: Callable[[], bool] | None = None  # what begins once all robots are seen
+        self._looked = 0.0  # s for which they have been looked for
         self._counted, self._pictures, self._newest = 0.0, 0, 0.0
 
     def begin(self) -> None:
@@ -65,7 +69,13 @@ class Checkup:
     @property
     def busy(self) -> bool:
         """Whether robots are being moved."""
-        return self.pairing is not None or self.shake is not None
+        return self.pairing is not None or self.shake is not None or self._next_job is not None
+
+    @property
+    def looking(self) -> bool:
+        """Whether robots are about to move, or do, and fewer are seen than are heard."""
+        robots = range(ROBOTS)
+        return self.busy and sum(self._seen(one) for one in robots) < sum(self.heard(one) for one in robots)
 
     @property
     def moving(self) -> int | None:
@@ -76,25 +86,18 @@ class Checkup:
 
     def stop(self) -> None:
         """Stop what moves."""
-        self.pairing, self.shake, self._todo = None, None, []
+        self.pairing, self.shake, self._todo, self._next_job = None, None, [], None
         if self.rig is not None:
             self.rig.recorder = None
             self.rig.tell([None] * ROBOTS)
 
     def pair(self) -> bool:
-        """Begin to spin one robot after the other; false: none is heard."""
-        if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):
-            return False
-        self.findings, self.pairing = [], Pairing(self.rig)
-        return True
+        """Look for all robots, then spin one after the other; false: none is heard."""
+        return self._search(self._pair)
 
     def measure(self) -> bool:
-        """Begin to shake all robots that are seen, one after the other; false: there is none."""
-        if self.rig is None:
-            return False
-        self._todo = [robot for robot in range(ROBOTS) if self.heard(robot) and self.health(robot).seen]
-        self.late = {}
-        return self._next()
+        """Look for all robots, then shake those that are seen, one after the other; false: none is heard."""
+        return self._search(self._measure)
 
     def update(self, seconds: float) -> bool:
         """Let time pass; true at the moment in which something is done."""
@@ -102,7 +105,11 @@ class Checkup:
         if self.rig is None:
             return False
         self._count(self.rig, seconds)
+        self._looked += seconds
         done = False
+        if self._next_job is not None and (self._looked > LOOKS or not self.looking):
+            begin, self._next_job = self._next_job, None
+            done = not begin()
         for _ in range(self._pace.due(seconds)):
             if self.pairing is not None:
                 done = self._pair_on(self.rig, self.pairing) or done
@@ -119,11 +126,29 @@ class Checkup:
     def health(self, robot: int) -> Health:
         """How a robot is."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
-        seen = self.rig is not None and self.rig.sense()[robot].age < SEEN
         share = self.link.quality(robot).share if report else 0.0
-        return Health(report.battery if report else None, share, seen, self.late.get(robot))
+        return Health(report.battery if report else None, share, self._seen(robot), self.late.get(robot))
 
     # ---- inside
+
+    def _seen(self, robot: int) -> bool:
+        return self.rig is not None and self.rig.sense()[robot].age < SEEN
+
+    def _search(self, job: Callable[[], bool]) -> bool:
+        if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):
+            return False
+        self._next_job, self._looked = job, 0.0
+        return True
+
+    def _pair(self) -> bool:
+        assert self.rig is not None
+        self.findings, self.pairing = [], Pairing(self.rig)
+        return True
+
+    def _measure(self) -> bool:
+        self._todo = [robot for robot in range(ROBOTS) if self.heard(robot) and self._seen(robot)]
+        self.late = {}
+        return self._next()
 
     def _count(self, rig: Rig, seconds: float) -> None:
         self._counted += seconds
@@ -158,6 +183,6 @@ class Checkup:
 
 def worst(findings: list[Finding]) -> Finding | None:
     """What most needs to be said of a pairing: a robot that was not found, then one that was swapped."""
-    order = (Case.TWICE, Case.SEVERAL, Case.NONE, Case.SWAPPED)
+    order = (Case.TWICE, Case.SEVERAL, Case.WIRED, Case.NONE, Case.SWAPPED)
     told = [finding for case in order for finding in findings if finding.case is case]
     return told[0] if told else None

@@ -1,14 +1,16 @@
 """Take your places: where real robots shall stand, how they get there, and what has to be done by hand.
 
-The mat stays dark but for outlines, arrows and discs, so that markers are found that nobody has seen yet.
+Until every robot has been seen the mat is lit evenly; then it is dark but for outlines, arrows and discs.
 """
 
 import math
+from collections.abc import Callable
 
 import pygame
 
 from pigaming_app.hardware.homing import Place
 from pigaming_app.hardware.mixed import MixedPlant
+from pigaming_app.hardware.safety import Fault
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
@@ -16,9 +18,11 @@ from pigaming_app.scenes.mat import exact
 from pigaming_app.scenes.page import stamp, text
 from pigaming_app.scenes.pane import Lit, Pane
 from pigaming_app.scenes.plate import plate
-from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.press import Act, Device
 from pigaming_app.scenes.prompts import Prompts
 from pigaming_app.scenes.robots.discs import MOAT, RING, pointer, tag
+from pigaming_app.scenes.robots.flood import UNSEEN as UNSEEN_AFTER
+from pigaming_app.scenes.robots.flood import Flood, looking
 from pigaming_app.scenes.robots.trouble import named, shown
 from pigaming_app.scenes.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.scenes.surface_cache import cached
@@ -38,21 +42,34 @@ class Gathering:
 
     DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
 
-    def __init__(self, house: House, plant: MixedPlant) -> None:
+    def __init__(self, house: House, plant: MixedPlant, voice: Callable[[], Device]) -> None:
         self.house, self.plant = house, plant
         self.clock = 0.0
+        self.flood = Flood()
         self.prompts = Prompts(
             house, [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
-            HINTS_Y, 1560,
+            HINTS_Y, 1560, voice=voice,
         )  # fmt: skip
 
     def update(self, seconds: float) -> None:
-        """Let the arrows march."""
+        """Let the arrows march, or look for robots."""
         self.clock += seconds
+        self.flood.update(seconds, bool(self.missing))
+
+    @property
+    def missing(self) -> list[int]:
+        """The robots that must take part and are not seen."""
+        seen = self.plant.rig.sense()
+        return [robot for robot in sorted(self.plant.real | self.plant.arriving) if seen[robot].age > UNSEEN_AFTER]
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint outlines, ways and what has to be done; the discs come on top of it."""
         words, places = self.house.words, self.plant.places
+        if self.flood.whole:
+            hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
+            faults = [named(fault, words, "") for fault in self._faults()]
+            self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
+            return
         screen.fill((0, 0, 0))
         frame().draw(screen)
         seen = self.plant.rig.sense()
@@ -69,11 +86,15 @@ class Gathering:
             text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
         self.prompts.draw(screen)
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
-        faults = [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
-        for i, fault in enumerate(faults[:2]):
+        for i, fault in enumerate(self._faults()[:2]):
             detail = exact(self.plant.rig, fault.name)
             sentence = tell(words, detail) if detail else named(fault, words, "")
             shown(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
+        self.flood.draw(screen, "")
+
+    def _faults(self) -> list[Fault]:
+        """What is wrong, but for what happens to robots that are carried to their places."""
+        return [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
 
     def _outline(self, screen: pygame.Surface, place: Place) -> None:
         x, y, heading = place.pose

@@ -4,19 +4,19 @@ can be handed to a simulated one and back.
 
 import logging
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import replace
 
 import pygame
 
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.mixed import MixedPlant
 from pigaming_app.hardware.safety import Does, Fault
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.calibration.drift_watch import DriftWatch
 from pigaming_app.scenes.countdown import Countdown
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM
 from pigaming_app.scenes.mat import Mat, NoMat, exact, refused, unfit
-from pigaming_app.scenes.match import LEAD, NOTICE, MatchScene, new_seed
+from pigaming_app.scenes.match import LEAD, NOTICE, MatchScene, anew
 from pigaming_app.scenes.pace import Pace
 from pigaming_app.scenes.plate import plate
 from pigaming_app.scenes.press import Act, Device, Press
@@ -51,7 +51,7 @@ class RealMatch(MatchScene):
         self.plant = plant
         self.discs = Discs(rig)
         self.watch = DriftWatch(rig)
-        self.gathering: Gathering | None = Gathering(house, plant)
+        self.gathering: Gathering | None = Gathering(house, plant, lambda: self.access.voice)
         self.gone = False  # it has let go of the mat
         self.waiting = Pace()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
@@ -83,10 +83,13 @@ class RealMatch(MatchScene):
         if press.act is Act.STOP and not self.match.over:
             self.plant.safety.all_stop()
             self.plant.watch()
-            return Push(Trouble(self))
+            return Push(Trouble(self, press.device))
         if self.gathering is None:
             return super().on(press)
-        press = self.gathering.prompts.meant(press)
+        admitted = self.access.admit(self.gathering.prompts.meant(press))
+        if admitted is None:
+            return None
+        press = admitted
         if press.act is Act.START and self.gathering.clock > self.gathering.DEAF:
             self.plant.accept_places()
             self._begin()
@@ -120,14 +123,17 @@ class RealMatch(MatchScene):
             super().draw(screen)
         else:
             self.gathering.draw(screen)
+            if self.gathering.flood.whole:
+                self.watch.draw(screen)
+                return
         self.shine(screen)
 
     # ---- what the pages above it may do
 
     @property
-    def extras(self) -> Mapping[str, Callable[[], Scene]]:
+    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
         """Which robots are real can be changed in a pause."""
-        return {"robots": lambda: SwapPage(self)}
+        return {"robots": lambda access: SwapPage(self, access)}
 
     @property
     def stuck(self) -> bool:
@@ -144,13 +150,20 @@ class RealMatch(MatchScene):
             self.watch.draw(screen)
         self.discs.draw(screen, self.real)
 
+    def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
+        """Which radio drives which robot has been found anew; the robots `well` turned as they should."""
+        self.plant.rig.channels = channels
+        self.house.settings.radios = [channel + 1 for channel in channels]
+        for robot in well:
+            self.plant.safety.forgive(robot)
+
     def swap(self, seat: int, real: bool) -> None:
         """Hand a seat to its simulated or its real robot; that one takes its place first."""
         if real == (seat in self.real):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
-            self.gathering = Gathering(self.house, self.plant)
+            self.gathering = Gathering(self.house, self.plant, lambda: self.access.voice)
         self._dressed()
 
     def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
@@ -158,7 +171,7 @@ class RealMatch(MatchScene):
         from pigaming_app.scenes.robots.begin import match_of
 
         self.left()
-        return match_of(house, replace(setup, seed=new_seed()), devices, self.real)
+        return match_of(house, anew(setup, devices), devices, self.real)
 
     # ---- inside
 
@@ -166,6 +179,9 @@ class RealMatch(MatchScene):
         """Drive the robots to their places."""
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
         gathering.update(seconds)
         self.signs.work(0.0)
         self.stage.warm(4.0)
@@ -174,7 +190,7 @@ class RealMatch(MatchScene):
                 self._begin()
                 break
         self._tell()
-        if self.plant.safety.stopped:
+        if self.plant.safety.stopped or self.plant.safety.lasting:
             return Push(Trouble(self))
         return Home() if self.house.idle > IDLE else None
 

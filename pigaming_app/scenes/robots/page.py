@@ -24,6 +24,7 @@ from pigaming_app.scenes.prompts import Prompts, places
 from pigaming_app.scenes.robots.aside import Aside
 from pigaming_app.scenes.robots.checkup import Checkup, worst
 from pigaming_app.scenes.robots.discs import Discs, tag
+from pigaming_app.scenes.robots.flood import Flood
 from pigaming_app.scenes.stack import Home, Pop, Turn
 from pigaming_app.settings import folders
 from pigaming_app.sim.world import ROBOTS
@@ -51,6 +52,8 @@ class RobotsPage:
         assert house.mat is not None
         self.house = house
         self.check = Checkup(house.mat, house.settings)
+        self.flood = Flood()
+        self.flood.level = 0.0
         self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
         self.focus = Focus(rows.spots(self.names), "pair")
         self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
@@ -99,8 +102,9 @@ class RobotsPage:
                 self.check.end()
                 self.entered()
         pairing = self.check.pairing is not None
+        self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
-            self._found() if pairing else self._say(words("fleet.measured"))
+            self._found() if pairing else self._say(words("fleet.measured" if self.check.late else "fleet.nobody"))
             self.house.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
@@ -110,10 +114,15 @@ class RobotsPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page in blocks that keep off the discs, and these."""
+        words = self.house.words
+        if self.flood.whole:
+            self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
+            return
         screen.blit(backdrop(), (0, 0))
-        heading(self.house.words("fleet.title"), self._state()).draw(screen)
+        heading(words("fleet.title"), self._state()).draw(screen)
         self._draw_blocks(self.sheet)
         self.aside.draw(screen, self.sheet)
+        self.flood.draw(screen, "")
         if self.discs:
             self.discs.draw(screen, EVERYBODY)
 

@@ -5,6 +5,7 @@ from collections.abc import Collection, Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.calibration.telling import tell
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import ALARM, ICE, MIST
@@ -35,12 +36,9 @@ class Refused:
     ) -> None:
         self.house, self.setup, self.devices, self.real, self.sentence = house, setup, devices, real, sentence
         self.picture: pygame.Surface | None = None
-        self.prompts = Prompts(
-            house,
-            [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")],
-            PROMPTS,
-            W - 80,
-        )
+        self.access = Access(house, lambda: self.devices)
+        hints = [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")]
+        self.prompts = Prompts(house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
@@ -48,7 +46,10 @@ class Refused:
 
     def on(self, press: Press) -> Turn:
         """FIRE plays with simulated robots, EXTRA tries again, BACK leaves."""
-        press = self.prompts.meant(press)
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None:
+            return None
+        press = admitted
         if press.act in (Act.FIRE, Act.START):
             self.house.sounds.play("accept")
             return Swap(MatchScene(self.house, self.setup, self.devices))
@@ -63,6 +64,9 @@ class Refused:
 
     def update(self, seconds: float) -> Turn:
         """Leave when nobody is there."""
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
         return Home() if self.house.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:

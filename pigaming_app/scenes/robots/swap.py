@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.focus import Focus
 from pigaming_app.scenes.ink import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
 from pigaming_app.scenes.overlay import PROMPTS, W, overlay
@@ -18,23 +19,26 @@ if TYPE_CHECKING:
 
 
 class SwapPage:
-    """The page; what is chosen is done when it is left."""
+    """The page; what is chosen is done when it is left. `access`: whose presses count."""
 
-    def __init__(self, match: "RealMatch") -> None:
-        self.match, self.house = match, match.house
+    def __init__(self, match: "RealMatch", access: Access) -> None:
+        self.match, self.house, self.access = match, match.house, access
         self.seats = [i for i, robot in enumerate(match.match.state.robots) if robot.present]
         self.wanted = {seat: seat in match.real for seat in self.seats}
         self.focus = Focus(items([str(seat) for seat in self.seats]))
         self.picture: pygame.Surface | None = None
         hints = [(Act.FIRE, "mat.hint_change"), (Act.BACK, "mat.hint_done")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80)
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing has been chosen yet."""
 
     def on(self, press: Press) -> Turn:
         """FIRE, LEFT and RIGHT change the robot in focus; BACK and START do what was chosen."""
-        press = self.prompts.meant(press)
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None:
+            return None
+        press = admitted
         if press.act in (Act.BACK, Act.START):
             for seat, real in self.wanted.items():
                 self.match.swap(seat, real)
@@ -51,6 +55,7 @@ class SwapPage:
     def update(self, seconds: float) -> Turn:
         """All robots stand meanwhile."""
         self.match.hold(seconds)
+        self.access.update(seconds)
         self.focus.update(seconds)
         return None
 

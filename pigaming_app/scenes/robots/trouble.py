@@ -16,10 +16,11 @@ from pigaming_app.scenes.overlay import FOOT, HEAD, PROMPTS, W, X, overlay
 from pigaming_app.scenes.pane import Pane, fitted, lines_of
 from pigaming_app.scenes.pause import Pause, title
 from pigaming_app.scenes.plate import Plate, plate
-from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.press import Act, Device, Press
 from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.signs import sign
-from pigaming_app.scenes.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.stack import Home, Pop, Push, Swap, Turn
 from pigaming_app.scenes.words import Words
 
 if TYPE_CHECKING:
@@ -33,15 +34,17 @@ RING = X + 150, FOOT - 96
 
 
 class Trouble:
-    """The page over a match that waits for its robots."""
+    """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
 
-    def __init__(self, match: "RealMatch") -> None:
-        self.match, self.house = match, match.house
+    def __init__(self, match: "RealMatch", stopper: Device | None = None) -> None:
+        self.match, self.house, self.stopper = match, match.house, stopper
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
         hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80)
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        mending = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry")]
+        self.mending = Prompts(self.house, mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
@@ -50,12 +53,26 @@ class Trouble:
         self.held, self.picture = 0.0, None
 
     def on(self, press: Press) -> Turn:
-        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu."""
-        press = self.prompts.meant(press)
+        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
+        robot did not do as it was told, FIRE pairs robots and radios again, and ALT lets it try again.
+        """
+        admitted = self.match.access.admit(press)
+        if admitted is None:
+            return None
+        press = admitted
+        lasting = self.match.plant.safety.lasting
+        press = self.prompts.meant(self.mending.meant(press) if lasting else press)
         if press.act is Act.EXTRA:
             self._simulate()
+        elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
+            return Push(PairAgain(self.match))
+        elif lasting and press.act is Act.ALT:
+            for robot in lasting:
+                self.match.plant.safety.forgive(robot)
+            self.house.sounds.play("accept")
         elif press.act is Act.STOP:
             self.match.plant.safety.all_stop()
+            self.stopper = press.device
         elif press.act in (Act.START, Act.BACK):
             return Swap(Pause(self.match, press.device))
         return None
@@ -64,9 +81,10 @@ class Trouble:
         """Go on once all is well."""
         self.match.hold(seconds)
         safety = self.match.plant.safety
+        if held := self.match.access.update(seconds):
+            return Swap(Pause(self.match, held.device))
         controls = self.house.controls
-        devices = [controls.last, *filter(None, self.match.devices)]
-        firing = safety.stopped and any(controls.drive(device).fire for device in devices)
+        firing = safety.stopped and any(controls.drive(device).fire for device in self._releasing())
         self.held = self.held + seconds if firing else 0.0
         if self.held >= HOLD:
             safety.release()
@@ -89,9 +107,17 @@ class Trouble:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
             screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         self.prompts.draw(screen)
+        if self.match.plant.safety.lasting:
+            self.mending.draw(screen)
         self.match.shine(screen)
 
     # ---- inside
+
+    def _releasing(self) -> list[Device]:
+        """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
+        players, stopper = self.house.controls.players(), self.stopper
+        asked = [one for one in players if one == stopper or (stopper and one.kind == stopper.kind == "keys")]
+        return [*self.match.access.seated, *asked] or players
 
     def _simulate(self) -> None:
         """Simulated robots in the place of those that something is wrong with."""
@@ -111,10 +137,11 @@ class Trouble:
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         title(pane, first.robot, about, ICE)
         sign(pane.hot, first.name, *ICON, 76, ALARM)
-        pane.page.body(
-            words("mat.goes_on"), TEXT_X, FOOT - 40, MIST, "l", fitted(words("mat.goes_on"), 36, ROOM, "body")
-        )
-        y = write(pane, named(first, words, words.printed(self.house.controls.label(None, Act.FIRE))), HEAD + 56, ICE)
+        if not self.match.plant.safety.lasting:
+            ending = words("mat.goes_on")
+            pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
+        fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
+        y = write(pane, named(first, words, fire), HEAD + 56, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:
             y = write(pane, tell(words, detail), y + 8, MIST)

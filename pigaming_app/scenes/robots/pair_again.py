@@ -1,0 +1,105 @@
+"""Pairing in the middle of a match: every robot spins in turn, so that it is known which radio drives which marker.
+
+What was found is applied at once. If a robot did not spin as it should, the page says so and waits; else it closes, and
+the match goes on.
+"""
+
+from typing import TYPE_CHECKING
+
+import pygame
+
+from pigaming_app.hardware.pairing import Case, Pairing
+from pigaming_app.scenes.calibration.telling import paragraph
+from pigaming_app.scenes.ink import ALARM, BODY, ICE
+from pigaming_app.scenes.pace import Pace
+from pigaming_app.scenes.page import text
+from pigaming_app.scenes.press import Act, Press
+from pigaming_app.scenes.prompts import Prompts
+from pigaming_app.scenes.robots.checkup import worst
+from pigaming_app.scenes.robots.flood import UNSEEN, Flood, looking
+from pigaming_app.scenes.stack import Pop, Turn
+from pigaming_app.sim.world import ROBOTS
+
+if TYPE_CHECKING:
+    from pigaming_app.scenes.robots.match import RealMatch
+
+LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
+GOOD = (Case.FITS, Case.SWAPPED, Case.ABSENT)
+TITLE_Y, PROMPTS_Y, SAID_Y = 42, 102, 480  # px
+
+
+class PairAgain:
+    """The page, over a match whose robots stand."""
+
+    def __init__(self, match: "RealMatch") -> None:
+        self.match, self.house = match, match.house
+        self.flood, self.pace = Flood(), Pace()
+        self.pairing: Pairing | None = None
+        self.sentence = ""  # what is wrong, once all have spun
+        self.clock = 0.0
+        self.stop = Prompts(self.house, [(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
+        self.after = Prompts(self.house, [(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
+
+    def entered(self) -> None:
+        """Nothing moves yet."""
+
+    def on(self, press: Press) -> Turn:
+        """FIRE begins anew once all have spun; before, as BACK, START and STOP at any time, it stops the robots."""
+        press = (self.after if self.sentence else self.stop).meant(press)
+        if press.act is Act.FIRE and self.sentence:
+            self.pairing, self.sentence, self.clock = None, "", 0.0
+        elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.STOP):
+            self.match.plant.rig.tell([None] * ROBOTS)
+            if press.act is Act.STOP:
+                self.match.plant.safety.all_stop()
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Look for all robots, then let one after the other spin."""
+        seconds = self.match.mat.advance(seconds)
+        self.clock += seconds
+        self.flood.update(seconds, bool(self.missing) and not self.sentence)
+        for _ in range(self.pace.due(seconds)):
+            if self.pairing is None:
+                self.match.plant.watch()
+            elif not self.sentence and self.pairing.tick():
+                return self._found(self.pairing)
+        if self.pairing is None and (self.clock > LOOKS or not self.missing):
+            self.pairing = Pairing(self.match.plant.rig)
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """A dark page with the discs, or grey light while a robot is not seen."""
+        words = self.house.words
+        if self.flood.whole:
+            self.flood.draw(screen, looking(words, self.missing), words("mat.pairing"))
+            self.match.watch.draw(screen)
+            return
+        screen.fill((0, 0, 0))
+        text(words("mat.pairing"), BODY, ICE, "body", "c", 1728).draw(screen, 960, TITLE_Y)
+        (self.after if self.sentence else self.stop).draw(screen)
+        for i, line in enumerate(paragraph(self.sentence, 1300, 3, ALARM, "c") if self.sentence else ()):
+            line.draw(screen, 960, SAID_Y + 60 * i)
+        self.flood.draw(screen, "")
+        self.match.shine(screen)
+
+    @property
+    def missing(self) -> list[int]:
+        """The robots of the match that are not seen."""
+        seen = self.match.plant.rig.sense()
+        return [robot for robot in sorted(self.match.real) if seen[robot].age > UNSEEN]
+
+    def _found(self, pairing: Pairing) -> Turn:
+        """Use what was found; close if all is well."""
+        well = [one.marker for one in pairing.findings if one.case in GOOD and one.marker is not None]
+        self.match.paired(pairing.channels, well)
+        told = worst([one for one in pairing.findings if one.case not in GOOD])
+        if told is None:
+            self.house.sounds.play("accept")
+            return Pop()
+        marker = 0 if told.marker is None else told.marker + 1
+        self.sentence = self.house.words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker)
+        self.house.sounds.play("error")
+        return None

@@ -1,0 +1,22 @@
+"""Words that nobody puts into the tables of the best: assets/rude.toml."""
+
+import tomllib
+from functools import cache
+from itertools import product
+
+from pigaming_app import ASSETS
+
+HARMLESS = "BOT"  # what stands in the place of a rude word
+
+
+def rude(initials: str) -> bool:
+    """Whether three letters are, or can be read as, a rude word."""
+    words, read_as = _lists()
+    readings = product(*((letter, *read_as.get(letter, "")) for letter in initials))
+    return any("".join(reading) in words for reading in readings)
+
+
+@cache
+def _lists() -> tuple[frozenset[str], dict[str, str]]:
+    table = tomllib.loads((ASSETS / "rude.toml").read_text(encoding="utf-8"))
+    return frozenset(table["words"]), table["read_as"]

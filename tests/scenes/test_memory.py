@@ -1,0 +1,129 @@
+"""What the arcade keeps in memory: no more than the budget of its cache, and nothing of a match that is over."""
+
+import gc
+import random
+import weakref
+from collections.abc import Hashable
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app import bench_memory
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes import surface_cache, tank
+from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.controls import Controls
+from pigaming_app.scenes.effects import beam, wave
+from pigaming_app.scenes.ink import PLAYERS
+from pigaming_app.scenes.match import MatchScene
+from pigaming_app.scenes.press import Act
+from pigaming_app.scenes.results import Results
+from pigaming_app.scenes.stack import Home, Pop, Push, Stack, Swap, Turn
+from pigaming_app.scenes.surface_cache import Entry, SurfaceCache, surfaces
+from pigaming_app.scenes.title import Title
+from tests.bench.memory import press
+from tests.scenes.arcade import KEYS, Arcade
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    surfaces.clear()
+    arcade = Arcade(controls)
+    arcade.stack = Stack(Title(arcade.house))
+    return arcade
+
+
+def match(arcade: Arcade, game: str, brain: str = "normal", minutes: float = 2.0) -> MatchScene:
+    """A match with the longest way to the goal, in which every other seat has this brain."""
+    rules = GAMES[game]
+    one, two, three, four = (Seat((brain, "easy")[i % 2], team) for i, team in enumerate(rules.teams))
+    goal = max(rules.goals, default=0)
+    setup = Setup(game, arenas(game)[0], (one, two, three, four), minutes, 1, rules.variants[0], goal)
+    return MatchScene(arcade.house, setup, [KEYS[0], None, KEYS[1], None] if brain == "human" else [])
+
+
+def warmed(arcade: Arcade, game: str) -> None:
+    """Put a match on top, and wait until it has all its sprites and has begun."""
+    scene = match(arcade, game)
+    arcade.stack.turn(Push(scene))
+    arcade.until(lambda: scene.warm, 60.0)
+    arcade.until(lambda: not scene.count.locked, 10.0)
+    arcade.wait(0.2, draw=True)
+
+
+def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> None:
+    arcade.wait(0.1, draw=True)
+    title = surfaces.bytes
+    warmed(arcade, "race")
+    sprites = [beam(0, 5), wave(PLAYERS[1], 3), *(tank.tank(seat, turn) for seat in range(4) for turn in range(1, 96))]
+    images = [weakref.ref(sprite.image) for sprite in sprites]
+    assert surfaces.bytes > title + (90 << 20)
+    del sprites
+    arcade.press(Act.START)
+    arcade.wait(0.1, draw=True)
+    arcade.stack.turn(Home())
+    assert [image for image in images if image()] == []
+    arcade.wait(0.1, draw=True)
+    assert surfaces.bytes < title + (24 << 20), "what is left are the pages of the match"
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[tuple[int, Hashable]] = []
+    keep = SurfaceCache._keep
+
+    def noted(cache: SurfaceCache, entry: Entry) -> None:
+        made.append((id(entry.table), entry.key))
+        keep(cache, entry)
+
+    monkeypatch.setattr(SurfaceCache, "_keep", noted)
+    warmed(arcade, game)
+    assert len(made) == len(set(made)) > 2000
+    assert surfaces.bytes <= surface_cache.BUDGET
+
+
+def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    surfaces.clear()
+    monkeypatch.setattr(surfaces, "budget", 64 << 20)
+    rng, used = random.Random(5), [0]
+
+    def over() -> bool:
+        used.append(surfaces.bytes)
+        press(rng, 40)
+        return len(used) > 50
+
+    assert run(Options(headless=True, kiosk=True, step=0.1, over=over)) == 0
+    pygame.display.quit()
+    assert len(used) > 50
+    assert 40 << 20 < max(used) <= surfaces.budget
+    assert not (tmp_path / "data" / "pigaming.log").read_text()
+
+
+@pytest.mark.parametrize("turn", ["pop", "results", "again"])
+def test_a_match_of_people_that_is_left_is_freed_at_once(arcade: Arcade, turn: str) -> None:
+    scene = match(arcade, "pitanks", "human", minutes=0.02)
+    arcade.stack.turn(Push(scene))
+    arcade.wait(0.1, draw=True)
+    if turn == "results":
+        arcade.until(lambda: isinstance(arcade.stack.top, Results), 30.0)
+    gone = weakref.ref(scene)
+    gc.collect()
+    gc.disable()
+    try:
+        del scene
+        leave: Turn = Swap(match(arcade, "pitanks", "human")) if turn == "again" else Pop()
+        arcade.stack.turn(leave)
+        assert gone() is None
+    finally:
+        gc.enable()
+
+
+def test_the_title_of_a_fresh_arcade_needs_at_most_150_mb() -> None:
+    assert bench_memory.STATES == ("title", "lobby", "pitanks", "factory", "race")
+    found = bench_memory.measured_alone("title")
+    assert found is None or 30.0 < found <= 150.0
