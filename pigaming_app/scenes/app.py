@@ -206,6 +206,8 @@ class App:
         limited = self.options.step is None and self.shown and self.unfinished < LATEST
         try:
             with budget.until(began + PAINTING if limited else math.inf):
+                if not self.unfinished and clock() >= began + PAINTING:
+                    budget.note()  # the scene has used the frame: pieces can wait for the next one
                 self.stack.top.draw(screen)
         except Unfinished:
             screen.set_clip(None)

@@ -6,6 +6,7 @@ import pygame
 
 from pigaming_app.scenes.card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
 from pigaming_app.scenes.effects import timer_ring
+from pigaming_app.scenes.frame_budget import Steps, sliced
 from pigaming_app.scenes.ink import (
     ADD,
     ALARM,
@@ -54,7 +55,8 @@ def panel_at(x: int) -> pygame.Rect:
 
 
 @cached
-def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) -> Lit:
+@sliced
+def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[Lit]:
     """A panel without its letters: who is asked, for what; and the boxes in which the letters stand."""
     pane = Pane(0, 0, W, H)
     panel(pane.hot, 0, 0, W, H, PLAYERS[seat], LINE if done else THIN)
@@ -70,7 +72,8 @@ def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) 
     for i in range(3):
         box = cut(slot_x(i) - SLOT_W / 2, LETTERS_Y - SLOT_H / 2, SLOT_W, SLOT_H, 14)
         pane.hot.line(box, STEEL, THIN, True)
-    return pane.done()
+    yield
+    return (yield from pane.lighting())
 
 
 def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> None:

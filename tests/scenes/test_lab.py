@@ -13,7 +13,8 @@ from pigaming_app.scenes.lab.compare import Compare
 from pigaming_app.scenes.lab.curve import Measure, room, smoothed
 from pigaming_app.scenes.lab.fight import ROBOT, Fight, Verdict
 from pigaming_app.scenes.lab.menu import LabMenu
-from pigaming_app.scenes.lab.places import KNOB_NAMES, SPEED
+from pigaming_app.scenes.lab.page import warming
+from pigaming_app.scenes.lab.places import CURVE, KNOB_NAMES, MATCH, PLOT, SPEED
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.palette import BODY, text_width
 from pigaming_app.scenes.pause import Pause
@@ -346,3 +347,15 @@ def test_nothing_in_the_lab_lies_on_something_else(arcade: Arcade) -> None:
     spots = lab(arcade).focus.spots
     assert all(SAFE.contains(spot.rect) for spot in spots)
     assert not [(a.name, b.name) for a, b in combinations(spots, 2) if a.rect.colliderect(b.rect)]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(controls: Controls, language: str) -> None:
+    lit = warming(Words(language)("lab.warming"))
+    box = pygame.mask.from_threshold(lit.image, (0, 0, 0), (40, 40, 40, 255))
+    box.invert()
+    rects = box.get_bounding_rects()
+    line = rects[0].unionall(rects[1:]).move(lit.at)
+    assert CURVE.contains(line)
+    assert line.right < PLOT.right, "the number beside the plot keeps its place"
+    assert not line.colliderect(MATCH)

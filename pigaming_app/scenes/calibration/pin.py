@@ -200,6 +200,7 @@ def grid() -> Steps[pygame.Surface]:
     pane = Pane(0, 0, 1920, 1080)
     for x in range(0, 1921, CELL):
         pane.page.cold.line([(x, 0), (x, 1080)], dim(ICE, 0.35), HAIR)
+    yield
     for y in range(0, 1081, CELL):
         pane.page.cold.line([(0, y), (1920, y)], dim(ICE, 0.35), HAIR)
     pane.page.cold.line(cut(3, 3, 1914, 1074, 0), ICE, LINE, True)

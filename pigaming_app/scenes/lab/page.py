@@ -137,15 +137,21 @@ def ground(language: str) -> Steps[pygame.Surface]:
     """Everything of the page that never changes."""
     words, page = Words(language), Page()
     out = blacked(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
+    yield
     title = words("lab.title")
     page.text(title, TITLE, LEFT, TITLE_Y, ICE)
+    yield
     _saying(page, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
+    yield
     page.hot.line(outline(MATCH, 20), WALL, THIN, True)
+    yield
     for x in range(52, ARENA.w, 52):
         for y in range(52, ARENA.h, 52):
             page.cold.disc(ARENA.x + x, ARENA.y + y, 1.5, (26, 37, 54))
+    yield
     for box in (KNOBS, CURVE, PLAN):
         panel(page.hot, *box)
+    yield
     _named(page, words("lab.likes"), KNOBS)
     _named(page, words("lab.wins"), CURVE)
     page.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")

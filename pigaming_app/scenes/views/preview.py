@@ -34,6 +34,7 @@ def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     for column in range(200, int(WIDTH), 200):
         for row in range(150, int(HEIGHT), 200):
             ink.disc(left + k * column, top + k * row, 1.5, dim(STEEL, 0.6))
+    yield
     ink.line(cut(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), MIST, THIN, True)
     for wall in arena.walls:
         ends = [(left + k * wall.ax, top + k * wall.ay), (left + k * wall.bx, top + k * wall.by)]

@@ -41,6 +41,7 @@ def bare(floor: Floor) -> Steps[pygame.Surface]:
 def draw_floor(inks: Inks, floor: Floor) -> Steps[None]:
     """Aisle, warehouses and machines, in arena px."""
     _aisle(inks, floor.aisle)
+    yield
     for first in range(0, MACHINE_SLOTS, SHELVES):
         _warehouse(inks, floor.slots[first : first + SHELVES])
         yield
