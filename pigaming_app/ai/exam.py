@@ -85,7 +85,7 @@ def exit_with_parent() -> None:
     """End this process as soon as the one that started it closes the pipe to it, for whatever reason."""
 
     def wait() -> None:
-        sys.stdin.buffer.read()
+        os.read(sys.stdin.fileno(), 1)  # a buffered read would abort the interpreter at its normal end
         os._exit(1)
 
     Thread(target=wait, daemon=True).start()

@@ -211,6 +211,18 @@ def test_when_the_arcade_is_killed_the_process_ends_by_itself() -> None:
         time.sleep(0.05)
 
 
+@needs_numba
+def test_a_process_that_has_compiled_ends_well_while_the_arcade_goes_on() -> None:
+    compiler = Compiler((sys.executable, "-c", "from pigaming_app.ai.exam import exit_with_parent; exit_with_parent()"))
+    compiler.start()
+    end = time.monotonic() + 60.0
+    while compiler.code is None:
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    assert compiler.code == 0
+    compiler.end()
+
+
 def runs(pid: int) -> bool:
     """Whether a process runs; one that has ended and was only not collected yet does not."""
     try:
