@@ -14,11 +14,14 @@ from typing import Any
 import pygame
 import pytest
 
+from pigaming_app.scenes.frame_budget import Steps
 from pigaming_app.scenes.palette import CAPITALS, font
 from pigaming_app.scenes.pane import Lit
 from pigaming_app.scenes.sheet import Ink, Page
+from pigaming_app.scenes.surface_cache import surfaces
 
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # a little more than the safe area of menus: hints may stand in its margin
+Painting = Callable[..., Steps[pygame.Surface]]
 NEAR = 3  # px between a text and an outline, at least
 
 
@@ -79,7 +82,7 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
     """Everything that is lit from now on is measured; what was lit before is forgotten first."""
     forget()
     measured = Measured()
-    text, line, plain, sprite, done, draw = Ink.text, Ink.line, Ink.plain, Ink.sprite, Page.done, Lit.draw
+    text, line, draw = Ink.text, Ink.line, Lit.draw
 
     def noted_text(ink: Any, said: str, size: int, x: float, y: float, *rest: Any, **named: Any) -> Any:
         face = named.get("face", rest[1] if len(rest) > 1 else "head")
@@ -100,9 +103,9 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
                 marks_of(ink).append(Mark("", (min(xs), min(ys), max(xs), max(ys))))
         return line(ink, points, color, width, closed)
 
-    def noted(make: Callable[..., pygame.Surface], parts: Callable[[Any], list[Any]]) -> Callable[..., pygame.Surface]:
-        def made(self: Any, *rest: Any) -> pygame.Surface:
-            out = make(self, *rest)
+    def noted(make: Painting, parts: Callable[[Any], list[Any]]) -> Painting:
+        def made(self: Any, *rest: Any) -> Steps[pygame.Surface]:
+            out = yield from make(self, *rest)
             measured.note(out, [mark for ink in parts(self) for mark in marks_of(ink)])
             return out
 
@@ -115,9 +118,9 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 
     patch.setattr(Ink, "text", noted_text)
     patch.setattr(Ink, "line", noted_line)
-    patch.setattr(Ink, "plain", noted(plain, lambda ink: [ink]))
-    patch.setattr(Ink, "sprite", noted(sprite, lambda ink: [ink]))
-    patch.setattr(Page, "done", noted(done, lambda page: [page.warm, page.cold, page.hot]))
+    patch.setattr(Ink, "shrinking", noted(Ink.shrinking, lambda ink: [ink]))
+    patch.setattr(Ink, "spriting", noted(Ink.spriting, lambda ink: [ink]))
+    patch.setattr(Page, "lighting", noted(Page.lighting, lambda page: [page.warm, page.cold, page.hot]))
     patch.setattr(Lit, "draw", drawn)
     yield Screen(measured)
     forget()
@@ -125,6 +128,7 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 
 def forget() -> None:
     """Empty every cache of the scenes."""
+    surfaces.clear()
     for cached in gc.get_objects():
         if isinstance(cached, functools._lru_cache_wrapper) and cached.__module__.startswith("pigaming_app.scenes"):
             cached.cache_clear()

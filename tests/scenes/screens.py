@@ -7,8 +7,10 @@ from pigaming_app.ai import RIVALS
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.scenes.access import Access
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.devices import DeviceTable
+from pigaming_app.scenes.feats import boards
 from pigaming_app.scenes.howto import HowTo
 from pigaming_app.scenes.lobby import Lobby
 from pigaming_app.scenes.match import MatchScene
@@ -23,6 +25,7 @@ from pigaming_app.scenes.seats import Seats
 from pigaming_app.scenes.setup import SetupPage
 from pigaming_app.scenes.stack import Scene
 from pigaming_app.scenes.title import Title
+from pigaming_app.scores import Table
 from tests.scenes.arcade import KEYS, Arcade
 
 FACTS = {
@@ -106,7 +109,12 @@ def match(arcade: Arcade) -> MatchScene:
 
 def best(game: str) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
-        scene = Best(arcade.house, game, max(arenas(game), key=len), max(GAMES[game].goals, default=0))
+        rules = GAMES[game]
+        conditions = Table(game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4)
+        for board in boards(conditions):
+            for score in (999, 599_990, -100):
+                arcade.house.scores.add(board.table, "WWW", score)
+        scene = Best(arcade.house, conditions)
         scene.age = 9.0
         return scene
 
@@ -130,7 +138,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
     "still there": lambda arcade: StillThere(match(arcade)),
-    "devices": lambda arcade: DeviceTable(arcade.house, KEYS),
+    "devices": lambda arcade: DeviceTable(arcade.house, KEYS, Access(arcade.house, lambda: KEYS)),
     **{f"how to play {game}": lesson(game) for game in GAMES},
     **{f"setup {game}": choice(game) for game in GAMES},
     **{f"lobby {game}": lobby(game, 0, 0) for game in GAMES},
