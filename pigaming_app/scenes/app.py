@@ -4,6 +4,7 @@ A mistake in a scene is written to the log and the title comes back with one sen
 """
 
 import faulthandler
+import gc
 import logging
 import math
 import signal
@@ -129,6 +130,7 @@ class App:
         self.failures, self.failed_at = 0, -QUIET
         self.code = 0
         self.stack = self._begin()
+        self.lying = self._lying()  # which scenes lay on the stack in the last frame
 
     def loop(self) -> int:
         """Frame after frame, until no scene is left; the exit code."""
@@ -178,6 +180,7 @@ class App:
     def compose(self, seconds: float) -> bool:
         """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
         began, started = clock(), perf_counter()
+        self._free_scenes()
         events = pygame.event.get()
         if any(self._closes(event) for event in events) and not self.house.kiosk:
             self.stack.clear()
@@ -212,6 +215,16 @@ class App:
             return False
         self.shown, self.unfinished = True, 0
         return True
+
+    def _free_scenes(self) -> None:
+        """Free the scenes that have been taken off the stack. Most are in reference cycles, whose canvases of 8 MB each
+        would pile up: Python collects cycles by the number of objects."""
+        before, self.lying = self.lying, self._lying()
+        if before - self.lying:
+            gc.collect()
+
+    def _lying(self) -> frozenset[int]:
+        return frozenset(map(id, self.stack.scenes))
 
     def _frame(self, seconds: float) -> None:
         """Compose one picture and show it."""

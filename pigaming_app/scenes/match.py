@@ -10,7 +10,6 @@ import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
-from weakref import proxy
 
 import pygame
 
@@ -302,8 +301,7 @@ class MatchScene:
         self.devices[seat] = device
         if device is None:
             self.helped.add(seat)
-        scene = proxy(self)  # a cycle would keep the surfaces of a match that is over
-        brain = Hands(lambda: scene._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        brain = Hands(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
         self.stage.players[seat] = "human" if device else STAND_IN
 
@@ -329,8 +327,7 @@ class MatchScene:
         self.frozen += seconds
         self.stage.wait(seconds)
         if ready and (self.stopped or self.frozen >= FREEZE):
-            results, self.results = self.results, None  # which hold this scene, for a rematch
-            return Swap(results)
+            return Swap(self.results)
         return None
 
 

@@ -3,8 +3,6 @@
 When nobody is there for a while, an AI match begins.
 """
 
-import gc
-
 import pygame
 
 from pigaming_app.games import GAMES
@@ -63,9 +61,8 @@ class Title:
         self.lab: Scene | None = None
 
     def entered(self) -> None:
-        """Shown, or shown again; matches that are over leave nothing behind."""
+        """Shown, or shown again; the sprites of matches are released."""
         surfaces.release_matches()
-        gc.collect()  # scenes in reference cycles hold surfaces of many megabytes, unseen by its thresholds
         self.house.idle = 0.0
         self.house.sounds.music(True)
         self.focus.place(self._spots())

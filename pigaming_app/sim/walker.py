@@ -14,7 +14,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.navigate import find_way, free_node
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robots import RADIUS
-from pigaming_app.sim.world import CELL, DT, ROBOTS
+from pigaming_app.sim.world import CELL, DT, HZ, ROBOTS
 
 THERE = 6.0  # px from the goal that count as there
 NEARLY = 70.0  # px that do, if somebody stands in the way
@@ -22,6 +22,7 @@ ROOM, CLOSE = 34.0, 8.0  # px that a walker keeps from a robot that drives, and 
 PAST = 24.0  # px more than that, from which on it has come past somebody
 DRIVING = 20.0  # px/s
 AHEAD = 0.5  # s that it looks ahead at how a robot drives
+SIGHT = 300.0  # px from which no robot comes near in that time
 TURN = 8.0  # rad/s
 NEARER = 10.0  # px that count as getting on
 CARRIED = 40.0  # px in a tick: a robot that moved further was carried
@@ -41,12 +42,13 @@ class Motion:
 @kernel
 def observe(motion: Any, robot: Any) -> None:
     """Take in where a robot is now."""
-    dx, dy = robot.x - motion.x, robot.y - motion.y
-    motion.x, motion.y = robot.x, robot.y
+    x, y = robot.x, robot.y
+    dx, dy = x - motion.x, y - motion.y
+    motion.x, motion.y = x, y
     if dx * dx + dy * dy > CARRIED * CARRIED:
         dx, dy = 0.0, 0.0
-    motion.vx += (dx / DT - motion.vx) * SMOOTH
-    motion.vy += (dy / DT - motion.vy) * SMOOTH
+    motion.vx += (dx * HZ - motion.vx) * SMOOTH
+    motion.vy += (dy * HZ - motion.vy) * SMOOTH
 
 
 @kernel
@@ -149,17 +151,28 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
         robot = world.robots[k]
         if not robot.present:
             continue
+        dx, dy = x - robot.x, y - robot.y
+        if not (-SIGHT < dx < SIGHT and -SIGHT < dy < SIGHT):
+            continue
         motion = world.motions[k]
         looks, reach = (3, RADIUS + radius + ROOM) if drives(motion) else (1, RADIUS + radius + CLOSE)
         for half in range(looks):
             ahead = 0.5 * half * AHEAD
             rx, ry = robot.x + ahead * motion.vx, robot.y + ahead * motion.vy
-            if half and in_wall(world, rx, ry):  # a wall will stop it
-                break
             dx, dy = x - rx, y - ry
             gap = dx * dx + dy * dy
             if gap < reach * reach:
                 ox, oy = walker.x - rx, walker.y - ry
-                if gap < ox * ox + oy * oy:
+                if gap < ox * ox + oy * oy and gets_there(world, robot, motion, half):
                     return k
     return -1
+
+
+@kernel
+def gets_there(world: Any, robot: Any, motion: Any, half: int) -> bool:
+    """Whether no wall stops a robot in so many halves of AHEAD."""
+    for part in range(1, half + 1):
+        ahead = 0.5 * part * AHEAD
+        if in_wall(world, robot.x + ahead * motion.vx, robot.y + ahead * motion.vy):
+            return False
+    return True

@@ -17,15 +17,15 @@ from pigaming_app.scenes import surface_cache, tank
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.effects import beam, wave
+from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import PLAYERS
 from pigaming_app.scenes.match import MatchScene
-from pigaming_app.scenes.press import Act
-from pigaming_app.scenes.results import Results
+from pigaming_app.scenes.press import Act, Press
 from pigaming_app.scenes.stack import Home, Pop, Push, Stack, Swap, Turn
 from pigaming_app.scenes.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.scenes.title import Title
 from tests.bench.memory import press
-from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.arcade import Arcade
 
 
 @pytest.fixture
@@ -37,13 +37,13 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     return arcade
 
 
-def match(arcade: Arcade, game: str, brain: str = "normal", minutes: float = 2.0) -> MatchScene:
-    """A match with the longest way to the goal, in which every other seat has this brain."""
+def match(arcade: Arcade, game: str) -> MatchScene:
+    """A match of AIs with the longest way to the goal."""
     rules = GAMES[game]
-    one, two, three, four = (Seat((brain, "easy")[i % 2], team) for i, team in enumerate(rules.teams))
+    one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
-    setup = Setup(game, arenas(game)[0], (one, two, three, four), minutes, 1, rules.variants[0], goal)
-    return MatchScene(arcade.house, setup, [KEYS[0], None, KEYS[1], None] if brain == "human" else [])
+    setup = Setup(game, arenas(game)[0], (one, two, three, four), 2.0, 1, rules.variants[0], goal)
+    return MatchScene(arcade.house, setup)
 
 
 def warmed(arcade: Arcade, game: str) -> None:
@@ -104,23 +104,51 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
     assert not (tmp_path / "data" / "pigaming.log").read_text()
 
 
-@pytest.mark.parametrize("turn", ["pop", "results", "again"])
-def test_a_match_of_people_that_is_left_is_freed_at_once(arcade: Arcade, turn: str) -> None:
-    scene = match(arcade, "pitanks", "human", minutes=0.02)
-    arcade.stack.turn(Push(scene))
-    arcade.wait(0.1, draw=True)
-    if turn == "results":
-        arcade.until(lambda: isinstance(arcade.stack.top, Results), 30.0)
-    gone = weakref.ref(scene)
-    gc.collect()
-    gc.disable()
+class Leaving:
+    """A scene in a reference cycle that leaves the stack in its third frame."""
+
+    def __init__(self, turn: Turn) -> None:
+        self.turn, self.frames = turn, 0
+        self.cycle = lambda: self.turn
+
+    def entered(self) -> None:
+        pass
+
+    def on(self, press: Press) -> Turn:
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        self.frames += 1
+        return self.cycle() if self.frames == 3 else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        screen.fill("black")
+
+
+@pytest.mark.parametrize("turn", [Pop(), Home(), Swap(Leaving(None)), Home(Leaving(None))], ids=repr)
+def test_a_scene_that_has_left_is_freed_in_the_next_frame(
+    turn: Turn, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    scenes: list[weakref.ref[Leaving]] = []
+    alive: list[bool] = []
+
+    def first(house: House) -> Leaving:
+        gc.disable()
+        scene = Leaving(turn)
+        scenes.append(weakref.ref(scene))
+        return scene
+
+    def over() -> bool:
+        alive.append(scenes[0]() is not None)
+        return len(alive) == 5
+
     try:
-        del scene
-        leave: Turn = Swap(match(arcade, "pitanks", "human")) if turn == "again" else Pop()
-        arcade.stack.turn(leave)
-        assert gone() is None
+        run(Options(headless=True, first=first, step=0.1, over=over))
     finally:
         gc.enable()
+        pygame.display.quit()
+    assert alive == [True, True, True, False, False]
 
 
 def test_the_title_of_a_fresh_arcade_needs_at_most_150_mb() -> None:

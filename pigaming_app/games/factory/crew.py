@@ -54,8 +54,7 @@ def run_crew(match: Any) -> None:
 def run_machine(match: Any, m: int) -> None:
     """Process, and put what is done into the output, which has been kept free for it."""
     machine = match.machines[m]
-    machine.since += 1
-    if has_work(match, m):
+    if not machine.pallet and match.slots[MACHINE_SLOTS + 2 * m].pallet and has_work(match, m):
         machine.stalled += 1
     elif machine.stalled:
         machine.stalled -= 1
@@ -97,7 +96,9 @@ def call_worker(match: Any) -> None:
         machine = match.machines[i]
         if not machine.worker and (has_work(match, i) or is_late(match, i)):
             lies = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
-            waited = min(match.pallets[match.slots[lies].pallet - 1].waited, machine.since)
+            waited = match.pallets[match.slots[lies].pallet - 1].waited
+            if machine.refused:
+                waited = min(waited, match.tick - machine.refused_at)
             if waited > longest:
                 m, longest = i, waited
     if m < 0:
@@ -160,7 +161,7 @@ def run_worker(match: Any, w: int) -> None:
 def give_up(match: Any, w: int) -> None:
     """Leave a machine that this worker cannot get to, to others."""
     machine = match.machines[match.workers[w].machine]
-    machine.refused, machine.since = w + 1, 0
+    machine.refused, machine.refused_at = w + 1, match.tick
     go_home(match, match.workers[w])
 
 
@@ -201,7 +202,8 @@ def fetch(match: Any, w: int, there: int) -> None:
     shelf = free_shelf(match, team, ENTRY)
     worker.shelf = shelf if shelf >= 0 else first_slot(team, ENTRY)
     move(match, p, BY_WORKER, w)
-    match.machines[m].worker, worker.machine, worker.task = 0, -1, CARRYING
+    match.machines[m].worker, match.machines[m].refused = 0, 0
+    worker.machine, worker.task = -1, CARRYING
     send_to_shelf(match, worker)
 
 

@@ -190,7 +190,7 @@ def mind_people(match: Any, k: int) -> None:
                 worker.touched[k] = 1
                 load.hits += 1
                 load.frozen = rules.freeze
-        elif away > (reach + APART) * (reach + APART):
+        elif worker.touched[k] and away > (reach + APART) * (reach + APART):
             worker.touched[k] = 0
 
 

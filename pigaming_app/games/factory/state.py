@@ -94,7 +94,7 @@ class Machine:
     keeps: int  # 1 + the pallet for which the output slot is kept; 0: free
     stalled: int  # ticks for which work has waited; without work it goes back to 0 as fast
     refused: int  # 1 + the worker who last could not get there, until one could; 0: none
-    since: int  # ticks since then, or since the match began
+    refused_at: int  # the tick of that
 
 
 @record
