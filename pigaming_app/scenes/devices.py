@@ -1,11 +1,12 @@
 """Who drives with what, in a pause: for each seat its device, the keys that steer, fire and turbo."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from itertools import chain
 
 import pygame
 
 from pigaming_app.scenes.access import Access
-from pigaming_app.scenes.frame_budget import budget
+from pigaming_app.scenes.frame_budget import Steps, budget
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.scenes.pane import LEFT, RIGHT, Lit, Pane, backdrop, fitted
@@ -24,7 +25,7 @@ class DeviceTable:
         self.house, self.access = house, access
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[Lit] = []
-        self.pieces = self._make()
+        self.making = self._make()
         self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
@@ -45,28 +46,29 @@ class DeviceTable:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the table."""
-        for piece in self.pieces:
-            self.lit.append(piece)
+        for _ in self.making:
             budget.pause()
         screen.blit(backdrop(), (0, 0))
         for lit in self.lit:
             lit.draw(screen)
         self.prompts.draw(screen)
 
-    def _make(self) -> Iterator[Lit]:
-        """One piece of the page after the other."""
-        yield self._heading()
-        for i, row in enumerate(self.rows):
-            yield self._row(i, *row)
+    def _make(self) -> Steps[None]:
+        """Make one piece of the page after the other."""
+        panes = (self._row(i, *row) for i, row in enumerate(self.rows))
+        for pane in chain([self._heading()], panes):
+            yield
+            lit = yield from pane.lighting()
+            self.lit.append(lit)
 
-    def _heading(self) -> Lit:
+    def _heading(self) -> Pane:
         pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
         text = self.house.words("pause.drives")
         pane.page.text(text, fitted(text, TITLE, RIGHT - LEFT), LEFT, 112)
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], ICE, LINE)
-        return pane.done()
+        return pane
 
-    def _row(self, i: int, seat: int, device: Device) -> Lit:
+    def _row(self, i: int, seat: int, device: Device) -> Pane:
         words, controls = self.house.words, self.house.controls
         y = TOP + PITCH * i + HIGH // 2
         pane = Pane(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
@@ -79,7 +81,7 @@ class DeviceTable:
         for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
             wide = button(pane.page, x, y, words.printed(controls.label(device, act)))
             pane.page.body(words(name), x + wide + 18, y, MIST)
-        return pane.done()
+        return pane
 
     def _moves(self, pane: Pane, device: Device, y: float) -> None:
         x = MOVES

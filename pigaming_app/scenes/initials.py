@@ -16,6 +16,7 @@ from pigaming_app.keeping import NotSaved
 from pigaming_app.scenes import initials_page as page
 from pigaming_app.scenes.best import Best
 from pigaming_app.scenes.feats import contest, counts, table_of, told
+from pigaming_app.scenes.frame_budget import Ahead
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.ink import FOCUS, LABEL
 from pigaming_app.scenes.page import blacked, calling, heading, pulse
@@ -98,12 +99,11 @@ class Initials:
         self.house, self.setup, self.claims = house, setup, sorted(claims, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
-        self.ahead = self._ahead()
+        self.ahead = Ahead(self._ahead())
 
     def warm(self) -> None:
         """Make one piece of the page, so that it does not come in one long frame."""
-        if piece := next(self.ahead, None):
-            piece()
+        self.ahead.work(0.0)
 
     def entered(self) -> None:
         """Nothing to begin."""

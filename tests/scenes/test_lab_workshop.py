@@ -22,10 +22,12 @@ needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not install
 
 @pytest.fixture
 def shop() -> Iterator[Workshop]:
-    shop = Workshop(RECIPES[1], 5)
+    compiler = Compiler()
+    shop = Workshop(RECIPES[1], 5, compiler=compiler)
     yield shop
     shop.close()
     assert shop.join(10.0)
+    compiler.end()
 
 
 def feed(shop: Workshop, so: Callable[[], bool], most: float = 300.0) -> None:

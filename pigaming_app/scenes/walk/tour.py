@@ -117,8 +117,45 @@ def robots(walker: Visitor) -> None:
 
 
 def play(walker: Visitor, game: str, every_arena: bool) -> None:
-    """From the lobby to the rematch."""
+    """From the lobby to the rematch; then a moment in each of the other arenas."""
     lobby(walker, game)
+    setup(walker, game)
+    arenas = len(walker.top.arenas)
+    match(walker, game)
+    results(walker, game)
+    for _ in range(1, arenas if every_arena else 1):
+        walker.at(f"{game}: setup")
+        walker.wait(0.5)
+        walker.press("d", pause=0.5)
+        begin(walker, game)
+        walker.wait(4.5)
+        leave(walker, game)
+    home(walker)
+
+
+def join(walker: Visitor, game: str) -> None:
+    """Take a seat in the lobby of a game."""
+    walker.at(f"{game}: lobby")
+    walker.until(lambda: walker.on("Title"))
+    walker.wait(0.5)
+    choose(walker, game)
+    walker.until(lambda: walker.on("Lobby"))
+    walker.wait(0.5)
+    walker.press("space")
+
+
+def lobby(walker: Visitor, game: str) -> None:
+    """A person joins, AIs come and go, teams are formed; then the person is ready."""
+    join(walker, game)
+    walker.press(*["tab"] * 6, "x", "d", "a", "x")
+    walker.wait(3.0)
+    walker.press("d", "a")
+    walker.wait(1.0)
+    walker.press("space")
+
+
+def setup(walker: Visitor, game: str) -> None:
+    """Every arena, some of the other choices, and back to the first arena."""
     walker.at(f"{game}: setup")
     walker.until(lambda: walker.on("SetupPage"))
     walker.wait(0.3)
@@ -126,30 +163,6 @@ def play(walker: Visitor, game: str, every_arena: bool) -> None:
         walker.press("d", pause=0.4)
     walker.press("s", "d", "d", "a", "s", "d", "a", "w", "w", "w")
     walker.press(*["a"] * len(walker.top.arenas), pause=0.0)
-    match(walker, game)
-    results(walker, game)
-    for _ in walker.top.arenas[1:] if every_arena else ():
-        walker.at(f"{game}: setup")
-        walker.wait(0.5)
-        walker.press("d", pause=0.5)
-        begin(walker, game)
-        walker.wait(4.5)
-        leave(walker, game)
-        walker.press("x", pause=0.5)
-    home(walker)
-
-
-def lobby(walker: Visitor, game: str) -> None:
-    """A person joins, AIs come and go, teams are formed; then the person is ready."""
-    walker.at(f"{game}: lobby")
-    choose(walker, game)
-    walker.until(lambda: walker.on("Lobby"))
-    walker.wait(0.5)
-    walker.press("space", *["tab"] * 6, "x", "d", "a", "x")
-    walker.wait(3.0)
-    walker.press("d", "a")
-    walker.wait(1.0)
-    walker.press("space")
 
 
 def begin(walker: Visitor, game: str) -> None:
@@ -201,12 +214,10 @@ def results(walker: Visitor, game: str) -> None:
     walker.until(lambda: walker.on("MatchScene"))
     walker.wait(2.0)
     leave(walker, game)
-    walker.press("x", pause=0.5)
-    walker.until(lambda: walker.on("SetupPage"))
 
 
 def leave(walker: Visitor, game: str) -> None:
-    """End a match by hand."""
+    """End a match by hand, choose the same game again and go on to its setup."""
     walker.at(f"{game}: pause")
     walker.press("return", pause=0.5)
     walker.press("w", pause=0.3)
@@ -215,7 +226,18 @@ def leave(walker: Visitor, game: str) -> None:
         if walker.on("Pause"):
             walker.press("space", pause=0.5)
     walker.until(lambda: walker.on("Results"))
-    walker.wait(7.0)
+    walker.wait(5.0)
+    walker.at("change of game")
+    walker.press("x", pause=0.5)
+    walker.until(lambda: walker.on("GameChoice"))
+    while walker.top.focus.name != game:
+        walker.press("d")
+    walker.at(f"{game}: lobby")
+    walker.press("space", pause=0.5)
+    walker.until(lambda: walker.on("Lobby"))
+    walker.press("space")
+    walker.at(f"{game}: setup")
+    walker.until(lambda: walker.on("SetupPage"))
 
 
 def lab(walker: Visitor) -> None:
