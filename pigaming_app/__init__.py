@@ -2,6 +2,6 @@
 
 from pathlib import Path
 
-__version__ = "1.3.0"
+__version__ = "1.4.0"
 
 ASSETS = Path(__file__).resolve().parent.parent / "assets"
