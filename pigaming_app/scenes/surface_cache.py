@@ -16,7 +16,7 @@ import pygame
 
 from pigaming_app.scenes.frame_budget import budget
 
-BUDGET = 160 << 20  # bytes; all that one race needs are 150 MB
+BUDGET = 150 << 20  # bytes; a match needs 140 MB, and what only its start needs is least recently used
 
 Args = ParamSpec("Args")
 Result = TypeVar("Result")
