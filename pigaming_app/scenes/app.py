@@ -102,6 +102,7 @@ def opened(options: Options) -> "Iterator[App]":
         house.stand_still()
         house.backstage.end()
         house.compiler.end()
+        gc.unfreeze()
         mat.end()
         house.sounds.close()
         _keep(settings, where.config)
@@ -126,6 +127,7 @@ class App:
             self.notices.say(house.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
+        self.exempt = False  # whether what was loaded is left out by the garbage collector
         self.shown, self.unfinished = False, 0  # whether there was a picture; frames since in which there was none
         self.failures, self.failed_at = 0, -QUIET
         self.code = 0
@@ -196,7 +198,7 @@ class App:
                 return False
         self._say(self.house.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
-            self.house.backstage.start()  # the title is there
+            self._prepare()
         self.gauge.note(seconds, played - started, perf_counter() - played)
         return True
 
@@ -215,6 +217,17 @@ class App:
             return False
         self.shown, self.unfinished = True, 0
         return True
+
+    def _prepare(self) -> None:
+        """While the title is shown alone: begin the work behind it, and when that is done, exempt all that is there now
+        from the collection of garbage. It stays, and looking through it would take 15 ms whenever a scene is freed."""
+        backstage = self.house.backstage
+        if not backstage.begun:
+            backstage.start()
+        elif not backstage.busy and not self.exempt:
+            self.exempt = True
+            gc.collect()
+            gc.freeze()
 
     def _free_scenes(self) -> None:
         """Free the scenes that have been taken off the stack. Most are in reference cycles, whose canvases of 8 MB each

@@ -57,6 +57,11 @@ class Backstage:
             self._thread.join(2.0)
 
     @property
+    def begun(self) -> bool:
+        """Whether it has been started."""
+        return self._thread is not None
+
+    @property
     def busy(self) -> bool:
         """Whether it is at work."""
         return self._thread is not None and self._thread.is_alive()
