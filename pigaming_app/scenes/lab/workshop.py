@@ -5,6 +5,7 @@ compiles (in another process), the page gives it some milliseconds of every fram
 nobody feeds it any more, whatever became of the page.
 """
 
+import gc
 import logging
 import sys
 import threading
@@ -169,6 +170,7 @@ class Workshop:
             if code:
                 raise RuntimeError(f"compiling ended with exit code {code}")
             compile_all()
+            gc.freeze()  # numba stays loaded; looking through it would take 50 ms whenever a scene is freed
             self._hand_over(fast=True)
             return True
         finally:
