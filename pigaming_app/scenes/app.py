@@ -41,7 +41,7 @@ from pigaming_app.settings import Settings, folders
 
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
-PAINTING = 0.014  # s of a frame after which no missing piece is begun
+PAINTING = 0.012  # s of a frame after which no missing piece is begun
 LATEST = 240  # frames after which a picture is completed at once, however long that takes
 SETTLING = 1.0  # s after the start in which a pointer that merely lies there does not take the focus
 TROUBLES, QUIET = 5, 10.0  # so many failures, each within so many s of the one before: the arcade gives up
@@ -182,7 +182,7 @@ class App:
     def compose(self, seconds: float) -> bool:
         """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
         began, started = clock(), perf_counter()
-        self._free_scenes()
+        freed = self._free_scenes()
         events = pygame.event.get()
         if any(self._closes(event) for event in events) and not self.house.kiosk:
             self.stack.clear()
@@ -191,7 +191,7 @@ class App:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
         first = not self.shown
-        with budget.frame(self.unfinished > 0):
+        with budget.frame(self.unfinished > 0 or freed):
             self._play(events, seconds)
             played = perf_counter()
             if not self.stack.scenes or not self._paint(began):
@@ -229,12 +229,14 @@ class App:
             gc.collect()
             gc.freeze()
 
-    def _free_scenes(self) -> None:
-        """Free the scenes that have been taken off the stack. Most are in reference cycles, whose canvases of 8 MB each
-        would pile up: Python collects cycles by the number of objects."""
+    def _free_scenes(self) -> bool:
+        """Free the scenes that have been taken off the stack, if there are any. Most are in reference cycles, whose
+        canvases of 8 MB each would pile up: Python collects cycles by the number of objects."""
         before, self.lying = self.lying, self._lying()
         if before - self.lying:
             gc.collect()
+            return True
+        return False
 
     def _lying(self) -> frozenset[int]:
         return frozenset(map(id, self.stack.scenes))
@@ -280,10 +282,12 @@ class App:
         if self.seconds < SETTLING:
             presses = [press for press in presses if press.act is not Act.POINT]
         self.house.idle = 0.0 if presses else self.house.idle + seconds
+        before = stack.scenes[-1:]
         for press in presses:
             if stack.scenes:
                 stack.turn(stack.top.on(press))
         if stack.scenes:
+            budget.behind = budget.behind or stack.scenes[-1:] != before  # what has just come is painted first
             stack.turn(stack.top.update(seconds))
 
     def _recovered(self) -> bool:

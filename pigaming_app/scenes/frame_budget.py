@@ -34,7 +34,7 @@ class FrameBudget:
     def __init__(self) -> None:
         self._end = math.inf
         self._made = self._in_frame = False
-        self.behind = False  # the last frame's picture was not completed, so this one has no time for anything else
+        self.behind = False  # this frame has no time for anything but its picture
 
     @contextmanager
     def frame(self, behind: bool) -> Iterator[None]:

@@ -81,6 +81,8 @@ class ResultsPage:
 
     def warm(self, milliseconds: float) -> bool:
         """Make pieces for so long; true when all are there."""
+        if budget.behind:
+            return False
         with budget.until(frame_clock() + milliseconds / 1000):
             try:
                 self._finish()

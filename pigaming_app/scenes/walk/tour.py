@@ -95,8 +95,8 @@ def options(walker: Visitor) -> None:
             if name == "robots":
                 robots(walker)
             walker.press("escape")
-        elif name not in ("display", "fullscreen"):
-            walker.press("d", "a")
+        elif name not in ("display", "fullscreen"):  # the language is changed and changed back
+            walker.press(*("d", "a") if walker.house.words.language == LANGUAGES[0] else ("a", "d"))
         walker.at("options")
         walker.press("s")
     home(walker)
