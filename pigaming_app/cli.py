@@ -196,9 +196,18 @@ def bench(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps(figures))
     else:
-        for key, value in figures.items():
-            print(f"{key:28} {value if not isinstance(value, float) else f'{value:,.3f}'}")
+        _print_figures(figures)
     return 0
+
+
+def _print_figures(figures: dict[str, Any], indent: str = "") -> None:
+    """A line for each figure; those that belong together are indented below their name."""
+    for key, value in figures.items():
+        if isinstance(value, dict):
+            print(indent + key)
+            _print_figures(value, indent + "  ")
+        else:
+            print(f"{indent + key:40} {value if not isinstance(value, float) else f'{value:,.3f}'}")
 
 
 def _bench_robots() -> dict[str, Any]:
