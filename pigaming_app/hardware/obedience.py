@@ -190,13 +190,10 @@ class Watch:
         turned = self._turned(since, now)
         ways = self._told_ways(since, now)
         for wheel in (0, 1):
-            told = [one[2 + wheel] for one in ways]
             for sign in (1.0, -1.0):
-                least = min(sign * one for one in told)
-                if (
-                    least > max(CLEAR, STEADY * max(sign * one for one in told))
-                    and sign * turned[wheel] < STANDS * least
-                ):
+                weak = [sign * one[2 + wheel] for one in ways]
+                least = min(*weak, *(sign * one[wheel] for one in ways))  # friction can also shorten a way back
+                if least > max(CLEAR, STEADY * max(weak)) and sign * turned[wheel] < STANDS * least:
                     return True
         return False
 
