@@ -18,7 +18,7 @@ from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
 
 FORGOTTEN = 1.0  # s after which a robot that nobody sees is nobody's obstacle
-PUSH = 2600.0  # px/s^2 at which real robots gather speed: one that drives the wrong way is noticed before it is fast
+PUSH = 2000.0  # px/s^2 at which real robots gather speed: one that drives the wrong way is noticed before it is fast
 REST: Twist = (0.0, 0.0)
 
 
