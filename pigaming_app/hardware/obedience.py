@@ -84,9 +84,9 @@ class Obedience:
         for fix in fixes:
             self._watches[fix.robot].seen(fix)
 
-    def forget(self) -> None:
-        """What follows is commanded by somebody else, or means other robots: judge everything anew."""
-        for watch in self._watches:
+    def forget(self, robot: int | None = None) -> None:
+        """What follows is commanded by somebody else, or means other robots: judge this one, or all, anew."""
+        for watch in self._watches if robot is None else [self._watches[robot]]:
             watch.forget()
 
     def contradiction(self, robot: int) -> Contradiction:

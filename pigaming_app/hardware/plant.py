@@ -98,6 +98,11 @@ class RealPlant:
         """Let everybody begin where it stands."""
         self._homing = None
 
+    def forgive(self, robot: int) -> None:
+        """Somebody has looked after a robot that did not do as it was told: it may try again."""
+        self.rig.forget(robot)
+        self.safety.forgive(robot)
+
     def watch(self) -> list[Fault]:
         """One tick of a match that waits: all robots stand; what is wrong now."""
         self.rig.pump()

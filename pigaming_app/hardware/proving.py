@@ -163,7 +163,7 @@ def _calm(plant: RealPlant) -> int:
     """Let robots go on that wait until somebody has looked after them; how many there were."""
     waiting = plant.safety.lasting
     for robot in waiting:
-        plant.safety.forgive(robot)
+        plant.forgive(robot)
     return len(waiting)
 
 

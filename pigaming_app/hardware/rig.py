@@ -156,6 +156,11 @@ class Rig:
         self.link.send(sent)
         self.pump()
 
+    def forget(self, robot: int) -> None:
+        """Judge anew from now on whether this robot does as it is told."""
+        with self._lock:
+            self.obedience.forget(robot)
+
     def telemetry(self, robot: int) -> Telemetry | None:
         """What a robot said last."""
         return self.link.telemetry.get(self.channels[robot])

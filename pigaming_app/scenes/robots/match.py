@@ -155,7 +155,7 @@ class RealMatch(MatchScene):
         self.plant.rig.channels = channels
         self.house.settings.radios = [channel + 1 for channel in channels]
         for robot in well:
-            self.plant.safety.forgive(robot)
+            self.plant.forgive(robot)
 
     def swap(self, seat: int, real: bool) -> None:
         """Hand a seat to its simulated or its real robot; that one takes its place first."""

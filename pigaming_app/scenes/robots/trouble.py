@@ -68,7 +68,7 @@ class Trouble:
             return Push(PairAgain(self.match))
         elif lasting and press.act is Act.ALT:
             for robot in lasting:
-                self.match.plant.safety.forgive(robot)
+                self.match.plant.forgive(robot)
             self.house.sounds.play("accept")
         elif press.act is Act.STOP:
             self.match.plant.safety.all_stop()
