@@ -1,4 +1,4 @@
-"""The job `test`: the linter, the formatter, the type checker and the tests, one after the other."""
+"""The job `test`: the linter, the formatter, the type checker and the tests, which share all cores."""
 
 import os
 import subprocess
@@ -13,6 +13,7 @@ TOOLS: dict[str, tuple[str, ...]] = {
     "ruff format": ("ruff", "format", "--check", "--quiet", "."),
     "mypy": ("mypy", "--no-error-summary"),
 }
+WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "loadfile")  # tests of one file share its fixtures
 UNSEEN = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
 
 
@@ -22,7 +23,7 @@ def run(for_pytest: Sequence[str] = ()) -> int:
     The summary of pytest comes last on standard output; what failed besides is said after it on standard error.
     """
     failed = [name for name, tool in TOOLS.items() if not _passes(name, tool)]
-    code = _code(("pytest", *for_pytest))
+    code = _code(("pytest", *WORKERS, *for_pytest))
     if failed:
         print(f"FAILED before the tests: {', '.join(failed)}", file=sys.stderr)
     return code or int(bool(failed))

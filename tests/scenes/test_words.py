@@ -71,8 +71,8 @@ def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False
     """The lines on which a number with decimals is written without regard to the language."""
     for node in ast.iter_child_nodes(module):
         name = getattr(node, "name", "")
-        if name in ("Gauge", "projection"):
-            continue  # F3, and what a calibration is valid for: not for players
+        if name in ("Gauge", "projection") or isinstance(node, ast.Raise):
+            continue  # F3, what a calibration is valid for, and reasons in the log: not for players
         if isinstance(node, ast.FormattedValue) and not localised and decimals(node):
             yield node.lineno
         if called(node) in formatters and not localised:
