@@ -21,7 +21,8 @@ needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not install
 
 
 @pytest.fixture
-def shop() -> Iterator[Workshop]:
+def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Workshop]:
+    monkeypatch.setattr("pigaming_app.scenes.lab.compiler.PATIENCE", 0)  # other tests keep all cores busy
     compiler = Compiler()
     shop = Workshop(RECIPES[1], 5, compiler=compiler)
     yield shop

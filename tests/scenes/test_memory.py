@@ -125,7 +125,9 @@ class Leaving:
         screen.fill("black")
 
 
-@pytest.mark.parametrize("turn", [Pop(), Home(), Swap(Leaving(None)), Home(Leaving(None))], ids=repr)
+@pytest.mark.parametrize(
+    "turn", [Pop(), Home(), Swap(Leaving(None)), Home(Leaving(None))], ids=["pop", "home", "swap", "home and on"]
+)
 def test_a_scene_that_has_left_is_freed_in_the_next_frame(
     turn: Turn, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
