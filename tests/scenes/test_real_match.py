@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from math import hypot
 
+import numpy as np
 import pygame
 import pytest
 
@@ -38,6 +39,7 @@ def kept() -> EmulatedMat:
 @pytest.fixture
 def mat(kept: EmulatedMat) -> Iterator[EmulatedMat]:
     arena = kept.arena
+    arena.project(np.zeros((1080, 1920), np.uint8))  # not what the test before showed last
     for robot, pose in enumerate(((180, 260, 0.4), (1300, 700, 2.9), (1300, 200, 3.9), (300, 700, 5.5))):
         arena.place(robot, pose)
     yield kept
