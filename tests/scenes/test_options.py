@@ -129,7 +129,7 @@ def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, kiosk: bool)
 
 
 def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -> None:
-    arcade.house.scores.add("pitanks", "classic", "ANA", 7)
+    arcade.house.scores.add(TABLE, "ANA", 7)
     with VirtualPad() as pad:
         arcade.frame()
         go(arcade, "reset")
@@ -137,18 +137,18 @@ def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -
         arcade.wait(1.0)
         arcade.press(Act.UP)
         arcade.wait(2.0)
-    assert arcade.house.scores.best("pitanks", "classic")
+    assert arcade.house.scores.best(TABLE)
 
 
 def test_a_mouse_holds_its_button_to_clear_high_scores(arcade: Arcade) -> None:
-    arcade.house.scores.add("pitanks", "classic", "ANA", 7)
+    arcade.house.scores.add(TABLE, "ANA", 7)
     row = go(arcade, "reset").focus.rect("reset")
     for wait, kept in ((0.2, True), (CLEAR + 0.1, False)):
         for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
             at = (row.x + dials.AT + 20, row.centery)
             pygame.event.post(pygame.Event(kind, button=pygame.BUTTON_LEFT, pos=at))
             arcade.wait(wait)
-        assert bool(arcade.house.scores.best("pitanks", "classic")) is kept
+        assert bool(arcade.house.scores.best(TABLE)) is kept
 
 
 def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
