@@ -48,6 +48,7 @@ ROBOT_LOW = (204, 1.25, 78)  # with two
 REAL_Y = 316
 TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
 BAR = (24, 500, W - 48, 76)
+PLUS_Y, OUTLINE = 256, 80  # middle and size of the shape on an empty seat
 ASKS_Y, BUTTONS_Y, BUTTON_PITCH, GAP = 398, 502, 66, 12
 SPOKES, TURNS = 5, 8  # arcs of a turntable, and how many positions are kept between two of them
 UP = -math.pi / 2
@@ -74,7 +75,7 @@ def empty(player: int, said: str) -> Steps[Lit]:
     pane.hot.dashes(cut(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
     badge(pane.hot, player, 72, 76, 36, dim(color, 0.75))
     pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, MIST)
-    outline = [(MIDDLE + y * 84, 272 - x * 84) for x, y in shape_points(player, 1)]
+    outline = [(MIDDLE + y * OUTLINE, PLUS_Y - x * OUTLINE) for x, y in shape_points(player, 1)]
     pane.hot.dashes(outline, dim(color, 0.7), LINE, 24, 18)
     yield
     return (yield from pane.lighting())
@@ -86,7 +87,7 @@ def invitation(player: int, said: str, labels: tuple[str, ...], level: int) -> L
     if 0 < level < LEVELS:
         return dimmed(invitation(player, said, labels, LEVELS), level / LEVELS)
     pane = Pane(0, 230, W, 370)
-    icon(pane.hot, "plus", MIDDLE, 272, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
+    icon(pane.hot, "plus", MIDDLE, PLUS_Y, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
     pane.page.body(said, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fitted(said, BODY, W - 48, "body"))
     rows = rows_of(labels)
     for i, row in enumerate(rows):
