@@ -22,12 +22,12 @@ import pygame
 from pigaming_app.keeping import NotSaved
 from pigaming_app.logbook import log_file, require_file
 from pigaming_app.parsing import reason
+from pigaming_app.scenes import heap
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.canvas import Canvas, NoPin
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.emulated_mat import EmulatedMat
 from pigaming_app.scenes.frame_budget import Unfinished, budget, clock
-from pigaming_app.scenes.heap import return_large_blocks
 from pigaming_app.scenes.house import House
 from pigaming_app.scenes.mat import NoMat, RealMat
 from pigaming_app.scenes.notices import Gauge, Notices
@@ -79,7 +79,7 @@ def run(options: Options) -> int:
 @contextmanager
 def opened(options: Options) -> "Iterator[App]":
     """The arcade with its window and devices; afterwards all is closed and the settings are saved. Raises NoDisplay."""
-    return_large_blocks()
+    heap.return_large_blocks()
     where = folders()
     settings, said = Settings.load(where.config)
     scores, more = Scores.load(where.data)
@@ -133,6 +133,7 @@ class App:
         self.code = 0
         self.stack = self._begin()
         self.lying = self._lying()  # which scenes lay on the stack in the last frame
+        self.left = False  # whether one that has left is still to be freed
 
     def loop(self) -> int:
         """Frame after frame, until no scene is left; the exit code."""
@@ -233,10 +234,11 @@ class App:
         """Free the scenes that have been taken off the stack, if there are any. Most are in reference cycles, whose
         canvases of 8 MB each would pile up: Python collects cycles by the number of objects."""
         before, self.lying = self.lying, self._lying()
-        if before - self.lying:
-            gc.collect()
-            return True
-        return False
+        self.left = self.left or bool(before - self.lying)
+        if not self.left or not heap.collect():
+            return False
+        self.left = False
+        return True
 
     def _lying(self) -> frozenset[int]:
         return frozenset(map(id, self.stack.scenes))

@@ -1,7 +1,11 @@
-"""How the C library keeps memory that has been freed."""
+"""When memory is given back: by the C library, and by the collection of garbage."""
 
 import ctypes
+import gc
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Event
 
 MMAP_THRESHOLD = -3  # M_MMAP_THRESHOLD in malloc.h
 LARGE = 128 * 1024  # bytes; where glibc begins
@@ -18,3 +22,28 @@ def return_large_blocks() -> None:
             ctypes.CDLL(None).mallopt(MMAP_THRESHOLD, LARGE)
         except (OSError, AttributeError):
             return  # another C library
+
+
+_busy = Event()  # set while nothing may be collected
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Collect no garbage meanwhile, in any thread: so many new objects are being made that it would take long."""
+    _busy.set()
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        _busy.clear()
+        if enabled:
+            gc.enable()
+
+
+def collect() -> bool:
+    """Collect all garbage now, unless it would take long; whether it was done."""
+    if _busy.is_set():
+        return False
+    gc.collect()
+    return True

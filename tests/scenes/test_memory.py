@@ -13,7 +13,7 @@ from pigaming_app import bench_memory
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.scenes import surface_cache, tank
+from pigaming_app.scenes import heap, surface_cache, tank
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.controls import Controls
 from pigaming_app.scenes.effects import beam, wave
@@ -151,6 +151,14 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
         gc.enable()
         pygame.display.quit()
     assert alive == [True, True, True, False, False]
+
+
+def test_nothing_is_collected_while_many_objects_are_being_made() -> None:
+    with heap.uncollected():
+        assert not gc.isenabled()
+        assert not heap.collect()
+    assert gc.isenabled()
+    assert heap.collect()
 
 
 def test_the_title_of_a_fresh_arcade_needs_at_most_150_mb() -> None:

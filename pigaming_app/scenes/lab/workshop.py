@@ -15,6 +15,7 @@ from time import monotonic, perf_counter, sleep
 from pigaming_app.ai.exam import compile_all
 from pigaming_app.ai.rewards import Recipe
 from pigaming_app.ai.training import Checkpoint, Training
+from pigaming_app.scenes import heap
 from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.scenes.lab.progress import Moment, Progress
 from pigaming_app.sim.kernel import can_compile
@@ -169,8 +170,9 @@ class Workshop:
                 sleep(0.05)
             if code:
                 raise RuntimeError(f"compiling ended with exit code {code}")
-            compile_all()
-            gc.freeze()  # numba stays loaded; looking through it would take 50 ms whenever a scene is freed
+            with heap.uncollected():  # looking through numba takes up to 100 ms, in whichever frame it happens
+                compile_all()
+                gc.freeze()  # it stays loaded
             self._hand_over(fast=True)
             return True
         finally:
