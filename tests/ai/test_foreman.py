@@ -88,14 +88,16 @@ def test_eight_pallets_are_no_dead_end(floor):
     assert played(("hard",) * 4, floor, 3, pallets=8).state.winner
 
 
-@pytest.mark.parametrize(("better", "worse"), [("hard", "easy"), ("hard", "normal"), ("normal", "easy")])
-def test_the_strengths_are_ordered(better, worse):
-    """In most of nine matches on all three floors, whichever side it is on; `normal` beats `hard` in one of five."""
+@pytest.mark.parametrize(
+    ("better", "worse", "least"), [("hard", "easy", 9), ("hard", "normal", 6), ("normal", "easy", 9)]
+)
+def test_the_strengths_are_ordered(better, worse, least):
+    """In nine matches on all three floors, whichever side it is on; `normal` beats `hard` in one of five."""
     won = 0
     for i, floor in enumerate(FLOORS * 3):
         brains = (worse, better) * 2 if i % 2 else (better, worse) * 2
         won += played(brains, floor, 7 + i // 3).state.winner == 1 + i % 2
-    assert won >= 6
+    assert won >= least
 
 
 def test_two_are_faster_than_one():
