@@ -1,6 +1,6 @@
 """Double-click to play. On a fresh machine this makes the folder .venv, fetches what pyproject.toml lists, and starts.
 
-An old Python must be able to read this file, so that it can say what is needed; all else is in pigaming_app/start.py.
+An old Python must be able to read this file, so that it can say what is needed; all else is in pigaming_app/boot.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def main() -> int:
         from pigaming_app import cli
 
         return cli.main(sys.argv[1:])
-    from pigaming_app.start import start
+    from pigaming_app.boot.interpreter import start
 
     return start(sys.argv[1:])
 

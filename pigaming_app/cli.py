@@ -7,9 +7,9 @@ import sys
 from dataclasses import asdict
 from typing import Any
 
-from pigaming_app import streams
-from pigaming_app.parsing import one_line, reason
-from pigaming_app.usage import Wrong, parser
+from pigaming_app.jobs import console as streams
+from pigaming_app.jobs.usage import Wrong, parser
+from pigaming_app.storage.parsing import one_line, reason
 
 OF_ROBOTS = ("robots", "calibrate", "fidelity")
 FOLDERS = ("ghosts", "pictures", "robots")  # of files, in that for data
@@ -32,9 +32,9 @@ def main(argv: list[str]) -> int:
 
 def _refused_in_one_line(argv: list[str]) -> int:
     """Do what the arguments say; the exit code, 2 after a line on standard error."""
-    from pigaming_app.ai.tables import TableError
-    from pigaming_app.games.choices import ChoiceError
+    from pigaming_app.ai.qlearning.table_files import TableError
     from pigaming_app.games.replay import ReplayError
+    from pigaming_app.games.setup import ChoiceError
     from pigaming_app.sim.arena import ArenaError
 
     try:
@@ -47,8 +47,8 @@ def _refused_in_one_line(argv: list[str]) -> int:
         refusal = str(trouble) if trouble.strerror is None else _named(trouble)
     streams.say(refusal)
     if argv and argv[0] in OF_ROBOTS:
-        from pigaming_app.logbook import note
-        from pigaming_app.settings import folders
+        from pigaming_app.storage.log import note
+        from pigaming_app.storage.settings import folders
 
         note(folders().data, one_line(refusal))
     return 2
@@ -56,7 +56,7 @@ def _refused_in_one_line(argv: list[str]) -> int:
 
 def _do(argv: list[str]) -> int:
     if argv and argv[0] == "test":
-        from pigaming_app.checks import run as check
+        from pigaming_app.jobs.checks import run as check
 
         return check(argv[1:])
     arguments = parser().parse_args(argv)
@@ -67,8 +67,8 @@ def _do(argv: list[str]) -> int:
 
 def _sweep() -> None:
     """Delete what a process that was killed left among the user's files."""
-    from pigaming_app.keeping import sweep
-    from pigaming_app.settings import folders
+    from pigaming_app.storage.safe_files import sweep
+    from pigaming_app.storage.settings import folders
 
     where = folders()
     sweep(where.config, where.data, *(where.data / folder for folder in FOLDERS))
@@ -80,7 +80,7 @@ def _named(trouble: OSError) -> str:
 
 def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:
     """The settings of camera and radio that were given. Raises Wrong for a value that does not fit."""
-    from pigaming_app.settings import Settings
+    from pigaming_app.storage.settings import Settings
 
     given = {name: getattr(arguments, name, None) for name in ("camera", "port", "baud", "radio")}
     given = {name: value for name, value in given.items() if value is not None}
@@ -116,7 +116,7 @@ def arcade(arguments: argparse.Namespace) -> int:
 
 def play(arguments: argparse.Namespace) -> int:
     """A match at once, on the screen or without one."""
-    from pigaming_app import playing
+    from pigaming_app.jobs import play as playing
 
     return playing.play(arguments, goal(arguments), mat_settings(arguments), _open, Wrong)
 
@@ -131,16 +131,17 @@ def replay(arguments: argparse.Namespace) -> int:
         print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
         return 0 if same else 1
     from pigaming_app.scenes.app import Options
-    from pigaming_app.scenes.replay import ReplayScene
+    from pigaming_app.scenes.play.replay import ReplayScene
 
     return _open(Options(first=lambda house: ReplayScene(house, found), alone=True))
 
 
 def duel(arguments: argparse.Namespace) -> int:
     """Many matches of two brains."""
-    from pigaming_app.ai import BRAINS, league
+    from pigaming_app.ai import BRAINS
+    from pigaming_app.ai.experiments import league
     from pigaming_app.games import GAMES
-    from pigaming_app.games.choices import one_of
+    from pigaming_app.games.setup import one_of
 
     one_of("game", arguments.game, list(GAMES))
     for brain in (arguments.left, arguments.right):
@@ -170,23 +171,23 @@ def duel(arguments: argparse.Namespace) -> int:
 
 def league(arguments: argparse.Namespace) -> int:
     """Every brain against every other."""
-    from pigaming_app import ranking
+    from pigaming_app.jobs import league as ranking
 
     return ranking.rank(arguments, goal(arguments))
 
 
 def train(arguments: argparse.Namespace) -> int:
     """A robot learns from nothing."""
-    from pigaming_app import train as trains
+    from pigaming_app.jobs import train as trains
 
     return trains.train(arguments)
 
 
 def bench(arguments: argparse.Namespace) -> int:
     """How fast it all is here."""
-    from pigaming_app import bench as benches
     from pigaming_app.games import GAMES
-    from pigaming_app.games.choices import one_of
+    from pigaming_app.games.setup import one_of
+    from pigaming_app.jobs.bench import job as benches
 
     if arguments.game == "robots":
         figures = _bench_robots()
@@ -212,8 +213,8 @@ def _print_figures(figures: dict[str, Any], indent: str = "") -> None:
 
 def _bench_robots() -> dict[str, Any]:
     """The proof of the robot loop; says on the way what it found, on standard error."""
-    from pigaming_app.bench_robots import Unproven, measure, reached
-    from pigaming_app.hardware.markers import NoVision, opencv
+    from pigaming_app.hardware.vision.markers import NoVision, opencv
+    from pigaming_app.jobs.bench.robots import Unproven, measure, reached
 
     def note(line: str) -> None:
         print(line, file=sys.stderr, flush=True)
@@ -230,7 +231,7 @@ def _bench_robots() -> dict[str, Any]:
 
 def calibrate(arguments: argparse.Namespace) -> int:
     """Bring picture, mat and camera together."""
-    from pigaming_app.calibrate import NotCalibrated, run
+    from pigaming_app.jobs.calibrate import NotCalibrated, run
 
     mat_settings(arguments)
     try:
@@ -241,7 +242,7 @@ def calibrate(arguments: argparse.Namespace) -> int:
 
 def robots(arguments: argparse.Namespace) -> int:
     """What is there of real robots."""
-    from pigaming_app.robots import NotThere, run
+    from pigaming_app.jobs.robots import NotThere, run
 
     mat_settings(arguments)
     try:
@@ -252,7 +253,7 @@ def robots(arguments: argparse.Namespace) -> int:
 
 def fidelity(arguments: argparse.Namespace) -> int:
     """Record real robots, identify them, replay a run."""
-    from pigaming_app.fidelity import NotDone, run
+    from pigaming_app.jobs.fidelity import NotDone, run
 
     mat_settings(arguments)
     try:
@@ -263,7 +264,7 @@ def fidelity(arguments: argparse.Namespace) -> int:
 
 def doctor(arguments: argparse.Namespace) -> int:
     """What is there and what is missing."""
-    from pigaming_app.doctor import run
+    from pigaming_app.jobs.doctor import run
 
     return run(arguments.json)
 
@@ -275,7 +276,7 @@ def _display(arguments: argparse.Namespace) -> int | None:
 def _open(options: Any) -> int:
     """Run the arcade; without a display, say so."""
     from pigaming_app.scenes.app import run
-    from pigaming_app.scenes.canvas import NoDisplay
+    from pigaming_app.ui.window import NoDisplay
 
     try:
         return run(options)

@@ -6,7 +6,7 @@ import os
 import pytest
 
 from pigaming_app.cli import main
-from pigaming_app.settings import Settings, folders
+from pigaming_app.storage.settings import Settings, folders
 
 SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--seats", "fsm,easy,off,off"]
 

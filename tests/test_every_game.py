@@ -10,7 +10,7 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 import pytest
 
 from pigaming_app.ai import BRAINS, make
-from pigaming_app.ai.rollout import Batch
+from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALONE, Seat, Setup
@@ -130,7 +130,7 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
 
     if game not in VIEWS:
         return
-    from pigaming_app.scenes.views.busy import Full
+    from pigaming_app.scenes.views.benchmark.pitanks import Full
 
     pygame.display.init()
     pygame.font.init()

@@ -14,22 +14,24 @@ import numpy as np
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ai import seated, tables
-from pigaming_app.ai.tables import TableError
+from pigaming_app.ai import seated
+from pigaming_app.ai.qlearning import table_files as tables
+from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games import arenas, replay
 from pigaming_app.games.arenas import load as load_arena
-from pigaming_app.games.choices import choose
 from pigaming_app.games.replay import ReplayError
-from pigaming_app.hardware import ground, runs
-from pigaming_app.hardware.assembly import ground_of, measured
-from pigaming_app.hardware.fidelity import TooShort, measure
-from pigaming_app.hardware.fidelity import replay as replay_run
-from pigaming_app.hardware.ground import NoGround
-from pigaming_app.hardware.runs import RunError
-from pigaming_app.parsing import LINE
-from pigaming_app.scenes import ghosts
+from pigaming_app.games.setup import choose
+from pigaming_app.hardware import recordings as runs
+from pigaming_app.hardware.calibration import ground_plane as ground
+from pigaming_app.hardware.calibration.ground_plane import NoGround
+from pigaming_app.hardware.recordings import RunError
+from pigaming_app.hardware.session.assembly import ground_of, measured
+from pigaming_app.hardware.sysid.evaluate import TooShort, measure
+from pigaming_app.hardware.sysid.evaluate import replay as replay_run
+from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, tell
+from pigaming_app.storage.parsing import LINE
 from tests.hostile import HUGE, mutated, toml
 
 BYTES = (

@@ -3,8 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
-from pigaming_app.ai import classic, foreman, fsm, racer, simple, tables
-from pigaming_app.ai.brain import Kind, Thinker
+from pigaming_app.ai.brain import baselines as simple
+from pigaming_app.ai.brain.kind import Kind, Thinker
+from pigaming_app.ai.factory import foreman
+from pigaming_app.ai.pitanks import classic, fsm
+from pigaming_app.ai.qlearning import table_files as tables
+from pigaming_app.ai.race import racer
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.plant import Plant, SimPlant

@@ -4,9 +4,9 @@ from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.games import GAMES
-from pigaming_app.parsing import ParseError, read_text, reason
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_by
+from pigaming_app.storage.parsing import ParseError, read_text, reason
 
 MOST_BYTES = 100_000  # of a file; replays hold a copy
 

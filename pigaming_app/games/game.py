@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pigaming_app.sim.arena import Arena, Layout
-from pigaming_app.sim.table import Table
+from pigaming_app.sim.toml_table import Table
 
 FREE, ALONE, PAIRS = "free", "alone", "pairs"  # teams: as people wish; none; two teams of at most two robots
 

@@ -15,16 +15,16 @@ from typing import Any
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import parse
-from pigaming_app.games.choices import check_teams
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.keeping import write
-from pigaming_app.parsing import ParseError, json_of, one_line, read, reason, shown
+from pigaming_app.games.setup import check_teams
 from pigaming_app.sim.action import STEPS, press
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.storage.parsing import ParseError, json_of, one_line, read, reason, shown
+from pigaming_app.storage.safe_files import write
 
 MAGIC = "pigaming-replay-1"
 BYTES = 3 * ROBOTS  # a tick

@@ -19,25 +19,25 @@ from typing import IO, Any
 
 import pygame
 
-from pigaming_app.keeping import NotSaved
-from pigaming_app.logbook import log_file, require_file
-from pigaming_app.parsing import reason
-from pigaming_app.scenes import heap
+from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.hardware.session.real import NoMat, RealMat
 from pigaming_app.scenes.camera_window import CameraWindow
-from pigaming_app.scenes.canvas import Canvas, NoPin
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.emulated_mat import EmulatedMat
-from pigaming_app.scenes.frame_budget import Unfinished, budget, clock
-from pigaming_app.scenes.house import House
-from pigaming_app.scenes.mat import NoMat, RealMat
-from pigaming_app.scenes.notices import Gauge, Notices
-from pigaming_app.scenes.press import Act
-from pigaming_app.scenes.sounds import Sounds
-from pigaming_app.scenes.stack import Push, Scene, Stack
-from pigaming_app.scenes.surface_cache import surfaces
-from pigaming_app.scenes.words import Words
-from pigaming_app.scores import Scores
-from pigaming_app.settings import Settings, folders
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.storage.log import log_file, require_file
+from pigaming_app.storage.parsing import reason
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.scores import Scores
+from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui import memory as heap
+from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
+from pigaming_app.ui.draw.surface_cache import surfaces
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.sounds import Sounds
+from pigaming_app.ui.widgets.notices import Gauge, Notices
+from pigaming_app.ui.window import Canvas, NoPin
 
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
@@ -363,7 +363,7 @@ def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedMat | 
 
 
 def _title(house: House) -> Scene:
-    from pigaming_app.scenes.title import Title  # what `play` and `replay` show first need not wait for it
+    from pigaming_app.scenes.title.scene import Title  # what `play` and `replay` show first need not wait for it
 
     return Title(house)
 

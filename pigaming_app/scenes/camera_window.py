@@ -6,7 +6,7 @@ import warnings
 
 import pygame
 
-from pigaming_app.scenes.emulated_mat import EmulatedMat
+from pigaming_app.hardware.session.emulated import EmulatedMat
 
 SIZE = (960, 540)
 EVERY = 1.0 / 15.0  # s between two pictures
@@ -39,7 +39,7 @@ class CameraWindow:
         frame = self.mat.newest
         if self.window is None or self._age < EVERY or frame is None or frame.number == self._shown:
             return
-        from pigaming_app.scenes.pixels import grey_surface
+        from pigaming_app.ui.draw.pixels import grey_surface
 
         self._shown, self._age = frame.number, 0.0
         try:

@@ -24,13 +24,13 @@ from dataclasses import dataclass
 from math import pi, radians, sqrt
 from typing import Any
 
-from pigaming_app.parsing import ParseError, shown, toml_of
 from pigaming_app.sim.contact import in_wall
+from pigaming_app.sim.flow_field import Errand, free_node, grow
 from pigaming_app.sim.grid import block_rim, wall_on_grid
-from pigaming_app.sim.navigate import Errand, free_node, grow
-from pigaming_app.sim.robots import GAIN, RADIUS
-from pigaming_app.sim.table import Table, Wrong
+from pigaming_app.sim.robot import GAIN, RADIUS
+from pigaming_app.sim.toml_table import Table, Wrong
 from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
+from pigaming_app.storage.parsing import ParseError, shown, toml_of
 
 LANGUAGES = ("en", "pt")
 HEALTH = 5

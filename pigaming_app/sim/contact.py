@@ -15,7 +15,7 @@ from typing import Any
 
 from pigaming_app.sim.grid import ONE_NEAR, node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robots import RADIUS, roll
+from pigaming_app.sim.robot import RADIUS, roll
 from pigaming_app.sim.sweep import off_wall
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 

@@ -15,10 +15,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import copysign
 
-from pigaming_app.parsing import ParseError, toml_of
-from pigaming_app.sim.robots import LAG
-from pigaming_app.sim.table import Table, Wrong
+from pigaming_app.sim.robot import LAG
+from pigaming_app.sim.toml_table import Table, Wrong
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.parsing import ParseError, toml_of
 
 MM = 1.32  # mm in an arena px on the nominal mat
 FASTEST = 3000.0  # px/s, more than any such robot drives

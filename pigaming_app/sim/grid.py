@@ -8,7 +8,7 @@ from math import sqrt
 from typing import Any
 
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import off_wall
 from pigaming_app.sim.world import CELL, COLUMNS, ROWS
 

@@ -16,10 +16,10 @@ os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
 
 import pygame
 
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.lab.page import SPEEDS
 from pigaming_app.scenes.lab.scene import Lab
+from pigaming_app.scenes.lab.view import SPEEDS
 from pigaming_app.sim.kernel import _cache_folder, can_compile
+from pigaming_app.ui.input.controls import Controls
 from tests.scenes.arcade import Arcade
 
 FPS = 60

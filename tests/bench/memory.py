@@ -13,7 +13,7 @@ from time import process_time
 
 import pygame
 
-from pigaming_app.bench_memory import resident_mb
+from pigaming_app.jobs.bench.memory import resident_mb
 
 KEYS = [
     *(pygame.KSCAN_W, pygame.KSCAN_A, pygame.KSCAN_S, pygame.KSCAN_D, pygame.KSCAN_SPACE, pygame.KSCAN_LSHIFT),

@@ -22,15 +22,15 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.rollout import Batch
+from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.race.course import POINTS, Course
 from pigaming_app.games.race.start import set_rules
 from pigaming_app.games.race.state import MOST_LAPS, Rules
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.course import POINTS, Course
 from pigaming_app.sim.kernel import compiled, kernel
-from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH
 
 ASIDE, ASIDES = 3.0, 111  # px between places, and how many

@@ -19,9 +19,9 @@ from typing import NamedTuple
 
 from pigaming_app import ASSETS
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.league import wilson
-from pigaming_app.ai.rewards import RECIPES
-from pigaming_app.ai.training import Training, contest
+from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.training import Training, contest
+from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 

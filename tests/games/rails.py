@@ -4,7 +4,7 @@ from math import atan2, tau
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.course import spot
+from pigaming_app.games.race.course import spot
 from pigaming_app.sim.plant import Sighting
 
 

@@ -8,8 +8,8 @@ from math import cos, exp, sin
 
 import numpy as np
 
-from pigaming_app.hardware.kinematics import NEW
-from pigaming_app.hardware.rig import UNMEASURED, Rig
+from pigaming_app.hardware.control.kinematics import NEW
+from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.signals import Fix, Frame, Telemetry
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
 from pigaming_app.sim.plant import Sighting

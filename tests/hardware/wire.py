@@ -1,7 +1,7 @@
 """A serial line made of two lists and a clock that is told the time, and robots' answers, for tests of the link."""
 
-from pigaming_app.hardware import packets
-from pigaming_app.hardware.packets import FrameDecoder, PacketDecoder
+from pigaming_app.hardware.radio import packets
+from pigaming_app.hardware.radio.packets import FrameDecoder, PacketDecoder
 
 
 class Time:

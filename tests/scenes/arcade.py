@@ -6,15 +6,15 @@ from typing import TypeVar, cast
 import pygame
 
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.scenes.canvas import Canvas
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.house import House
-from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.sounds import Sounds
-from pigaming_app.scenes.stack import Scene, Stack, Turn
-from pigaming_app.scenes.words import Words
-from pigaming_app.scores import Scores
-from pigaming_app.settings import Settings
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Scene, Stack, Turn
+from pigaming_app.storage.scores import Scores
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.sounds import Sounds
+from pigaming_app.ui.window import Canvas
 
 S = TypeVar("S")
 KEYS = [Device("keys", number) for number in range(4)]

@@ -14,7 +14,7 @@ os.environ["SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS"] = "1"  # as in the arcade: pa
 import pygame
 import pytest
 
-from pigaming_app.scenes.controls import Controls
+from pigaming_app.ui.input.controls import Controls
 
 
 @pytest.fixture

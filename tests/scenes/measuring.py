@@ -14,11 +14,11 @@ from typing import Any
 import pygame
 import pytest
 
-from pigaming_app.scenes.frame_budget import Steps
-from pigaming_app.scenes.palette import CAPITALS, font
-from pigaming_app.scenes.pane import Lit
-from pigaming_app.scenes.sheet import Ink, Page
-from pigaming_app.scenes.surface_cache import surfaces
+from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw.glow import Ink, Page
+from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw.surface_cache import surfaces
+from pigaming_app.ui.draw.theme import CAPITALS, font
 
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # a little more than the safe area of menus: hints may stand in its margin
 Painting = Callable[..., Steps[pygame.Surface]]

@@ -7,14 +7,14 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.site import EmulatedSite
-from pigaming_app.scenes.calibration.boards import BoardsPage
-from pigaming_app.scenes.calibration.page import CalibrationPage
-from pigaming_app.scenes.canvas import Canvas
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.pixels import pixels_of
-from pigaming_app.scenes.press import Act
-from pigaming_app.scenes.stack import Scene
-from pigaming_app.settings import Settings
+from pigaming_app.scenes.calibration.boards_page import BoardsPage
+from pigaming_app.scenes.calibration.setup_page import CalibrationPage
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw.pixels import pixels_of
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
 

@@ -7,25 +7,25 @@ from pigaming_app.ai import RIVALS
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
-from pigaming_app.scenes.access import Access
-from pigaming_app.scenes.best import Best
-from pigaming_app.scenes.devices import DeviceTable
-from pigaming_app.scenes.feats import boards
-from pigaming_app.scenes.howto import HowTo
-from pigaming_app.scenes.lobby import Lobby
-from pigaming_app.scenes.match import MatchScene
-from pigaming_app.scenes.options import OptionsPage
-from pigaming_app.scenes.padtest import PadTest
-from pigaming_app.scenes.pause import Pause
-from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.reconnect import Reconnect, StillThere
-from pigaming_app.scenes.results import Results
-from pigaming_app.scenes.robots_menu import RobotsMenu
-from pigaming_app.scenes.seats import Seats
-from pigaming_app.scenes.setup import SetupPage
-from pigaming_app.scenes.stack import Scene
-from pigaming_app.scenes.title import Title
-from pigaming_app.scores import Table
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.play.device_table import DeviceTable
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.high_score_tables import boards
+from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.robots.menu import RobotsMenu
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.scores import Table
+from pigaming_app.ui.input.events import Act, Device, Press
 from tests.scenes.arcade import KEYS, Arcade
 
 FACTS = {

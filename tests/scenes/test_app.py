@@ -9,10 +9,10 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.app import App, Options, run
-from pigaming_app.scenes.house import House
-from pigaming_app.scenes.press import Press
-from pigaming_app.scenes.stack import Scene, Turn
-from pigaming_app.scenes.title import Title
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Scene, Turn
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.input.events import Press
 
 STEP = 1 / 60
 

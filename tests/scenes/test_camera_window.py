@@ -3,9 +3,9 @@
 import pygame
 import pytest
 
+from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.scenes.camera_window import SIZE, CameraWindow
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.emulated_mat import EmulatedMat
+from pigaming_app.ui.input.controls import Controls
 
 pytest.importorskip("cv2")
 

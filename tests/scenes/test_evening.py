@@ -5,18 +5,18 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.initials import Initials
-from pigaming_app.scenes.lobby import Lobby
-from pigaming_app.scenes.match import MatchScene
-from pigaming_app.scenes.press import Device
-from pigaming_app.scenes.reconnect import Reconnect
-from pigaming_app.scenes.results import Results
-from pigaming_app.scenes.setup import SetupPage
-from pigaming_app.scenes.stack import Stack
-from pigaming_app.scenes.title import Title
+from pigaming_app.scenes.flow.stack import Stack
+from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.play.reconnect import Reconnect
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.initials import Initials
+from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device
 from tests.scenes.arcade import Arcade
-from tests.scenes.virtual_pad import VirtualPad
+from tests.ui.input.virtual_pad import VirtualPad
 
 
 def test_two_friends_and_a_loose_cable(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

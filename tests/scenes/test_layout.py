@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.scenes.canvas import Canvas
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.press import Act, Press
-from pigaming_app.scenes.words import LANGUAGES
-from pigaming_app.settings import Settings
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import LANGUAGES
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.screens import SCREENS

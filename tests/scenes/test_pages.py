@@ -7,23 +7,30 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes import card, choice, dials, gadgets, howto, page, pane, title
-from pigaming_app.scenes.canvas import Canvas
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.howto import HowTo
-from pigaming_app.scenes.lobby import Lobby
-from pigaming_app.scenes.options import OptionsPage
-from pigaming_app.scenes.padtest import PadTest
-from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.prompts import Prompts, places
-from pigaming_app.scenes.seats import Seats
-from pigaming_app.scenes.setup import SetupPage
-from pigaming_app.scenes.stack import Scene, Stack
-from pigaming_app.scenes.surface_cache import surfaces
-from pigaming_app.scenes.title import Title
-from pigaming_app.settings import Settings
+from pigaming_app.scenes.flow.stack import Scene, Stack
+from pigaming_app.scenes.howto import scene as howto
+from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.lobby import match_setup_view as choice
+from pigaming_app.scenes.lobby import seat_card as card
+from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.options import controls_pictures as gadgets
+from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.title import scene as title
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw import layers as pane
+from pigaming_app.ui.draw.surface_cache import surfaces
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets import labels as page
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.button_prompts import Prompts, places
+from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
-from tests.scenes.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
+from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
 SMALLEST = 0.8  # no text may be shrunk further than this
 MOUSE = Device("mouse")

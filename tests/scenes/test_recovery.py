@@ -7,11 +7,11 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes import title
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.house import House
-from pigaming_app.scenes.press import Press
-from pigaming_app.scenes.stack import Push, Scene, Turn
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Push, Scene, Turn
+from pigaming_app.scenes.title import scene as title
+from pigaming_app.ui.input.events import Press
 
 STEP = 1 / 30
 QUARTER = pygame.Rect(0, 0, 960, 540)

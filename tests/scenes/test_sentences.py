@@ -6,18 +6,18 @@ import pytest
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
-from pigaming_app.scenes import card
-from pigaming_app.scenes.controls import Controls
-from pigaming_app.scenes.headline import headline, winning_color
-from pigaming_app.scenes.howto import HowTo
-from pigaming_app.scenes.ink import PLAYERS
-from pigaming_app.scenes.limits import limits, numbers, tagline
-from pigaming_app.scenes.match import MatchScene
-from pigaming_app.scenes.page import LEVELS
-from pigaming_app.scenes.setup import SetupPage
-from pigaming_app.scenes.title import Title
-from pigaming_app.scenes.words import LANGUAGES, Words
+from pigaming_app.scenes.flow.rule_texts import limits, numbers, tagline
+from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.lobby import seat_card as card
+from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.headline import headline, winning_color
+from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.world import DT
+from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.widgets.labels import LEVELS
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import measuring
 from tests.scenes.screens import seats

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.contact import SHOVE, drive, in_wall
-from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from tests.floor import floor
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.chance import chance, seeded
 from pigaming_app.sim.record import copy, digest, dtype, numbers, packed, record, to_bytes, unpack
+from pigaming_app.sim.rng import chance, seeded
 from pigaming_app.sim.world import World
 
 

@@ -1,10 +1,10 @@
 """Robot Factory: bring your pallets through the machines and out, before the others do."""
 
-from pigaming_app.games.factory.floor import read
+from pigaming_app.games.factory.layout import read
+from pigaming_app.games.factory.observation import Eyes, View, see
 from pigaming_app.games.factory.rules import judge
 from pigaming_app.games.factory.start import GOALS, PALLETS, facts, feat, standing, start, times
 from pigaming_app.games.factory.state import Factory
-from pigaming_app.games.factory.view import Eyes, View, see
 from pigaming_app.games.game import PAIRS, Feat, Game
 
 FACTORY = Game(

@@ -10,8 +10,8 @@ deliveries win, then more work.
 from math import cos, sin
 from typing import Any
 
-from pigaming_app.games.factory.crew import fits, run_crew
-from pigaming_app.games.factory.place import free_shelf, move, ship, stock_up
+from pigaming_app.games.factory.pallets import free_shelf, move, ship, stock_up
+from pigaming_app.games.factory.pedestrians import observe
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DELIVERED,
@@ -30,9 +30,9 @@ from pigaming_app.games.factory.state import (
     WAITING,
     WORKERS,
 )
+from pigaming_app.games.factory.workers import fits, run_crew
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robots import RADIUS, burn
-from pigaming_app.sim.walker import observe
+from pigaming_app.sim.robot import RADIUS, burn
 from pigaming_app.sim.world import ROBOTS
 
 APART = 6.0  # px more than a touch at which a touch has ended

@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 
-from pigaming_app.games.factory.floor import FORK, REACH, Floor
-from pigaming_app.games.factory.place import stock_up
+from pigaming_app.games.factory.layout import FORK, REACH, Floor
+from pigaming_app.games.factory.pallets import stock_up
+from pigaming_app.games.factory.pedestrians import send
 from pigaming_app.games.factory.state import (
     FIRE,
     ICE,
@@ -15,8 +16,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.game import Setup
 from pigaming_app.sim.arena import Arena, build
-from pigaming_app.sim.chance import seeded
-from pigaming_app.sim.walker import send
+from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 PALLETS = 4  # a team, if nobody says otherwise

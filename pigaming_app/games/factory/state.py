@@ -6,9 +6,9 @@ A pallet is one thing from the beginning to the end of a match, and its `place` 
 
 from typing import Annotated
 
-from pigaming_app.sim.navigate import Errand
+from pigaming_app.games.factory.pedestrians import Motion
+from pigaming_app.sim.flow_field import Errand
 from pigaming_app.sim.record import record
-from pigaming_app.sim.walker import Motion
 from pigaming_app.sim.world import ROBOTS, World
 
 ICE, FIRE = 0, 1  # the teams

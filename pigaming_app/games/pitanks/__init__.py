@@ -1,10 +1,10 @@
 """PiTanks: hit, and don't get hit."""
 
 from pigaming_app.games.game import FREE, Feat, Game
+from pigaming_app.games.pitanks.observation import Eyes, View, see
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.start import VARIANTS, facts, feat, read, standing, start, times
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.games.pitanks.view import Eyes, View, see
 
 PITANKS = Game(
     name="pitanks",

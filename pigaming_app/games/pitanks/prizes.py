@@ -4,10 +4,10 @@ from typing import Any
 
 from pigaming_app.games.pitanks.score import score
 from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS
-from pigaming_app.sim.chance import chance
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robots import RADIUS
+from pigaming_app.sim.rng import chance
+from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import CELL, COLUMNS, ROBOTS, ROWS
 
 KINDS = len(POWERS)

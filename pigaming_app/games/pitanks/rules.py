@@ -15,7 +15,7 @@ from pigaming_app.games.pitanks.score import score
 from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
 from pigaming_app.sim.grid import ONE_NEAR, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robots import RADIUS, burn
+from pigaming_app.sim.robot import RADIUS, burn
 from pigaming_app.sim.sweep import meets_bounds, meets_disc, meets_wall, off_wall
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from pigaming_app.games.game import Setup
 from pigaming_app.games.pitanks.state import PiTanks, Rules
 from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
-from pigaming_app.sim.chance import seeded
-from pigaming_app.sim.table import Table
+from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.toml_table import Table
 from pigaming_app.sim.world import HZ
 
 VARIANTS = ("pickups", "plain", "classic")

@@ -1,10 +1,10 @@
 """Robot Race: first round the course wins."""
 
 from pigaming_app.games.game import ALONE, Feat, Game
+from pigaming_app.games.race.observation import Eyes, View, see
 from pigaming_app.games.race.rules import judge
 from pigaming_app.games.race.start import GOALS, LAPS, facts, feat, read, standing, start, times
 from pigaming_app.games.race.state import Race
-from pigaming_app.games.race.view import Eyes, View, see
 
 RACE = Game(
     name="race",

@@ -10,10 +10,10 @@ not is ranked by how far they came.
 from math import cos, floor, sin
 from typing import Any
 
+from pigaming_app.games.race.course import locate, way_round
 from pigaming_app.games.race.state import LINES
-from pigaming_app.sim.course import locate, way_round
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robots import burn
+from pigaming_app.sim.robot import burn
 from pigaming_app.sim.world import ROBOTS
 
 AGAINST = 40.0  # px/s from which driving against the way counts

@@ -16,14 +16,14 @@ from dataclasses import dataclass
 from math import atan2, tau
 
 from pigaming_app.games.game import Setup
-from pigaming_app.games.race.ideal import fastest
+from pigaming_app.games.race.circuit import read_course
+from pigaming_app.games.race.course import POINTS, Course, half_at, leg, locate, spot
+from pigaming_app.games.race.racing_line import fastest
 from pigaming_app.games.race.state import LINES, MOST_LAPS, Line, Race, Rules
 from pigaming_app.sim.arena import Arena, Layout, Start, build
-from pigaming_app.sim.chance import seeded
-from pigaming_app.sim.circuit import read_course
-from pigaming_app.sim.course import POINTS, Course, half_at, leg, locate, spot
 from pigaming_app.sim.record import copy
-from pigaming_app.sim.table import Table
+from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.toml_table import Table
 from pigaming_app.sim.world import DT, HZ
 
 LAPS = 3  # if nobody says otherwise

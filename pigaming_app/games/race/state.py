@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pigaming_app.sim.course import POINTS, Course, Place
+from pigaming_app.games.race.course import POINTS, Course, Place
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import ROBOTS, World
 

@@ -15,11 +15,11 @@ import numpy as np
 from pigaming_app.hardware.emulator.camera import EmulatedCamera, Pace
 from pigaming_app.hardware.emulator.faults import Faults
 from pigaming_app.hardware.emulator.firmware import Firmware
+from pigaming_app.hardware.emulator.objects import Placing
 from pigaming_app.hardware.emulator.optics import CANVAS, Optics
-from pigaming_app.hardware.emulator.picture import Painter, Scene
 from pigaming_app.hardware.emulator.radio import Air, EmulatedRadio
+from pigaming_app.hardware.emulator.renderer import Painter, Scene
 from pigaming_app.hardware.emulator.robots import STEP, Robot, drawn, part
-from pigaming_app.hardware.emulator.things import Placing
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
 

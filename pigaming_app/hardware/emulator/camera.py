@@ -10,7 +10,7 @@ from math import ceil
 from random import Random
 from typing import NamedTuple
 
-from pigaming_app.hardware.emulator.picture import Painter, Scene
+from pigaming_app.hardware.emulator.renderer import Painter, Scene
 from pigaming_app.hardware.signals import Clock, Frame
 
 UNTAKEN = 4  # pictures kept that have arrived and that nobody has taken

@@ -7,8 +7,7 @@ from dataclasses import replace
 from math import atan2, cos, hypot, sin
 from typing import TYPE_CHECKING
 
-from pigaming_app.hardware.emulator.optics import Optics
-from pigaming_app.hardware.emulator.things import (
+from pigaming_app.hardware.emulator.objects import (
     BODY_HEIGHT,
     LID_HEIGHT,
     Placing,
@@ -19,6 +18,7 @@ from pigaming_app.hardware.emulator.things import (
     lid,
     underside,
 )
+from pigaming_app.hardware.emulator.optics import Optics
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.emulator.arena import EmulatedArena

@@ -8,13 +8,13 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.cameras import Known
+from pigaming_app.hardware.calibration.site import Measures
 from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
 from pigaming_app.hardware.emulator.camera import Pace
-from pigaming_app.hardware.emulator.live import Live
 from pigaming_app.hardware.emulator.projector import Projector
+from pigaming_app.hardware.emulator.realtime import Live
 from pigaming_app.hardware.signals import Frame
-from pigaming_app.hardware.site import Measures
+from pigaming_app.hardware.vision.discovery import Known
 
 RULER = (1.5, 8.0)  # mm by which the mat's width and the camera's height are measured wrongly
 ASIDE = ((60.0, 60.0), (1540.0, 60.0), (1540.0, 840.0), (60.0, 840.0))  # arena px, where robots wait

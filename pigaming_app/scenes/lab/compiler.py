@@ -14,7 +14,7 @@ from pigaming_app.sim.kernel import PACKAGE, can_compile
 
 PATIENCE = 10  # how nice the process is to others
 
-COMMAND = (sys.executable, "-m", "pigaming_app.ai.exam")
+COMMAND = (sys.executable, "-m", "pigaming_app.ai.experiments.evaluation")
 
 
 class Compiler:

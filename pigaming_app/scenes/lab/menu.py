@@ -4,16 +4,16 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.focus import Focus
-from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import ALARM, FOCUS, ICE, LABEL, MIST
-from pigaming_app.scenes.lab.workshop import Workshop
-from pigaming_app.scenes.overlay import PROMPTS, W, overlay
-from pigaming_app.scenes.pane import Pane, word
-from pigaming_app.scenes.pause import items, title
-from pigaming_app.scenes.press import Act, Press
-from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.stack import Pop, Swap, Turn
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
+from pigaming_app.scenes.lab.trainer import Workshop
+from pigaming_app.scenes.play.pause import items, title
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LABEL, MIST
+from pigaming_app.ui.draw.layers import Pane, word
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
+from pigaming_app.ui.widgets.focus import Focus
 
 ITEMS = ("save", "open", "compare", "anew")
 IDLE = 90.0  # seconds without a press until the Lab
@@ -88,9 +88,9 @@ class LabMenu:
         self.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:
-        from pigaming_app.scenes.lab.compare import Compare
-        from pigaming_app.scenes.lab.naming import Naming
-        from pigaming_app.scenes.lab.shelf import Shelf
+        from pigaming_app.scenes.lab.compare_page import Compare
+        from pigaming_app.scenes.lab.name_page import Naming
+        from pigaming_app.scenes.lab.open_page import Shelf
 
         self.house.sounds.play("accept")
         match name:

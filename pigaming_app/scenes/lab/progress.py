@@ -5,12 +5,12 @@ from time import perf_counter
 from typing import Any
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain import Kind
-from pigaming_app.ai.exam import HANDMADE, Exam
-from pigaming_app.ai.plan import Direction, direction
-from pigaming_app.ai.training import GAME, Checkpoint, Training
-from pigaming_app.scenes.lab.curve import Measure
-from pigaming_app.scenes.rose import PETALS
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.experiments.evaluation import HANDMADE, Exam
+from pigaming_app.ai.experiments.training import GAME, Checkpoint, Training
+from pigaming_app.ai.qlearning.policy_summary import Direction, direction
+from pigaming_app.scenes.brain.rose import PETALS
+from pigaming_app.scenes.lab.learning_curve import Measure
 from pigaming_app.sim.world import HZ
 
 MARKS = (0, 10, 50, 200)  # matches after which what it knows is kept

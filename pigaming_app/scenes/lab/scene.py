@@ -9,22 +9,22 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.rewards import RECIPES, Recipe
-from pigaming_app.scenes.focus import Focus, Spot
-from pigaming_app.scenes.house import House
-from pigaming_app.scenes.ink import ALARM, FOCUS
-from pigaming_app.scenes.lab.curve import HANDMADE
-from pigaming_app.scenes.lab.dial import MOST
-from pigaming_app.scenes.lab.page import SPEEDS, LabPage, Shown, speed_at, warming
-from pigaming_app.scenes.lab.places import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
+from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.lab.knob import MOST
+from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
+from pigaming_app.scenes.lab.learning_curve import HANDMADE
 from pigaming_app.scenes.lab.progress import Progress
-from pigaming_app.scenes.lab.workshop import Workshop
-from pigaming_app.scenes.match import new_seed
-from pigaming_app.scenes.plate import plate
-from pigaming_app.scenes.press import Act, Device, Press
-from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.rose import LEVELS, SIGNS
-from pigaming_app.scenes.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.lab.trainer import Workshop
+from pigaming_app.scenes.lab.view import SPEEDS, LabPage, Shown, speed_at, warming
+from pigaming_app.scenes.play.scene import new_seed
+from pigaming_app.ui.draw.ink import ALARM, FOCUS
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.focus import Focus, Spot
 
 FIRST = replace(RECIPES[1], behind_always=1)  # each knob counts at every decision, so that turning it is seen soon
 IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
@@ -143,7 +143,7 @@ class Lab:
 
     def play(self, device: Device) -> Turn:
         """A match against what the robot is now."""
-        from pigaming_app.scenes.lab.fight import Fight
+        from pigaming_app.scenes.lab.challenge import Fight
 
         self.house.sounds.play("accept")
         driver = self.house.controls.last if device.kind == "mouse" else device

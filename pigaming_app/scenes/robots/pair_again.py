@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from pigaming_app.hardware.pairing import Case, Pairing
-from pigaming_app.scenes.calibration.telling import paragraph
-from pigaming_app.scenes.ink import ALARM, BODY, ICE
-from pigaming_app.scenes.pace import Pace
-from pigaming_app.scenes.page import text
-from pigaming_app.scenes.press import Act, Press
-from pigaming_app.scenes.prompts import Prompts
-from pigaming_app.scenes.robots.checkup import worst
-from pigaming_app.scenes.robots.flood import UNSEEN, Flood, looking
-from pigaming_app.scenes.stack import Pop, Turn
+from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+from pigaming_app.scenes.calibration.messages import paragraph
+from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.robots.fleet_state import worst
+from pigaming_app.scenes.robots.flood_light import UNSEEN, Flood, looking
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.ui.draw.ink import ALARM, BODY, ICE
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.labels import text
 
 if TYPE_CHECKING:
-    from pigaming_app.scenes.robots.match import RealMatch
+    from pigaming_app.scenes.robots.match_scene import RealMatch
 
 LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
 GOOD = (Case.FITS, Case.SWAPPED, Case.ABSENT)

@@ -8,16 +8,16 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.games.factory.floor import Floor
+from pigaming_app.games.factory.layout import Floor
 from pigaming_app.games.race.start import Track
-from pigaming_app.scenes.crates import TEAMS
-from pigaming_app.scenes.frame_budget import Steps
-from pigaming_app.scenes.ink import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
-from pigaming_app.scenes.views.raceway import GLOW, earth
-from pigaming_app.scenes.views.roadway import draw_track
-from pigaming_app.scenes.views.shopfloor import draw_floor
+from pigaming_app.scenes.views.factory.background import draw_floor
+from pigaming_app.scenes.views.race.background import GLOW, earth
+from pigaming_app.scenes.views.race.track import draw_track
+from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
+from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw.ink import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
 
 MARGIN = 8  # px round the frame, for its glow
 

@@ -4,11 +4,11 @@ from functools import partial
 from typing import Any, Protocol
 
 from pigaming_app.games import GAMES
-from pigaming_app.scenes.best import Best
-from pigaming_app.scenes.feats import contest
-from pigaming_app.scenes.stack import Push
-from pigaming_app.scenes.words import LANGUAGES
+from pigaming_app.scenes.flow.stack import Push
+from pigaming_app.scenes.results.high_score_tables import contest
+from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.sim.world import HZ
+from pigaming_app.ui.i18n import LANGUAGES
 
 MENU = 3  # spots of the title before those of its foot
 BRAINS = 5  # presses of F4 that go round all AIs of a match

@@ -1,0 +1,90 @@
+"""What a brain is: a function that sees and decides, and a record of what it remembers; both work in both bodies.
+
+What a brain has learned (a table, the weights of a network) may be big: it is one more record, which all seats share,
+which no match copies, and which play never changes.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Protocol
+
+from pigaming_app.ai.brain.thoughts import Thoughts
+from pigaming_app.sim.action import press
+from pigaming_app.sim.record import packed, record
+
+
+@record
+class Nothing:
+    """What a hand-written brain has learned."""
+
+    nothing: int
+
+
+@cache
+def nothing(fast: bool) -> Any:
+    """Nothing learned, in either body."""
+    return packed([Nothing()]) if fast else [Nothing()]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A sort of brain: `think(match, seat, mind, known)` sets the seat's action, `wake(mind, seed)` fills a fresh mind.
+
+    `known(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
+    same one; it may read a file when it is first asked. `explain`, of the same arguments as `think`, says what is on
+    its mind at this moment, for people who watch; it only reads.
+    """
+
+    name: str
+    mind: type
+    think: Callable[[Any, int, Any, Any], None]
+    wake: Callable[[Any, int], None]
+    known: Callable[[bool], Any] = nothing
+    explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
+
+
+class Thinker:
+    """A brain of some kind on a seat of a plain match."""
+
+    def __init__(self, kind: Kind, seed: int) -> None:
+        self.kind = kind
+        self.mind = kind.mind()
+        self.known = kind.known(False)[0]
+        kind.wake(self.mind, seed)
+
+    def think(self, state: Any, seat: int) -> None:
+        """Set the seat's action for this tick."""
+        self.kind.think(state, seat, self.mind, self.known)
+
+    def explain(self, state: Any, seat: int) -> Thoughts | None:
+        """What is on its mind; None: this kind keeps that to itself."""
+        return self.kind.explain(state, seat, self.mind, self.known) if self.kind.explain else None
+
+
+class Held(Protocol):
+    """Anything that is held like a pad: stick in [-1, 1], two buttons."""
+
+    @property
+    def linear(self) -> float: ...
+
+    @property
+    def angular(self) -> float: ...
+
+    @property
+    def fire(self) -> bool: ...
+
+    @property
+    def turbo(self) -> bool: ...
+
+
+class Hands:
+    """A person: `read` is called on the tick on which it acts."""
+
+    def __init__(self, read: Callable[[], Held]) -> None:
+        self.read = read
+
+    def think(self, state: Any, seat: int) -> None:
+        """Set the seat's action from how the device is held right now."""
+        held = self.read()
+        press(state.actions[seat], held.linear, held.angular, int(held.fire), int(held.turbo))

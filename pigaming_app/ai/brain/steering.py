@@ -1,0 +1,43 @@
+"""How a brain without a view of its own drives to where its errand leads; the frozen machine relies on it as it is."""
+
+from math import atan2, pi, sqrt
+from typing import Any
+
+from pigaming_app.sim.action import press
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.flow_field import find_way
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.world import DT
+
+
+@kernel
+def bearing(robot: Any, x: float, y: float) -> float:
+    """The direction of a point, relative to the own heading."""
+    return turn_to(atan2(y - robot.y, x - robot.x) - robot.heading)
+
+
+@kernel
+def turning(match: Any, robot: Any, angle: float, period: int) -> float:
+    """The stick that turns by `angle` within `period` ticks, as far as the motors can."""
+    stick: float = 0.75 * (angle - 0.08 * robot.angular) / (match.rules.turn_rate * period * DT)
+    return stick
+
+
+@kernel
+def follow(match: Any, seat: int, errand: Any, period: int) -> None:
+    """Drive on along the way for `period` ticks; backwards where that saves a long turn."""
+    robot = match.robots[seat]
+    find_way(match, errand, robot.x, robot.y)
+    angle, ahead = bearing(robot, errand.way_x, errand.way_y), 1.0
+    dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
+    gap = sqrt(dx * dx + dy * dy)
+    if abs(angle) > 2.2 and gap < 200.0:
+        angle, ahead = turn_to(angle + pi), -1.0
+    speed = ahead
+    if abs(angle) > 0.9:
+        speed = 0.0
+    elif abs(angle) > 0.4:
+        speed = 0.5 * ahead
+    if errand.straight and gap < 70.0:
+        speed *= 0.3 + 0.7 * gap / 70.0
+    press(match.actions[seat], speed, turning(match, robot, angle, period), 0, 0)

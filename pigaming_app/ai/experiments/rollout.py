@@ -1,0 +1,114 @@
+"""Whole matches with the brains inside the loop, in both bodies.
+
+A rollout is a closure over a game's rules and the brains of its four seats, so that numba compiles all of it into one
+loop. Played plain, the very same closure runs over plain records.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any
+
+from pigaming_app.ai.brain.baselines import IDLE
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.games import GAMES
+from pigaming_app.games.batch import started
+from pigaming_app.games.game import Setup
+from pigaming_app.sim.contact import drive
+from pigaming_app.sim.kernel import compiled
+from pigaming_app.sim.record import packed, unpack
+from pigaming_app.sim.world import ROBOTS
+
+Loop = Callable[..., None]
+Think = Callable[[Any, int, Any, Any], None]
+
+
+def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think, Think]) -> Loop:
+    """A loop over matches that plays each on for `ticks`, or to its end.
+
+    `ones` to `fours` are the minds of the seats, one for each match; `know_1` to `know_4` what they have learned.
+    """
+    first, second, third, fourth = think
+
+    def rollout(
+        matches: Any,
+        ones: Any,
+        twos: Any,
+        threes: Any,
+        fours: Any,
+        know_1: Any,
+        know_2: Any,
+        know_3: Any,
+        know_4: Any,
+        ticks: int,
+    ) -> None:
+        known_1, known_2, known_3, known_4 = know_1[0], know_2[0], know_3[0], know_4[0]
+        for i in range(len(matches)):
+            match, one, two, three, four = matches[i], ones[i], twos[i], threes[i], fours[i]
+            for _ in range(ticks):
+                if match.over:
+                    break
+                first(match, 0, one, known_1)
+                second(match, 1, two, known_2)
+                third(match, 2, three, known_3)
+                fourth(match, 3, four, known_4)
+                judge(match)
+                drive(match)
+
+    return rollout
+
+
+@cache
+def plain_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
+    """The rollout of a game over plain records."""
+    return make_rollout(GAMES[game].judge, think)
+
+
+@cache
+def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
+    """The rollout of a game over NumPy records. Raises ImportError without numba."""
+    return compiled(make_rollout(GAMES[game].judge, think))
+
+
+class Batch:
+    """Many matches of one game, all with the same kinds of brains, in either body."""
+
+    def __init__(self, setups: Sequence[Setup], kinds: Sequence[Kind | None], fast: bool) -> None:
+        """One match for each setup; kinds of the seats, None (or nothing more) for an empty one; `fast`: compiled."""
+        self.fast = fast
+        self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
+        minds = [[awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
+        columns = [list(column) for column in zip(*minds, strict=True)]
+        states = started(setups)
+        self.matches: Any = packed(states) if fast else states
+        self.minds = [packed(column) for column in columns] if fast else columns
+        self.known = [kind.known(fast) for kind in self.kinds]
+        one, two, three, four = (kind.think for kind in self.kinds)
+        think = one, two, three, four
+        game = setups[0].game
+        self.state = GAMES[game].state
+        self.loop: Loop = compiled_rollout(game, think) if fast else plain_rollout(game, think)
+
+    def play(self, ticks: int) -> None:
+        """Play every match on."""
+        self.loop(self.matches, *self.minds, *self.known, ticks)
+
+    def scores(self) -> list[list[int]]:
+        """For each match the scores of its seats."""
+        if self.fast:
+            return self.matches["robots"]["score"].tolist()  # type: ignore[no-any-return]
+        return [[robot.score for robot in match.robots] for match in self.matches]
+
+    def ticks(self) -> int:
+        """How many have been played, of all matches together."""
+        return sum(self.matches["tick"].tolist() if self.fast else [match.tick for match in self.matches])
+
+    def ended(self) -> list[Any]:
+        """Every match as a plain record."""
+        return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
+
+
+def awake(kind: Kind, seed: int, seat: int) -> Any:
+    """A fresh mind for a seat of the match with that seed."""
+    mind = kind.mind()
+    kind.wake(mind, seed * ROBOTS + seat)
+    return mind

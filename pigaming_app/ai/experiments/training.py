@@ -1,0 +1,247 @@
+"""Training of a Q-table in self-play: two robots drive by one shared table and both write what they learn into it.
+
+One match after the other, in either body: the same loop over NumPy records, compiled, or over plain ones. The table
+and where it stands in its training are one record, so training can stop anywhere and go on, to the last bit the same.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.qlearning import table_files as tables
+from pigaming_app.ai.qlearning.learner import Learned, LearnerMind, Table, learn, learn_last, player, temperature
+from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe
+from pigaming_app.ai.qlearning.table_files import Trained
+from pigaming_app.games import GAMES
+from pigaming_app.games.batch import started
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.sim.contact import drive
+from pigaming_app.sim.kernel import can_compile, compiled, compiled_before, engine_hash
+from pigaming_app.sim.record import copy, fields_of, packed, unpack
+from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.world import HZ
+
+GAME, VARIANT, ARENA, MINUTES = "pitanks", "classic", "classic", 2.0
+Loop = Callable[[Any, Any, Any, Any, int], None]
+
+
+def make_training(judge: Callable[[Any], None]) -> Loop:
+    """The loop that plays a match on for `ticks`, or to its end, with a learner on its first two seats."""
+
+    def practise(matches: Any, ones: Any, twos: Any, tables: Any, ticks: int) -> None:
+        match, one, two, table = matches[0], ones[0], twos[0], tables[0]
+        for _ in range(ticks):
+            if match.over:
+                break
+            learn(match, 0, one, table)
+            learn(match, 1, two, table)
+            judge(match)
+            drive(match)
+            if match.over:
+                learn_last(match, 0, one, table)
+                learn_last(match, 1, two, table)
+                table.matches += 1
+
+    return practise
+
+
+@cache
+def plain_training() -> Loop:
+    """The loop over plain records."""
+    return make_training(GAMES[GAME].judge)
+
+
+@cache
+def compiled_training() -> Loop:
+    """The loop over NumPy records. Raises ImportError without numba."""
+    return compiled(make_training(GAMES[GAME].judge))
+
+
+def cached() -> bool:
+    """Whether the compiled loop already lies on disk, so that it loads in a moment."""
+    return can_compile() and compiled_before(make_training(GAMES[GAME].judge))
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A table as it was after so many matches: it learns no more, and can sit on a seat."""
+
+    kind: Kind
+    matches: int
+    experiences: int
+
+
+class Training:
+    """A table that is being trained. `run` may be called in a thread of its own; everything else only looks."""
+
+    def __init__(
+        self,
+        recipe: Recipe,
+        seed: int,
+        arena: str = ARENA,
+        fast: bool | None = None,
+        table: Any = None,
+        minutes: float = MINUTES,
+    ) -> None:
+        """`fast`: compiled; left out: if numba is there. `table`: go on from this one, of either body, with its chance.
+
+        Raises ArenaError; ImportError for `fast` without numba.
+        """
+        self.fast = can_compile() if fast is None else fast
+        self.arena, self.minutes, self.seed = arena, minutes, seed
+        self.loop = compiled_training() if self.fast else plain_training()
+        self._tables = self._row(fresh_table(seed) if table is None else plain(table))
+        self.recipe = recipe
+        self._fresh = self._row(started([self._setup()])[0])
+        self._begin()
+
+    def run(self, ticks: int) -> None:
+        """Play and learn for so many ticks, from match to match."""
+        while ticks > 0:
+            if self.match.over:
+                self._begin()
+            before = int(self.match.tick)
+            self.loop(self._matches, self._ones, self._twos, self._tables, ticks)
+            ticks -= int(self.match.tick) - before
+        self._seen = self._matches.copy() if self.fast else self._matches
+
+    def warm(self) -> None:
+        """Compile now, if that is still to be done, rather than with the first tick."""
+        self.loop(self._matches, self._ones, self._twos, self._tables, 0)
+
+    def look(self) -> Any:
+        """The match as `run` last left it, a plain record (of plain training: the match itself); only to look at."""
+        return unpack(GAMES[GAME].state, self._seen[0]) if self.fast else self._seen[0]
+
+    @property
+    def recipe(self) -> Recipe:
+        """What is learned for; it may be replaced between two runs, and the table is kept."""
+        return self._recipe
+
+    @recipe.setter
+    def recipe(self, recipe: Recipe) -> None:
+        self._recipe = recipe
+        for field in fields_of(Knobs):
+            value = field.kind(getattr(recipe, field.name))
+            if self.fast:
+                self._tables["knobs"][field.name] = value
+            else:
+                setattr(self._tables[0].knobs, field.name, value)
+
+    @property
+    def match(self) -> Any:
+        """The match that is being played, a record of either body."""
+        return named(self._matches)
+
+    @property
+    def table(self) -> Any:
+        """The table itself, a record of either body; it changes while `run` runs."""
+        return named(self._tables)
+
+    @property
+    def matches(self) -> int:
+        """Matches played to their end."""
+        return int(self.table.matches)
+
+    @property
+    def experiences(self) -> int:
+        """Decisions learned from, of both robots."""
+        return int(self.table.experiences)
+
+    @property
+    def temperature(self) -> float:
+        """How daring the robots are now."""
+        return float(temperature(self.table))
+
+    @property
+    def visited(self) -> int:
+        """States that were ever seen."""
+        return int(self.table.states)
+
+    def checkpoint(self, name: str = "q") -> Checkpoint:
+        """What has been learned so far, as a brain for a seat."""
+        frozen = self._tables.copy() if self.fast else copy(self._tables[0])
+        return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
+
+    def save(self, path: Path, name: str) -> None:
+        """Keep what has been learned so far as a file. Raises NotSaved."""
+        reward = next((number for number, recipe in RECIPES.items() if recipe == self.recipe), 0)
+        rows = self._tables.copy() if self.fast else packed(self._tables)
+        tables.save(Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash()), path)
+
+    def measure(self, opponent: "str | Checkpoint" = "classic", matches: int = 100) -> tuple[int, int, int]:
+        """Wins, ties and losses of what has been learned so far, in matches by the rules of the training."""
+        other = opponent.kind if isinstance(opponent, Checkpoint) else BRAINS[GAME][opponent]
+        return contest(self.checkpoint().kind, other, matches, self.seed, self.minutes, self.arena, self.fast)
+
+    def _setup(self) -> Setup:
+        return setting(self.seed, self.minutes, self.arena)
+
+    def _row(self, state: Any) -> Any:
+        """A row of one record, in the body of this training."""
+        return packed([state]) if self.fast else [state]
+
+    def _begin(self) -> None:
+        """The next match, with fresh minds."""
+        self._matches = self._fresh.copy() if self.fast else [copy(self._fresh[0])]
+        self._ones, self._twos = self._row(LearnerMind()), self._row(LearnerMind())
+        self._seen = self._matches
+
+
+def load(path: Path, fast: bool | None = None) -> Training:
+    """A training that goes on from a file, with a fresh match. Raises TableError, ArenaError."""
+    kept = tables.load(path)
+    return Training(kept.recipe, kept.seed, kept.arena, fast, kept.rows[0], kept.minutes)
+
+
+def fresh_table(seed: int) -> Table:
+    """A plain table that knows nothing."""
+    table = Table()
+    table.random = seeded(seed)
+    return table
+
+
+def named(row: Any) -> Any:
+    """The one record of a row of either body, with its fields as attributes."""
+    if isinstance(row, list):
+        return row[0]
+    import numpy as np
+
+    return row.view(np.recarray)[0]
+
+
+def plain(table: Any) -> Table:
+    """A plain copy of a table of either body."""
+    return copy(table) if isinstance(table, Table) else unpack(Table, table)
+
+
+def setting(seed: int, minutes: float = MINUTES, arena: str = ARENA) -> Setup:
+    """A match of two by the rules of the measured results."""
+    one, two, three, four = Seat("learner", 0), Seat("learner", 1), Seat("off", 2), Seat("off", 3)
+    return Setup(GAME, arena, (one, two, three, four), minutes, seed, VARIANT)
+
+
+def contest(
+    one: Kind,
+    other: Kind,
+    matches: int,
+    seed: int,
+    minutes: float = MINUTES,
+    arena: str = ARENA,
+    fast: bool | None = None,
+) -> tuple[int, int, int]:
+    """Wins, ties and losses of `one` over `other`: every seed twice, with the sides swapped."""
+    fast = can_compile() if fast is None else fast
+    setups = [setting(seed + i // 2, minutes, arena) for i in range(matches)]
+    leads = []
+    for some, kinds, sign in ((setups[::2], (one, other), 1), (setups[1::2], (other, one), -1)):
+        if some:
+            batch = Batch(some, kinds, fast)
+            batch.play(round(minutes * 60 * HZ))
+            leads += [sign * (scores[0] - scores[1]) for scores in batch.scores()]
+    return sum(lead > 0 for lead in leads), sum(lead == 0 for lead in leads), sum(lead < 0 for lead in leads)

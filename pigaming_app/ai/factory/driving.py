@@ -1,0 +1,197 @@
+"""How a driver of Robot Factory gets to a slot and uses its fork: round walls, robots and people.
+
+`mind` is a ForemanMind; all of it works on the view.
+"""
+
+from math import cos, sin, sqrt
+from typing import Any
+
+from pigaming_app.games.factory.observation import OTHERS
+from pigaming_app.games.factory.state import SLOTS, WORKERS
+from pigaming_app.sim.action import press
+from pigaming_app.sim.grid import node_at
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.rng import chance
+from pigaming_app.sim.world import CELL, DT, HZ
+
+PERIOD = 5
+AT = 24.0  # px between the fork and a slot at which it presses fire
+TURN_IN = 30.0  # px before the fork is at the slot from which it turns to it
+ASIDE = 120.0  # px from a person at which who only waits makes way
+STAND_OFF = 150.0  # px from a slot that is not free at which it waits
+LOOK = 130.0  # px ahead that must be free
+LOOKS, LEAN = 11, 0.32  # ways that it looks for one that is free, and rad from one to the next
+ROBOT_ROOM = 78.0  # px between two robots that pass each other
+PERSON_ROOM = 70.0  # px between a robot and a person that it passes
+STOP = 96.0  # px from a person within which it does not back up
+HELD_UP = 16.0  # px; less than this in HELD_UP_TICKS is getting nowhere
+HELD_UP_TICKS = 45
+FREEING = 25  # ticks of backing out
+NEARER = 10.0  # px that count as getting nearer
+PATIENCE, SHUN = 8 * HZ, 12 * HZ  # ticks without getting nearer to a slot, and for which others come first then
+DETOUR = 4 * HZ  # ticks of driving towards another slot
+
+
+@kernel
+def drive_to(view: Any, mind: Any, action: Any) -> None:
+    """Go to the target; there, turn to it and press fire."""
+    slot, errand = view.slots[mind.target], mind.eyes.errand
+    moved = not errand.wanted or errand.goal_x != slot.x or errand.goal_y != slot.y
+    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
+    if moved:  # the way comes with the next view
+        press(action, 0.0, 0.0, 0, 0)
+        return
+    if mind.near and view.goal_distance < STAND_OFF and view.straight:
+        make_way(view, mind, action)
+        return
+    if view.straight and view.goal_distance < view.fork + TURN_IN:
+        handle(view, mind, action, slot)
+    else:
+        follow(view, mind, action)
+
+
+@kernel
+def make_way(view: Any, mind: Any, action: Any) -> None:
+    """Stand, but not where a person wants to walk, nor at the slot."""
+    speed = -0.5 if view.goal_distance < STAND_OFF - 40.0 else 0.0
+    nearest = ASIDE
+    for w in range(WORKERS):
+        person = view.people[w]
+        if person.distance < nearest:
+            nearest = person.distance
+            speed = -0.6 if abs(person.bearing) < 1.57 else 0.6
+    mind.held_up = 0
+    press(action, speed, 0.0, 0, 0)
+
+
+@kernel
+def handle(view: Any, mind: Any, action: Any, slot: Any) -> None:
+    """Turn to the slot, bring the fork over it, press."""
+    dx, dy = view.fork_x - slot.x, view.fork_y - slot.y
+    if dx * dx + dy * dy < AT * AT:
+        press(action, 0.0, 0.0, 0 if action.fire else 1, 0)
+        return
+    speed = 0.0
+    if abs(view.goal_bearing) < 0.5:
+        speed = (view.goal_distance - view.fork) / 40.0
+        if speed > 0.0 and room(view, 0.0, 0.0) < 20.0:
+            speed = 0.0
+    press(action, speed, turning(view, view.goal_bearing), 0, 0)
+
+
+@kernel
+def turning(view: Any, bearing: float) -> float:
+    """The stick that turns by `bearing` until the next decision, as far as the motors can."""
+    stick: float = 0.75 * (bearing - 0.08 * view.angular) / (view.turn_rate * PERIOD * DT)
+    return stick
+
+
+@kernel
+def follow(view: Any, mind: Any, action: Any) -> None:
+    """Drive on along the way, or as near to it as whoever is about leaves room."""
+    bearing = view.way_bearing
+    free = False
+    for i in range(LOOKS):
+        lean = LEAN * ((i + 1) // 2)
+        turn = bearing + (lean if i % 2 else -lean)  # who meet head-on keep to the right
+        if room(view, turn, ROBOT_ROOM) >= min(LOOK, view.way_distance):
+            bearing, free = turn, True
+            break
+    ahead = room(view, 0.0, ROBOT_ROOM)
+    speed = mind.speed
+    if abs(bearing) > 1.1 or ahead < 40.0:
+        speed = 0.0
+    elif abs(bearing) > 0.5 or ahead < LOOK:
+        speed *= 0.5
+    if not free and ahead < 80.0:
+        speed = 0.0
+    dash = mind.dash and view.goal_distance > 350.0 and view.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
+    press(action, speed, turning(view, bearing), 0, 1 if dash else 0)
+
+
+@kernel
+def room(view: Any, turn: float, robots: float) -> float:
+    """The px that it can drive at a bearing before it comes too near to a person, or within `robots` px of a robot."""
+    free = 1000.0
+    for w in range(WORKERS):
+        person = view.people[w]
+        if person.distance < 2.0 * LOOK:
+            free = min(free, gap(person.distance, person.bearing - turn, PERSON_ROOM))
+    for i in range(OTHERS):
+        other = view.others[i]
+        if other.present and other.distance < LOOK:
+            free = min(free, gap(other.distance, other.bearing - turn, robots))
+    return free
+
+
+@kernel
+def gap(distance: float, bearing: float, clearance: float) -> float:
+    """The px that one can drive straight on before one is within `clearance` of what is there."""
+    ahead, aside = distance * cos(bearing), distance * sin(bearing)
+    if ahead <= 0.0 or aside >= clearance or aside <= -clearance:
+        return 1000.0
+    before = ahead - sqrt(clearance * clearance - aside * aside)
+    return before if before > 0.0 else 0.0
+
+
+@kernel
+def lose_patience(view: Any, mind: Any) -> None:
+    """Prefer other slots for a while if it comes no nearer to its target, by the way that it has to drive.
+
+    If there is no other, and it comes no nearer again, it tries to come from somewhere else.
+    """
+    left = view.goal_distance
+    if not view.straight:
+        left = CELL * mind.eyes.errand.reach[node_at(view.x, view.y)]
+    if mind.near or mind.sought != mind.target:
+        mind.sought, mind.least, mind.late = mind.target, 1e9, 0
+    if 0.0 < left < mind.least - NEARER:
+        mind.least, mind.late = left, 0
+    else:
+        mind.late += PERIOD
+    if mind.late <= PATIENCE:
+        return
+    if mind.shun > 0 and mind.shunned == mind.target:
+        mind.detour, mind.via = DETOUR, int(chance(mind) * SLOTS)
+    mind.shunned, mind.shun, mind.least, mind.late, mind.plan_in = mind.target, SHUN, 1e9, 0, 0
+
+
+@kernel
+def make_detour(view: Any, mind: Any, action: Any) -> None:
+    """Drive towards another slot for a while, so that the way to the target is another one."""
+    slot, errand = view.slots[mind.via], mind.eyes.errand
+    moved = errand.goal_x != slot.x or errand.goal_y != slot.y
+    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
+    mind.detour -= PERIOD
+    if moved:
+        press(action, 0.0, 0.0, 0, 0)
+        return
+    if view.goal_distance < STAND_OFF:
+        mind.detour = 0
+    follow(view, mind, action)
+
+
+@kernel
+def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+    """Notice that it wants to move and gets nowhere."""
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if dx * dx + dy * dy > HELD_UP * HELD_UP:
+        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+        return
+    mind.held_up += PERIOD
+    if mind.held_up > HELD_UP_TICKS:
+        mind.held_up, mind.freeing = 0, FREEING
+        mind.escape = -0.8 if chance(mind) < 0.7 else 0.8
+        mind.escape_turn = 2.0 * chance(mind) - 1.0
+
+
+@kernel
+def free_itself(view: Any, mind: Any, action: Any) -> None:
+    """Back out with a turn, but not over anybody."""
+    mind.freeing -= PERIOD
+    for w in range(WORKERS):
+        person = view.people[w]
+        if person.distance < STOP:
+            ahead = abs(person.bearing) < 1.57
+            mind.escape = -0.8 if ahead else 0.8
+    press(action, mind.escape, mind.escape_turn, 0, 0)

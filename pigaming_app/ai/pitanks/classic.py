@@ -1,0 +1,220 @@
+"""The frozen opponent of the measured results: the original's finite state machine, and nothing that improves on it.
+
+Winning or level it defends: it goes behind the nearest inner wall, waits there, and fires at an opponent that shows.
+Losing it attacks: it closes in round the walls, aims, fires. It aims at where the opponent is, not at where it will be,
+dodges nothing, picks nothing up and never grows bored. It does not change when `fsm` gets better: that is its use.
+
+What the original's paper does not say about its machine are the numbers of `Unknown`, and only they were chosen so that
+trained robots fare against it as published: see tests/bench/reproduce_table.py.
+"""
+
+from dataclasses import dataclass
+from math import sqrt
+from typing import Any
+
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.steering import bearing, follow, turning
+from pigaming_app.ai.brain.thoughts import Thoughts
+from pigaming_app.ai.qlearning.features import nearest_opponent
+from pigaming_app.games.pitanks.observation import lead
+from pigaming_app.sim.action import press
+from pigaming_app.sim.flow_field import Errand
+from pigaming_app.sim.grid import BLOCKED, node_at
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+DEFEND, ATTACK, BREAK_FREE = range(3)
+HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px in ticks that are getting nowhere; ticks of backing out
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """What the original leaves unknown about its machine."""
+
+    engage: float = 200.0  # px from which it aims and fires at an opponent in sight, closing in no further
+    period: int = 40  # ticks between decisions
+    tolerance: float = 0.08  # rad by which the gun may be off when it fires
+    beside: float = 50.0  # px between the machine in its hiding place and the wall
+    arrived: float = 85.0  # px from the hiding place that count as there
+
+
+@record
+class Numbers(Unknown):
+    """The same as a kernel reads it."""
+
+
+@record
+class ClassicMind:
+    """What the machine remembers."""
+
+    numbers: Numbers
+    errand: Errand
+    random: int
+    state: int
+    since: int  # ticks in this state
+    anchor_x: float  # where it was when it last got anywhere
+    anchor_y: float
+    held_up: int  # ticks since
+    escape: float  # the stick while it breaks free
+    escape_turn: float
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+    """Look and decide every `period` ticks; in between the stick stays as it is."""
+    period = mind.numbers.period
+    if (match.tick + seat) % period:
+        return
+    robot, action, opponent = match.robots[seat], match.actions[seat], nearest_opponent(match, seat)
+    mind.since += period
+    feel_held_up(robot, mind, action)
+    if opponent < 0:
+        press(action, 0.0, 0.0, 0, 0)
+    elif mind.state == BREAK_FREE:
+        break_free(robot, mind, action)
+    elif lead(match, seat) >= 0 and hide(match, robot, match.robots[opponent], mind):
+        mind.state = DEFEND
+        defend(match, seat, match.robots[opponent], mind)
+    else:
+        mind.state = ATTACK
+        attack(match, seat, match.robots[opponent], mind)
+
+
+@kernel
+def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
+    """Go behind the nearest wall and wait there; fire at an opponent that shows."""
+    robot, errand = match.robots[seat], mind.errand
+    dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
+    if shows(match, robot, other, mind):
+        shoot(match, seat, other, mind)
+    elif dx * dx + dy * dy > mind.numbers.arrived * mind.numbers.arrived:
+        follow(match, seat, errand, mind.numbers.period)
+    else:
+        stick = turning(match, robot, bearing(robot, other.x, other.y), mind.numbers.period)
+        press(match.actions[seat], 0.0, stick, 0, 0)
+
+
+@kernel
+def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
+    """Close in on the opponent round the walls, aim, fire."""
+    if shows(match, match.robots[seat], other, mind):
+        shoot(match, seat, other, mind)
+    else:
+        go_to(mind, other.x, other.y)
+        follow(match, seat, mind.errand, mind.numbers.period)
+
+
+@kernel
+def break_free(robot: Any, mind: Any, action: Any) -> None:
+    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
+    press(action, mind.escape, mind.escape_turn, 0, 0)
+    if mind.since < FREEING:
+        return
+    dx, dy = robot.x - mind.anchor_x, robot.y - mind.anchor_y
+    mind.since = 0
+    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+        mind.escape, mind.escape_turn = -mind.escape, 2.0 * chance(mind) - 1.0
+    else:
+        mind.state, mind.held_up, mind.anchor_x, mind.anchor_y = DEFEND, 0, robot.x, robot.y
+
+
+# ------------------------------------------------------------------------------------------------------- what they use
+
+
+@kernel
+def feel_held_up(robot: Any, mind: Any, action: Any) -> None:
+    """Notice that it wants to move and gets nowhere."""
+    if mind.state == BREAK_FREE:
+        return
+    dx, dy = robot.x - mind.anchor_x, robot.y - mind.anchor_y
+    if dx * dx + dy * dy > HELD_UP * HELD_UP or action.linear == 0.0:
+        mind.held_up, mind.anchor_x, mind.anchor_y = 0, robot.x, robot.y
+        return
+    mind.held_up += mind.numbers.period
+    if mind.held_up > HELD_UP_TICKS:
+        mind.state, mind.since = BREAK_FREE, 0
+        mind.escape = -1.0 if action.linear > 0.0 else 1.0
+        mind.escape_turn = 2.0 * chance(mind) - 1.0
+
+
+@kernel
+def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
+    """1 if the opponent is in sight and near enough to fire at."""
+    reach = mind.numbers.engage
+    dx, dy = other.x - robot.x, other.y - robot.y
+    if dx * dx + dy * dy > reach * reach:
+        return 0
+    return clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius)
+
+
+@kernel
+def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
+    """Make for the place behind the inner wall that is nearest to go to, away from the opponent; 0: there is none.
+
+    The place lies on the line from the opponent through the middle of the wall: so near behind it that `beside` px are
+    between robot and wall, or past its end where the opponent looks along it.
+    """
+    least = 1e18
+    for i in range(match.wall_count):
+        wall = match.walls[i]
+        ex, ey = 0.5 * (wall.bx - wall.ax), 0.5 * (wall.by - wall.ay)
+        half = sqrt(ex * ex + ey * ey)
+        if not wall.health or half < 1.0:
+            continue
+        mx, my = wall.ax + ex, wall.ay + ey
+        gap = wall.half + RADIUS + mind.numbers.beside
+        nx, ny = -ey / half * gap, ex / half * gap
+        ux, uy = mx - other.x, my - other.y
+        line = sqrt(ux * ux + uy * uy)
+        across = abs(ux * nx + uy * ny) / gap
+        behind = half + gap
+        if across * behind > gap * line:
+            behind = gap * line / across
+        x, y = mx + ux / line * behind, my + uy / line * behind
+        dx, dy = x - robot.x, y - robot.y
+        away = dx * dx + dy * dy
+        inside = RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS
+        if away < least and inside and not match.grid[node_at(x, y)] & BLOCKED:
+            least = away
+            go_to(mind, x, y)
+    return 1 if least < 1e18 else 0
+
+
+@kernel
+def go_to(mind: Any, x: float, y: float) -> None:
+    """Send the navigator on an errand."""
+    mind.errand.wanted, mind.errand.goal_x, mind.errand.goal_y = 1, x, y
+
+
+@kernel
+def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
+    """Turn to the opponent, and fire when the gun points at it."""
+    robot = match.robots[seat]
+    angle = bearing(robot, other.x, other.y)
+    fire = 1 if not match.tanks[seat].cooldown and abs(angle) < mind.numbers.tolerance else 0
+    press(match.actions[seat], 0.0, turning(match, robot, angle, mind.numbers.period), fire, 0)
+
+
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `classic_thoughts` reads what stands above."""
+    from pigaming_app.ai.pitanks import classic_thoughts
+
+    return classic_thoughts.explain(match, seat, mind, known)
+
+
+def machine(name: str, unknown: Unknown) -> Kind:
+    """The machine with these numbers."""
+
+    def wake(mind: Any, seed: int) -> None:
+        for key, number in vars(unknown).items():
+            setattr(mind.numbers, key, number)
+        mind.random = seeded(seed)
+
+    return Kind(name, ClassicMind, think, wake, explain=explain)
+
+
+CLASSIC = machine("classic", Unknown())

@@ -1,0 +1,79 @@
+"""What the frozen machine of the measured results has on its mind: its state, whom it sees, where it hides."""
+
+from collections.abc import Iterator
+from math import atan2, pi
+from typing import Any
+
+from pigaming_app.ai.brain.steering import bearing
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Sight, Thoughts, share, towards
+from pigaming_app.ai.pitanks import classic
+from pigaming_app.ai.qlearning.features import nearest_opponent
+from pigaming_app.games.pitanks.observation import lead
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.sweep import clear
+
+
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """The thoughts of the machine on `seat`."""
+    opponent = nearest_opponent(match, seat)
+    if not mind.errand.wanted or opponent < 0:
+        return Thoughts("starts")
+    robot, other = match.robots[seat], match.robots[opponent]
+    aim = abs(bearing(robot, other.x, other.y))
+    away = max(1.0, _away(robot, other.x, other.y))
+    shows = bool(classic.shows(match, robot, other, mind))
+    ahead, hides = lead(match, seat), mind.state == classic.DEFEND
+    doing, because, chosen = _doing(robot, mind, shows, ahead)
+    return Thoughts(
+        doing=doing,
+        because=because,
+        names={"player": opponent + 1},
+        facts={"state": mind.state, "lead": ahead, "distance": away, "shows": shows, "held_up": mind.held_up},
+        sights=tuple(_sights(match, robot, other, mind, doing)),
+        rose=_rose(robot, other, mind, doing),
+        wishes={
+            "cover": float(hides),
+            "attack": float(mind.state == classic.ATTACK),
+            "fire": share(RADIUS / away / (aim + 1e-9)) if shows else 0.0,
+            "free": 1.0 if mind.state == classic.BREAK_FREE else share(mind.held_up / classic.HELD_UP_TICKS),
+        },
+        chosen=chosen,
+    )
+
+
+def _doing(robot: Any, mind: Any, shows: bool, ahead: int) -> tuple[str, str, str]:
+    """What it is about and why, as keys of the texts, and its wish."""
+    if mind.state == classic.BREAK_FREE:
+        return "free", "stuck", "free"
+    if shows:
+        return "duel", "sees", "fire"
+    if mind.state == classic.ATTACK:
+        return "hunt", "behind" if ahead < 0 else "no_cover", "attack"
+    there = _away(robot, mind.errand.goal_x, mind.errand.goal_y) <= mind.numbers.arrived
+    return "wait" if there else "cover", "ahead" if ahead > 0 else "level", "cover"
+
+
+def _away(robot: Any, x: float, y: float) -> float:
+    dx, dy = x - robot.x, y - robot.y
+    return float((dx * dx + dy * dy) ** 0.5)
+
+
+def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterator[Sight]:
+    seen = bool(clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
+    yield Sight(OPPONENT, other.x, other.y, seen)
+    errand = mind.errand
+    if doing in ("hunt", "cover"):
+        if not errand.straight:
+            yield Sight(WAY, errand.way_x, errand.way_y)
+        if doing == "cover":
+            yield Sight(GOAL, errand.goal_x, errand.goal_y)
+
+
+def _rose(robot: Any, other: Any, mind: Any, doing: str) -> list[float]:
+    """Where it wants to go, or to point."""
+    if doing == "free":
+        return towards(0.0 if mind.escape > 0.0 else pi)
+    if doing in ("duel", "wait"):
+        return towards(bearing(robot, other.x, other.y))
+    errand = mind.errand
+    return towards(atan2(errand.way_y - robot.y, errand.way_x - robot.x) - robot.heading)

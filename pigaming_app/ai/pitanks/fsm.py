@@ -1,0 +1,317 @@
+"""The hand-written opponent of PiTanks, a finite state machine after the original's.
+
+Winning or level it defends: it takes cover behind the nearest inner wall, waits, and fires when an opponent shows.
+Losing it attacks: it closes in round the walls, aims, fires. Two things the original lacked: it backs out when it gets
+nowhere, and when it has waited for long in a level match it goes out and looks (else two of them would wait for ever).
+
+The three strengths differ in how late they see others and how badly they aim, never in speed.
+"""
+
+from math import pi
+from typing import Any
+
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.thoughts import Thoughts
+from pigaming_app.games.pitanks.observation import OTHERS, Eyes, View, see
+from pigaming_app.sim.action import press
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import DT, HZ
+
+PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
+ENGAGE = 420.0  # px at which an attacker no longer closes in
+CROWD = 230.0  # px at which it backs off
+REACH = 760.0  # px from which an attacker fires
+SWERVE = 0.9  # rad to the side of the other while it reloads
+ARRIVED = 26.0  # px from the goal that count as there
+HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
+HELD_UP_TICKS = 30
+FREEING = 20  # ticks of backing out, one way or the other
+NEW_AIM = 25  # ticks after which the error of the aim is drawn anew
+
+DEFEND, ATTACK, BREAK_FREE = range(3)
+
+
+@record
+class FsmMind:
+    """What the machine remembers."""
+
+    eyes: Eyes
+    sight: View  # numba takes no field named view
+    spread: float  # rad, standard deviation of the aim
+    patience: int  # ticks of seeing nobody in a level match after which it goes out
+    dodges: int  # 1: it drives out of the way of bullets
+    random: int
+    state: int
+    since: int  # ticks in this state
+    unseen: int  # ticks since an opponent was last in sight
+    seen: int  # ticks for which one has been in sight
+    target: int  # which of the others; -1: none
+    on_target: int  # ticks for which the gun has pointed at the target
+    bias: float  # rad, the present error of the aim
+    bias_left: int
+    anchor_x: float  # where it was when it last got anywhere
+    anchor_y: float
+    held_up: int  # ticks since
+    escape: float  # the stick while it breaks free
+    escape_turn: float
+    weave: float  # ahead or back while it duels
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+    """Look and decide every PERIOD ticks; in between the stick stays as it is."""
+    if (match.tick + seat) % PERIOD:
+        return
+    see(match, seat, mind.eyes, mind.sight)
+    act(mind.sight, mind, match.actions[seat])
+
+
+@kernel
+def act(view: Any, mind: Any, action: Any) -> None:
+    """The machine: remember, choose the state, let the state act."""
+    mind.since += PERIOD
+    pick_target(view, mind)
+    err(mind)
+    feel_held_up(view, mind, action)
+    state = mind.state
+    if state == DEFEND:
+        after = defend(view, mind, action)
+    elif state == ATTACK:
+        after = attack(view, mind, action)
+    else:
+        after = break_free(view, mind, action)
+    if after != state:
+        mind.state, mind.since = after, 0
+    if mind.dodges and after != BREAK_FREE:
+        dodge(view, action)
+
+
+# ------------------------------------------------------------------------------------------------------------- states
+
+
+@kernel
+def defend(view: Any, mind: Any, action: Any) -> int:
+    """Go behind the nearest wall and wait there; fire at whoever shows."""
+    bored = view.lead == 0 and mind.unseen > mind.patience
+    if view.lead < 0 or bored or not view.cover or mind.target < 0:
+        return ATTACK
+    if view.prize and view.prize_distance < 260.0:
+        go_to(mind, view.prize_x, view.prize_y)
+    else:
+        go_to(mind, view.cover_x, view.cover_y)
+    other = view.others[mind.target]
+    if mind.seen and (other.distance < CROWD or view.goal_distance <= ARRIVED):
+        duel(view, mind, action, other)
+    elif view.goal_distance > ARRIVED:
+        follow(view, mind, action)
+    else:
+        shoot(view, mind, action, 0.0)
+    return DEFEND
+
+
+@kernel
+def attack(view: Any, mind: Any, action: Any) -> int:
+    """Close in on the target round the walls, aim, fire."""
+    if mind.target < 0:
+        press(action, 0.0, 0.0, 0, 0)
+        return ATTACK
+    if view.cover and (view.lead > 0 or (view.lead == 0 and mind.unseen == 0 and mind.since > 4 * HZ)):
+        return DEFEND
+    other = view.others[mind.target]
+    if view.prize and view.prize_distance < 320.0 and view.prize_distance < other.distance:
+        go_to(mind, view.prize_x, view.prize_y)
+    else:
+        go_to(mind, other.x, other.y)
+    if mind.seen and other.distance < REACH:
+        duel(view, mind, action, other)
+    else:
+        follow(view, mind, action)
+    return ATTACK
+
+
+@kernel
+def break_free(view: Any, mind: Any, action: Any) -> int:
+    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
+    press(action, mind.escape, mind.escape_turn, 0, 0)
+    if mind.since < FREEING:
+        return BREAK_FREE
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
+        return BREAK_FREE
+    mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+    return DEFEND if view.lead >= 0 else ATTACK
+
+
+# ------------------------------------------------------------------------------------------------------- what they use
+
+
+@kernel
+def pick_target(view: Any, mind: Any) -> None:
+    """The nearest opponent; one in sight counts as much nearer, and so does the one already chosen."""
+    best, least = -1, 1e9
+    for i in range(OTHERS):
+        other = view.others[i]
+        if not other.present or other.mate:
+            continue
+        cost = other.distance
+        if not other.clear:
+            cost += 500.0
+        if other.protected:
+            cost += 150.0
+        if i == mind.target:
+            cost -= 120.0
+        if cost < least:
+            best, least = i, cost
+    mind.target = best
+    if best >= 0 and view.others[best].clear:
+        mind.seen += PERIOD
+        if mind.seen * DT < mind.eyes.delay:  # not noticed yet
+            return
+        mind.unseen = 0
+    else:
+        mind.seen = 0
+        mind.unseen += PERIOD
+
+
+@kernel
+def err(mind: Any) -> None:
+    """Draw the error of the aim anew now and then: the sum of three even draws is near enough to a bell."""
+    mind.bias_left -= PERIOD
+    if mind.bias_left <= 0:
+        mind.bias_left = NEW_AIM
+        mind.bias = 2.0 * mind.spread * (chance(mind) + chance(mind) + chance(mind) - 1.5)
+        mind.weave = 1.0 if chance(mind) < 0.5 else -1.0
+
+
+@kernel
+def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+    """Notice that it wants to move and gets nowhere."""
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if mind.state == BREAK_FREE:
+        return
+    if dx * dx + dy * dy > HELD_UP * HELD_UP or action.linear == 0.0:
+        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+        return
+    mind.held_up += PERIOD
+    if mind.held_up > HELD_UP_TICKS:
+        mind.state, mind.since = BREAK_FREE, 0
+        back = -1.0 if action.linear > 0.0 else 1.0
+        mind.escape = back if chance(mind) < 0.75 else -back  # the way back may be blocked too
+        mind.escape_turn = 2.0 * chance(mind) - 1.0
+
+
+@kernel
+def go_to(mind: Any, x: float, y: float) -> None:
+    """Send the navigator on an errand; its answer comes with the next view."""
+    errand = mind.eyes.errand
+    errand.wanted, errand.goal_x, errand.goal_y = 1, x, y
+
+
+@kernel
+def turning(view: Any, bearing: float) -> float:
+    """The stick that turns by `bearing` until the next decision, as far as the motors can."""
+    stick: float = 0.75 * (bearing - 0.08 * view.angular) / (view.turn_rate * PERIOD * DT)
+    return stick
+
+
+@kernel
+def follow(view: Any, mind: Any, action: Any) -> None:
+    """Drive on along the way; backwards where that saves a long turn."""
+    bearing, ahead = view.way_bearing, 1.0
+    if abs(bearing) > 2.2 and view.way_distance < 200.0:
+        bearing, ahead = turn_to(bearing + pi), -1.0
+    speed = ahead
+    if abs(bearing) > 0.9:
+        speed = 0.0
+    elif abs(bearing) > 0.4:
+        speed = 0.5 * ahead
+    near = view.goal_distance / 70.0
+    if view.straight and near < 1.0:
+        speed *= 0.3 + 0.7 * near
+    dash = 1 if view.goal_distance > 300.0 and view.turbo > 0.5 and abs(bearing) < 0.3 else 0
+    press(action, speed, turning(view, bearing), snap_shot(view, mind), dash)
+
+
+@kernel
+def shoot(view: Any, mind: Any, action: Any, speed: float) -> None:
+    """Turn to the target's aim, and fire when it is on it."""
+    aim = view.others[mind.target].aim + mind.bias
+    press(action, speed, turning(view, aim), snap_shot(view, mind), 0)
+
+
+@kernel
+def snap_shot(view: Any, mind: Any) -> int:
+    """1 if the gun happens to point at what it wants to hit (or a mine can be laid in flight)."""
+    if mind.target < 0:
+        return 0
+    other = view.others[mind.target]
+    if view.mine and other.distance > 150.0:
+        return 1
+    if not mind.seen or mind.seen * DT < mind.eyes.delay or not view.loaded or other.protected > 20:
+        return 0
+    if abs(other.aim + mind.bias) > 0.7 * RADIUS / (other.distance + 1.0) + 0.02:
+        mind.on_target = 0
+        return 0
+    mind.on_target += PERIOD
+    if mind.on_target * DT < mind.eyes.delay:  # the finger is as late as the eyes
+        return 0
+    mind.on_target = 0
+    return 1
+
+
+@kernel
+def duel(view: Any, mind: Any, action: Any, other: Any) -> None:
+    """Aim and fire while the gun is loaded; swerve across the other's sights while it is not."""
+    ahead = 1.0
+    if other.distance < CROWD:
+        ahead = -1.0
+    elif other.distance < ENGAGE:
+        ahead = mind.weave
+    if view.loaded:
+        shoot(view, mind, action, ahead)
+    else:
+        press(action, ahead, turning(view, other.bearing + SWERVE * mind.weave), 0, 0)
+
+
+@kernel
+def dodge(view: Any, action: Any) -> None:
+    """Drive out of a bullet's path if that is possible in time: across it, to the nearer side."""
+    if view.threat > 0.7:
+        return
+    across = turn_to(
+        view.threat_bearing + 0.5 * pi
+    )  # the bullet comes from threat_bearing; its right hand is across - pi
+    ahead = 1.0 if abs(across) < 0.5 * pi else -1.0
+    lean = abs(abs(across) - 0.5 * pi)  # pi/2: the robot stands across the path; 0: along it
+    if lean < 0.5:
+        return
+    side = 1.0 if view.threat_side >= 0.0 else -1.0
+    action.linear = -side * ahead
+
+
+def wake(delay: float, spread: float, patience: float) -> Any:
+    """A function that fills a fresh mind: seeing `delay` s late, aiming `spread` rad wide, patient for so many s."""
+
+    def fill(mind: FsmMind, seed: int) -> None:
+        mind.eyes.delay, mind.spread, mind.patience = delay, spread, round(patience * HZ)
+        mind.random, mind.target, mind.weave, mind.dodges = seeded(seed), -1, 1.0, 1
+
+    return fill
+
+
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `fsm_thoughts` reads what stands above."""
+    from pigaming_app.ai.pitanks import fsm_thoughts
+
+    return fsm_thoughts.explain(match, seat, mind, known)
+
+
+EASY = Kind("easy", FsmMind, think, wake(delay=0.42, spread=0.14, patience=4.0), explain=explain)
+NORMAL = Kind("normal", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5), explain=explain)
+HARD = Kind("hard", FsmMind, think, wake(delay=0.12, spread=0.045, patience=1.5), explain=explain)
+FSM = Kind("fsm", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5), explain=explain)

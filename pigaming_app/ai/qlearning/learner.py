@@ -1,0 +1,210 @@
+"""Tabular Q-learning in self-play, after the original and M. Humphrys, "Action Selection methods using Reinforcement
+Learning" (1997): n(x, a) counts first, then alpha = 1 / n, so the first visit overwrites Q; actions are drawn from
+exp(Q / T), and T falls while experience grows. A trained robot draws as well, at the last temperature.
+"""
+
+from collections.abc import Callable
+from math import exp
+from typing import Annotated, Any, NamedTuple
+
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.thoughts import Thoughts
+from pigaming_app.ai.brain.unstick import Reflex, free
+from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
+from pigaming_app.ai.qlearning.rewards import Knobs, worth_of_action, worth_of_change
+from pigaming_app.sim.action import press
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import packed, record, unpack
+from pigaming_app.sim.rng import chance, seeded
+
+ACTIONS = 18
+PAIRS = STATES * ACTIONS
+
+
+class Move(NamedTuple):
+    """What one of the 18 actions does with stick and button."""
+
+    linear: float  # -1, 0, 1
+    angular: float
+    fire: int
+
+
+MOVES = tuple(Move(float(k // 6 - 1), float(k // 2 % 3 - 1), k % 2) for k in range(ACTIONS))
+
+
+@record
+class Table:
+    """All that is learned, with all that decides how it goes on."""
+
+    q: Annotated[list[float], PAIRS]  # of action a in state x at [x * ACTIONS + a]
+    n: Annotated[list[int], PAIRS]  # how often it was tried
+    experiences: int
+    pairs: int  # of state and action that were ever tried
+    states: int  # that were ever seen at a decision
+    matches: int  # played to their end
+    random: int
+    knobs: Knobs
+
+
+@record
+class LearnerMind:
+    """What a learner, or a player with a table, remembers between decisions."""
+
+    begun: int  # 0 before the first decision of a match
+    state: int  # at the last decision
+    move: int  # chosen then
+    worth: float  # of that move as such
+    random: int  # of a player; learners draw from their table's
+    reflex: Reflex
+
+
+@kernel
+def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
+    """A learner's turn: at every decision learn from the last one, then choose by what is known so far."""
+    knobs = table.knobs
+    if match.tick % knobs.period:
+        return
+    opponent = nearest_opponent(match, seat)
+    here = situation(match, seat, opponent, knobs.incoming)
+    if mind.begun:
+        take_in(table, mind, here)
+    mind.begun, mind.state = 1, here
+    mind.move = draw(table, here, temperature(table), table)
+    push(match.actions[seat], mind.move)
+    mind.worth = worth_of_action(match, seat, opponent, here, match.actions[seat], knobs)
+
+
+@kernel
+def learn_last(match: Any, seat: int, mind: Any, table: Any) -> None:
+    """The time is up: that ends the match, not the world, so the last decision counts like any other."""
+    if mind.begun and table.knobs.last:
+        take_in(table, mind, situation(match, seat, nearest_opponent(match, seat), table.knobs.incoming))
+    mind.begun = 0
+
+
+@kernel
+def take_in(table: Any, mind: Any, here: int) -> None:
+    """One experience: Q(x, a) += (r + gamma max Q(y, b) - Q(x, a)) / n(x, a)."""
+    knobs, pair = table.knobs, mind.state * ACTIONS + mind.move
+    if table.n[pair] == 0:
+        table.pairs += 1
+        if untried(table, mind.state):
+            table.states += 1
+    table.n[pair] += 1
+    table.experiences += 1
+    reward = mind.worth + worth_of_change(mind.state, here, knobs)
+    wish = reward + knobs.gamma * best(table, here)
+    table.q[pair] += (wish - table.q[pair]) / table.n[pair]
+
+
+@kernel
+def untried(table: Any, state: int) -> int:
+    """1 if no action was ever tried in a state."""
+    for k in range(state * ACTIONS, (state + 1) * ACTIONS):
+        if table.n[k]:
+            return 0
+    return 1
+
+
+@kernel
+def best(table: Any, state: int) -> float:
+    """The most that any action is worth in a state."""
+    most: float = table.q[state * ACTIONS]
+    for k in range(state * ACTIONS + 1, (state + 1) * ACTIONS):
+        if table.q[k] > most:
+            most = table.q[k]
+    return most
+
+
+@kernel
+def temperature(table: Any) -> float:
+    """How daring a learner is: a straight line (or one step) from hot to cold, and cold from the ceiling on."""
+    knobs = table.knobs
+    share = table.experiences / knobs.ceiling if knobs.ramp else 0.0
+    if table.experiences >= knobs.ceiling:
+        cold: float = knobs.cold
+        return cold
+    heat: float = knobs.cold + (1.0 - share) * (knobs.hot - knobs.cold)
+    return heat
+
+
+@kernel
+def draw(table: Any, state: int, heat: float, owner: Any) -> int:
+    """An action by the roulette over exp((Q - max Q) / T), with the generator of `owner`."""
+    first = state * ACTIONS
+    most = best(table, state)
+    whole = 0.0
+    for k in range(first, first + ACTIONS):
+        whole += exp((table.q[k] - most) / heat)
+    ball = chance(owner) * whole
+    for a in range(ACTIONS):
+        ball -= exp((table.q[first + a] - most) / heat)
+        if ball < 0.0:
+            return a
+    return ACTIONS - 1
+
+
+@kernel
+def push(action: Any, move: int) -> None:
+    """Set stick and button to one of the 18 moves."""
+    press(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+    """A trained robot's turn: it draws at the last temperature from a table that no longer changes."""
+    if match.tick % known.knobs.period:
+        return
+    opponent = nearest_opponent(match, seat)
+    if opponent >= 0 and not free(match, seat, opponent, mind, known.knobs.period):
+        mind.state = situation(match, seat, opponent, known.knobs.incoming)
+        mind.move = draw(known, mind.state, known.knobs.cold, mind)
+        push(match.actions[seat], mind.move)
+
+
+def wake(mind: Any, seed: int) -> None:
+    """A fresh mind, which does what the table says and nothing else."""
+    mind.random = seeded(seed)
+
+
+def wake_with_reflex(mind: Any, seed: int) -> None:
+    """A fresh mind that also frees itself where it pushes and gets nowhere."""
+    wake(mind, seed)
+    mind.reflex.on = 1
+
+
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `table_thoughts` reads what stands above."""
+    from pigaming_app.ai.qlearning import thoughts as table_thoughts
+
+    return table_thoughts.explain(match, seat, mind, known)
+
+
+class Learned:
+    """A table that no longer changes, as what a kind of brain knows; its other body is made when first asked for."""
+
+    def __init__(self, table: Any) -> None:
+        """`table`: a plain record, or a row of one NumPy record."""
+        plain = isinstance(table, Table)
+        self.bodies: dict[bool, Any] = {not plain: [table] if plain else table}
+
+    def __call__(self, fast: bool) -> Any:
+        """A row of one table, as a NumPy record (`fast`) or a plain one."""
+        if fast not in self.bodies:
+            known = self.bodies[not fast]
+            self.bodies[fast] = packed(known) if fast else [unpack(Table, known[0])]
+        return self.bodies[fast]
+
+
+def player(name: str, known: Callable[[bool], Any], reflex: bool = False) -> Kind:
+    """The kind of brain that plays by a table; with `reflex`, as on a seat, it also frees itself where it is stuck."""
+    return Kind(name, LearnerMind, think, wake_with_reflex if reflex else wake, known, explain)
+
+
+def preferences(table: Any, state: int, heat: float) -> list[float]:
+    """How likely each of the 18 moves is in a state, at a temperature; `table` in either body."""
+    values = [float(q) for q in table.q[state * ACTIONS : (state + 1) * ACTIONS]]
+    most = max(values)
+    odds = [exp((q - most) / heat) for q in values]
+    whole = sum(odds)
+    return [one / whole for one in odds]

@@ -1,0 +1,187 @@
+"""Trained Q-tables as files: a small .npz with the table, and a head that says what it was trained for and on.
+
+A file is checked at the door, and what is foreign, truncated or edited by hand is refused in one line. The head holds a
+checksum of itself and the table, and the hash of the engine: figures that were measured with another engine may differ.
+"""
+
+import hashlib
+import json
+import warnings
+import zipfile
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from pigaming_app import ASSETS
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.qlearning.features import STATES
+from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, Learned, Table, player
+from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES
+from pigaming_app.sim.kernel import engine_hash
+from pigaming_app.sim.record import dtype
+from pigaming_app.storage.parsing import json_of, read, reason
+from pigaming_app.storage.safe_files import write
+
+FORMAT, RULE = "pigaming-table-1", "pitanks classic"
+MOST_BYTES = 4_000_000  # of a file; one of a whole training has about 60,000
+COUNTS = ("experiences", "pairs", "states", "matches", "random")
+PARTS = {"head": 100_000, "q": 8 * PAIRS + 1000, "n": 8 * PAIRS + 1000}  # bytes that each may have unpacked
+
+
+class TableError(ValueError):
+    """A file that is not a trained table, in one line."""
+
+
+@dataclass(frozen=True)
+class Trained:
+    """A table with what it was trained for. `rows`: one NumPy record of `Table`."""
+
+    name: str
+    reward: int  # 1 or 2 as published; 0: a recipe of one's own
+    recipe: Recipe
+    seed: int
+    arena: str
+    minutes: float  # of each match
+    rows: Any
+    engine: str
+
+    @property
+    def matches(self) -> int:
+        """Matches that it was trained for."""
+        return int(self.rows["matches"][0])
+
+
+def save(trained: Trained, path: Path) -> None:
+    """Write a trained table, whole or not at all. Raises NotSaved."""
+    import numpy as np
+
+    table = trained.rows[0]
+    head: dict[str, Any] = {
+        "format": FORMAT,
+        "rule": RULE,
+        **{key: value for key, value in vars(trained).items() if key not in ("rows", "recipe")},
+        "recipe": asdict(trained.recipe),
+        **{key: int(table[key]) for key in COUNTS},
+    }
+    q, n = table["q"], table["n"].astype("<i4")
+    head["check"] = _check(head, q, n)
+    packed = BytesIO()
+    np.savez_compressed(packed, head=np.array(json.dumps(head)), q=q, n=n)
+    write(path, packed.getvalue())
+
+
+def load(path: Path) -> Trained:
+    """Read and check a trained table. Raises TableError, which names the file and says what is wrong with it."""
+    try:
+        head, q, n = _parts(path)
+        return _trained(head, q, n)
+    except TableError as wrong:
+        raise TableError(f"{path.name}: {wrong}") from None
+
+
+@cache
+def shipped(name: str) -> Learned:
+    """What one of the tables that come with the arcade knows. Raises TableError."""
+    return Learned(load(ASSETS / "brains" / f"{name}.npz").rows)
+
+
+def seat(name: str) -> Kind:
+    """The kind of brain that plays by a table that comes with the arcade; the file is read when it first plays."""
+    return player(name, lambda fast: shipped(name)(fast), reflex=True)
+
+
+def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:
+    """The head and the two arrays of a file, unchecked but for their form."""
+    import numpy as np
+
+    try:
+        raw = read(path, MOST_BYTES)
+    except OSError as error:
+        raise TableError(f"cannot be read ({reason(error)})") from None
+    if not raw.startswith(b"PK"):
+        raise TableError("not a trained table")
+    try:
+        with zipfile.ZipFile(BytesIO(raw)) as archive:
+            sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
+            if len(archive.infolist()) != len(PARTS) or sizes.keys() != {f"{part}.npy" for part in PARTS}:
+                raise TableError("not a trained table")
+            if any(sizes[f"{part}.npy"] > most for part, most in PARTS.items()):
+                raise TableError("not a trained table: a part of it is too big")
+            if archive.testzip() is not None:
+                raise TableError("truncated or damaged")
+        with warnings.catch_warnings(), np.load(BytesIO(raw), allow_pickle=False) as file:
+            warnings.simplefilter("error")  # NumPy warns of some headers
+            head, q, n = json_of(str(file["head"])), file["q"], file["n"]
+        form = q.dtype.str, q.shape, n.dtype.str, n.shape  # NumPy hands out bytes for a part that is no array
+    except TableError:
+        raise
+    except Exception:  # a damaged file makes zipfile and NumPy raise nearly anything
+        raise TableError("truncated or damaged") from None
+    if not isinstance(head, dict) or head.get("format") != FORMAT:
+        raise TableError("not a trained table of this version")
+    if head.get("rule") != RULE:
+        raise TableError("trained by the rules of another game")
+    if form != ("<f8", (PAIRS,), "<i4", (PAIRS,)):
+        raise TableError("the table has another shape")
+    return head, q, n
+
+
+def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
+    """A checked table. Raises TableError."""
+    import numpy as np
+
+    if head.get("check") != _check(head, q, n):
+        raise TableError("it was changed after it was saved")
+    tried = n.reshape(STATES, ACTIONS) > 0
+    counts = {"experiences": int(n.sum()), "pairs": int(tried.sum()), "states": int(tried.any(axis=1).sum())}
+    if not np.isfinite(q).all() or (n < 0).any() or any(head.get(key) != count for key, count in counts.items()):
+        raise TableError("the table contradicts itself")
+    recipe = _recipe(head.get("recipe"))
+    rows = np.zeros(1, dtype(Table))
+    rows["q"], rows["n"] = q, n
+    try:
+        for key in COUNTS:
+            rows[key] = int(head[key])
+        for key, value in asdict(recipe).items():
+            rows["knobs"][key] = value
+        trained = Trained(
+            name=str(head["name"]),
+            reward=int(head["reward"]),
+            recipe=recipe,
+            seed=int(head["seed"]),
+            arena=str(head["arena"]),
+            minutes=float(head["minutes"]),
+            rows=rows,
+            engine=str(head["engine"]),
+        )
+        if trained.matches < 0 or not LEAST_MINUTES <= trained.minutes <= MOST_MINUTES:
+            raise TableError("the table contradicts itself")
+        return trained
+    except TableError:
+        raise
+    except (KeyError, TypeError, ValueError, OverflowError):
+        raise TableError("its head is not complete") from None
+
+
+def _recipe(numbers: Any) -> Recipe:
+    """A checked recipe. Raises TableError."""
+    if not isinstance(numbers, dict) or numbers.keys() != {field.name for field in fields(Recipe)}:
+        raise TableError("its recipe is of another version")
+    try:
+        return Recipe(**numbers)
+    except (TypeError, ValueError) as wrong:
+        raise TableError(f"its recipe: {wrong}") from None
+
+
+def _check(head: Mapping[str, Any], q: Any, n: Any) -> str:
+    told = json.dumps({key: value for key, value in head.items() if key != "check"}, sort_keys=True)
+    return hashlib.sha256(told.encode() + q.tobytes() + n.tobytes()).hexdigest()
+
+
+def of_this_engine(trained: Trained) -> bool:
+    """Whether it was trained on the very rules and physics that are here now."""
+    return trained.engine == engine_hash()

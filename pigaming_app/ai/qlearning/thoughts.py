@@ -1,0 +1,76 @@
+"""What a brain with a Q-table has on its mind: three directions, and how good each of its 18 moves is when they are so.
+
+Its rose says how good it would be to have the opponent in each direction, wall and bullet being where they are.
+"""
+
+from collections.abc import Iterator
+from math import copysign, cos, sin, sqrt
+from typing import Any
+
+from pigaming_app.ai.brain.thoughts import BULLET, OPPONENT, WALL, Move, Sight, Thoughts
+from pigaming_app.ai.qlearning.features import (
+    NONE,
+    SECTORS,
+    WIDE,
+    bullet_of,
+    nearest_opponent,
+    opponent_of,
+    state,
+    wall_of,
+)
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, best, preferences
+
+SIGHT = 190.0  # px: it knows directions, not distances, so this far is shown
+STEERS = {
+    (1, 0): "ahead", (1, -1): "ahead_left", (1, 1): "ahead_right", (0, 0): "stay", (0, -1): "turn_left",
+    (0, 1): "turn_right", (-1, 0): "reverse", (-1, -1): "reverse", (-1, 1): "reverse",
+}  # fmt: skip
+
+
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """The thoughts of the player with a table on `seat`."""
+    opponent = nearest_opponent(match, seat)
+    if match.tick == 0 or opponent < 0:
+        return Thoughts("starts")
+    here = mind.state
+    values = [float(q) for q in known.q[here * ACTIONS : (here + 1) * ACTIONS]]
+    tried = sum(int(n) for n in known.n[here * ACTIONS : (here + 1) * ACTIONS])
+    sure = preferences(known, here, known.knobs.cold)[mind.move]
+    move = _plain(mind.move)
+    return Thoughts(
+        doing="shoot" if move[2] else STEERS[move[:2]],
+        because="tried" if tried else "new",
+        names={"count": tried, "percent": round(100.0 * sure)},
+        facts={
+            "opponent": opponent_of(here),
+            "wall": wall_of(here),
+            "bullet": bullet_of(here),
+            "tried": tried,
+            "likely": sure,
+        },
+        sights=tuple(_sights(match, seat, opponent, here)),
+        rose=_scaled([float(best(known, state(k, wall_of(here), bullet_of(here)))) for k in range(SECTORS)]),
+        moves=dict(zip((_plain(k) for k in range(ACTIONS)), _scaled(values), strict=True)),
+        chosen=move,
+    )
+
+
+def _plain(k: int) -> Move:
+    linear, angular, fire = MOVES[k]
+    return int(linear), int(angular), int(fire)
+
+
+def _scaled(values: list[float]) -> list[float]:
+    """Values so that the farthest from 0 is 1 or -1; roots, since one that hits is worth many times all others."""
+    most = max(abs(value) for value in values)
+    return [copysign(sqrt(abs(value) / most), value) if most else 0.0 for value in values]
+
+
+def _sights(match: Any, seat: int, opponent: int, here: int) -> Iterator[Sight]:
+    """The opponent, and the directions in which it knows the wall and the bullet."""
+    robot, other = match.robots[seat], match.robots[opponent]
+    yield Sight(OPPONENT, other.x, other.y)
+    for kind, sector in ((WALL, wall_of(here)), (BULLET, bullet_of(here))):
+        if sector != NONE:
+            angle = robot.heading + sector * WIDE
+            yield Sight(kind, robot.x + SIGHT * cos(angle), robot.y + SIGHT * sin(angle))

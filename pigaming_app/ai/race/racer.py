@@ -1,0 +1,230 @@
+"""The hand-written driver of Robot Race.
+
+It drives for a point ahead on the fastest line (pure pursuit), shifted aside where another robot is in the way (see
+`passing`), as fast as the line allows; turbo goes where the way is straight. Held up it backs out; past a line that it
+has not crossed it goes back to before it.
+
+The strengths differ in speed, in how much of the fastest line they use and how steadily they keep it, in turbo (easy
+leaves it alone), and in how late they see others. Those below hard keep nearer to the middle, so that there is room
+inside to pass them.
+"""
+
+from math import atan2, cos, pi, sin, sqrt
+from typing import Any
+
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.thoughts import Thoughts
+from pigaming_app.ai.race.overtaking import EDGE, choose_lane, held_to
+from pigaming_app.games.race.observation import OTHERS, Eyes, View, see
+from pigaming_app.sim.action import press
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import chance, seeded
+
+PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
+LOOK = 115.0  # px along the course to the point that it drives for
+LATE = 0.05  # s until the motors follow
+GRIP = 1.8  # of the full turn rate that is asked for before it slows down
+SHIFT = 20.0  # px that a lane may be changed while it drives to that point
+OUT = 30.0  # px from the edge for which it makes when it is off the course
+SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
+SAVE = 80.0  # px to somebody ahead, for whom it saves its turbo
+NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
+HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
+HELD_UP_TICKS = 40
+FREEING = 20  # ticks of backing out, one way or the other
+
+RACE, GO_BACK, BREAK_FREE = range(3)
+
+
+@record
+class RacerMind:
+    """What the driver remembers."""
+
+    eyes: Eyes
+    sight: View  # numba takes no field named view
+    speed: float  # share of full speed that it dares
+    line: float  # share of the way from the middle of the course to the fastest line that it uses
+    spread: float  # px, how far it strays from the line that it means
+    boost: float  # least share of the turbo meter with which it starts turbo; above 1: never
+    random: int
+    state: int
+    since: int  # ticks in this state
+    stray: float  # px, the present error of its line
+    stray_left: int
+    lane: float  # px aside of the middle, where it wants to be
+    anchor_x: float  # where it was when it last got anywhere
+    anchor_y: float
+    held_up: int  # ticks since
+    escape: float  # the stick while it breaks free
+    escape_turn: float
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+    """Look and decide every PERIOD ticks; in between the stick stays as it is."""
+    if (match.tick + seat) % PERIOD:
+        return
+    see(match, seat, mind.eyes, mind.sight)
+    act(mind.sight, mind, match.actions[seat])
+
+
+@kernel
+def act(view: Any, mind: Any, action: Any) -> None:
+    """Remember, choose the state, let the state act."""
+    mind.since += PERIOD
+    err(mind)
+    mind.eyes.look = look_ahead(view)
+    feel_held_up(view, mind, action)
+    if mind.state == BREAK_FREE:
+        after = break_free(view, mind, action)
+    elif mind.state == GO_BACK:
+        after = go_back(view, action)
+    else:
+        after = race(view, mind, action)
+    if after != mind.state:
+        mind.state, mind.since = after, 0
+
+
+# ------------------------------------------------------------------------------------------------------------- states
+
+
+@kernel
+def race(view: Any, mind: Any, action: Any) -> int:
+    """Drive the line, past whoever is in the way."""
+    if view.past > SLACK:
+        return go_back(view, action)
+    mark = view.ahead
+    choose_lane(view, mind)
+    room = mark.half - (EDGE if view.on else OUT)
+    lane = mind.lane + mind.stray
+    keep = view.aside - view.ideal + mark.ideal  # the lane that leads along beside the fastest line
+    lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
+    lane = room if lane > room else -room if lane < -room else lane
+    x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
+    pursue(view, mind, action, x, y)
+    return RACE
+
+
+@kernel
+def go_back(view: Any, action: Any) -> int:
+    """Drive to before a line that was missed, backwards where that saves a long turn."""
+    bearing, ahead = turn_to(atan2(view.return_y - view.y, view.return_x - view.x) - view.heading), 1.0
+    if abs(bearing) > 0.6 * pi and view.past < 200.0:
+        bearing, ahead = turn_to(bearing + pi), -1.0
+    if abs(bearing) > 0.9:
+        ahead = 0.0
+    press(action, ahead, 2.0 * bearing, 0, 0)
+    return GO_BACK if view.past > -SLACK else RACE
+
+
+@kernel
+def break_free(view: Any, mind: Any, action: Any) -> int:
+    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
+    press(action, mind.escape, mind.escape_turn, 0, 0)
+    if mind.since < FREEING:
+        return BREAK_FREE
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
+        return BREAK_FREE
+    mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+    return RACE
+
+
+# ------------------------------------------------------------------------------------------------------- what they use
+
+
+@kernel
+def err(mind: Any) -> None:
+    """Draw the error of the line anew now and then: the sum of three even draws is near enough to a bell."""
+    mind.stray_left -= PERIOD
+    if mind.stray_left <= 0:
+        mind.stray_left = NEW_ERROR
+        mind.stray = 2.0 * mind.spread * (chance(mind) + chance(mind) + chance(mind) - 1.5)
+
+
+@kernel
+def look_ahead(view: Any) -> float:
+    """How far to look next time: off the course not past the next line, so as to cross it and not drive round it."""
+    look = LOOK if view.on else 0.5 * LOOK
+    if not view.on and -view.past - SLACK < look:
+        look = -view.past - SLACK
+    return 20.0 if look < 20.0 else look
+
+
+@kernel
+def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+    """Notice that it wants to move and gets nowhere."""
+    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
+    if mind.state == BREAK_FREE:
+        return
+    if dx * dx + dy * dy > HELD_UP * HELD_UP or (action.linear == 0.0 and action.angular == 0.0):
+        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
+        return
+    mind.held_up += PERIOD
+    if mind.held_up > HELD_UP_TICKS:
+        mind.state, mind.since = BREAK_FREE, 0
+        back = -1.0 if action.linear >= 0.0 else 1.0
+        mind.escape = back if chance(mind) < 0.75 else -back  # the way back may be blocked too
+        mind.escape_turn = 2.0 * chance(mind) - 1.0
+
+
+@kernel
+def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
+    """Drive the arc that leads to a point, as fast as it can be turned along.
+
+    The motors are late, so the arc begins where the robot will be when they follow.
+    """
+    heading = view.heading + LATE * view.angular
+    middle = view.heading + 0.5 * LATE * view.angular
+    dx = x - view.x - LATE * view.linear * cos(middle)
+    dy = y - view.y - LATE * view.linear * sin(middle)
+    bearing = turn_to(atan2(dy, dx) - heading)
+    if abs(bearing) > 1.2:
+        press(action, 0.0, 3.0 * bearing, 0, 0)
+        return
+    bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
+    held = held_to(view, mind)
+    dash = use_turbo(view, mind, bend) if held > 1.0 else 0
+    full = view.speed * (view.turbo_factor if dash else 1.0)
+    speed, most = mind.speed * view.pace, GRIP * view.turn_rate / (abs(bend) * full + 1e-9)
+    speed = speed if speed < most else most
+    speed = speed if speed < held else held
+    press(action, speed, bend * speed * full / view.turn_rate, 0, dash)
+
+
+@kernel
+def use_turbo(view: Any, mind: Any, bend: float) -> int:
+    """1 where the way is straight enough, the meter full enough to begin, and it is not wanted for somebody ahead."""
+    if not view.on or abs(bend) * view.turbo_factor * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
+        return 0
+    for i in range(OTHERS):
+        other = view.others[i]
+        if other.present and other.ahead > 0.0 and other.distance < SAVE:
+            return 0
+    return 1 if view.boosting or view.turbo > mind.boost else 0
+
+
+def wake(speed: float, line: float, spread: float, boost: float, delay: float) -> Any:
+    """A function that fills a fresh mind: see RacerMind; seeing others `delay` s late."""
+
+    def fill(mind: RacerMind, seed: int) -> None:
+        mind.eyes.delay, mind.eyes.look = delay, LOOK
+        mind.speed, mind.line, mind.spread, mind.boost = speed, line, spread, boost
+        mind.random = seeded(seed)
+
+    return fill
+
+
+def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+    """What it has on its mind; `racer_thoughts` reads what stands above."""
+    from pigaming_app.ai.race import racer_thoughts
+
+    return racer_thoughts.explain(match, seat, mind, known)
+
+
+EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35), explain=explain)
+NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2), explain=explain)
+HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05), explain=explain)

@@ -1,0 +1,183 @@
+"""Which Python does the job, and handing it over. Standard library only, and fast: it runs before every start.
+
+`.venv` beside main.py is used once it is ready: the file `.venv/ready` says what was installed whole, and on which
+Python. Else this very Python is, if it has every package. Else install.py makes `.venv` ready.
+"""
+
+import os
+import re
+import sys
+import zlib
+from collections.abc import Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROJECT = ROOT / "pyproject.toml"
+ARCADE = "arcade"  # the group of packages that every job needs; the others are the extras of pyproject.toml
+NEEDED = {"test": {"test"}}
+WISHED = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # the job goes on without
+WISHED |= {"test": {"train", "hardware", "plots"}}
+MEANT = {  # words that mean an extra wherever they stand
+    **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate"), "hardware"),
+    **dict.fromkeys(("--curve", "--plots"), "plots"),
+}
+WINDOWS = sys.platform == "win32"
+HANDED_OVER = "pigaming"  # python -X pigaming: main.py need not ask again
+
+
+class Trouble(Exception):
+    """It cannot start. The text is one sentence, with what to do about it."""
+
+
+def start(args: list[str]) -> int:
+    """Do the job of these arguments; its exit code, 2 where it cannot start, 130 where the installing was stopped."""
+    job = "" if not args or {"-h", "--help"} & set(args) else args[0]
+    try:
+        wished = WISHED.get(job, set()) | {MEANT[word] for word in args if word in MEANT}
+        place = environment({ARCADE} | NEEDED.get(job, set()), wished)
+        return arcade(args) if place is None else hand_over(place, args)
+    except Trouble as trouble:
+        say(str(trouble))
+        return 2
+    except KeyboardInterrupt:
+        say("stopped. Start it again, and it goes on from there.")
+        return 130
+
+
+def say(text: str) -> None:
+    """One plain line on standard error; standard output belongs to the job."""
+    print(f"PiGaming: {text}", file=sys.stderr, flush=True)
+
+
+def arcade(args: list[str]) -> int:
+    """Do the job in this Python."""
+    from pigaming_app.cli import main
+
+    return main(args)
+
+
+def hand_over(place: Path, args: list[str]) -> int:
+    """Do the job in that environment: instead of this process, or on Windows below it."""
+    if both_pygames(packages([site_packages(place)])):
+        say(f"{place} holds both pygame and pygame-ce, which overwrite each other: delete it and start again.")
+    command = [str(python_of(place)), "-X", HANDED_OVER, str(ROOT / "main.py"), *args]
+    try:
+        if not WINDOWS:
+            os.execv(command[0], command)
+        import subprocess
+
+        process = subprocess.Popen(command)
+    except OSError as error:
+        raise Trouble(f"{command[0]} cannot be run ({error.strerror}).") from error
+    while True:
+        try:
+            return process.wait()
+        except KeyboardInterrupt:  # the job heard it as well, and decides
+            continue
+
+
+def environment(needed: set[str], wished: set[str]) -> Path | None:
+    """The environment that has these groups, made ready if none has; None: this very Python. Raises Trouble."""
+    groups = needed | wished
+    place = next((place for place in places() if groups <= ready(place)), None)
+    if place and sys.prefix == sys.base_prefix:
+        return place
+    own = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
+    if not both_pygames(own) and not any(lacks(own, one) for one in requirements(groups)):
+        return None
+    if place:
+        return place
+    if both_pygames(own):
+        say(f"{sys.prefix} holds both pygame and pygame-ce, which overwrite each other: it is not used.")
+    from pigaming_app.boot.environment import prepared
+
+    return prepared(needed, wished)
+
+
+def requirements(groups: Iterable[str]) -> list[str]:
+    """What the groups are made of, in the words of pyproject.toml. Raises Trouble."""
+    import tomllib
+
+    try:
+        project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
+        listed = {**project["optional-dependencies"], ARCADE: project["dependencies"]}
+        return [one for group in sorted(groups) for one in listed[group]]
+    except (OSError, ValueError, KeyError) as error:
+        raise Trouble(f"{PROJECT} cannot be read ({error}): get the whole folder again.") from error
+
+
+def packages(folders: Iterable[Path]) -> dict[str, str]:
+    """Name and version of every package installed in the folders. A tenth of the time of importlib.metadata."""
+    found: dict[str, str] = {}
+    for folder in folders:
+        for entry in os.listdir(folder) if folder.is_dir() else []:
+            if match := re.fullmatch(r"(.+?)-(\d[^-]*)(?:-py[\d.]+)?\.(?:dist|egg)-info", entry):
+                found.setdefault(re.sub(r"[-_.]+", "-", match[1]).lower(), match[2])
+    return found
+
+
+def lacks(installed: dict[str, str], requirement: str) -> bool:
+    """Whether nothing there satisfies the requirement, of the form `name>=1.2,<3`."""
+    name, *bounds = re.split(r"(?=[<>])|,", requirement)
+    if name not in installed:
+        return True
+    version = _numbers(installed[name])
+    return any(
+        version < _numbers(bound) if bound.startswith(">=") else version >= _numbers(bound) for bound in bounds if bound
+    )
+
+
+def _numbers(text: str) -> list[int]:
+    """The leading numbers of a version or a bound: 2.5.8.dev1 is [2, 5, 8]."""
+    match = re.search(r"\d+(\.\d+)*", text)
+    return [int(part) for part in match[0].split(".")] if match else []
+
+
+def both_pygames(installed: dict[str, str]) -> bool:
+    """Whether the two libraries that write the same files are both there."""
+    return "pygame" in installed and "pygame-ce" in installed
+
+
+def places() -> list[Path]:
+    """Where the environment may be: beside main.py; where that cannot be written, among the user's own files."""
+    home = Path.home()
+    if override := os.environ.get("PIGAMING_HOME"):
+        data = Path(override)
+    elif WINDOWS:
+        data = Path(os.environ.get("LOCALAPPDATA") or home, "pigaming")
+    elif sys.platform == "darwin":
+        data = home / "Library" / "Application Support" / "pigaming"
+    else:
+        data = Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share", "pigaming")
+    return [ROOT / ".venv", data / f"venv-{zlib.crc32(bytes(ROOT)):08x}"]
+
+
+def python_of(place: Path) -> Path:
+    """The interpreter of an environment."""
+    return place / "Scripts" / "python.exe" if WINDOWS else place / "bin" / "python"
+
+
+def site_packages(place: Path) -> Path:
+    """Where an environment keeps its packages."""
+    if WINDOWS:
+        return place / "Lib" / "site-packages"
+    return next(place.glob("lib/python3*/site-packages"), place / "lib")
+
+
+def ready(place: Path) -> set[str]:
+    """The groups that were installed whole, if pyproject.toml and the Python below are still the same; else none."""
+    try:
+        standing, *groups = (place / "ready").read_text(encoding="utf-8").splitlines()
+        return set(groups) if standing == standing_on(place) else set()
+    except (OSError, ValueError):
+        return set()
+
+
+def standing_on(place: Path) -> str:
+    """What an environment stands on: it changes with pyproject.toml and its Python. OSError if one of them is gone."""
+    python = python_of(place).resolve()
+    if WINDOWS:  # where that is only a launcher
+        lines = (place / "pyvenv.cfg").read_text(encoding="utf-8").splitlines()
+        python = Path(next(line.partition("=")[2].strip() for line in lines if line.startswith("home")), "python.exe")
+    about = python.stat()
+    return f"{zlib.crc32(PROJECT.read_bytes()):08x} {python} {about.st_size} {int(about.st_mtime)}"

@@ -1,0 +1,193 @@
+"""Robot Factory: what a file holds besides title and four [[start]]: 1st and 3rd are ICE's, 2nd and 4th are FIRE's.
+
+[aisle]                  # where people walk and rest
+at = [650, 50]           # its upper left corner, px
+size = [300, 800]
+
+[[warehouse]]            # four of them: an entry and an exit for each team
+team = "ice"             # or "fire"
+kind = "entry"           # or "exit"
+at = [66, 96]            # its first slot; three more lie below, 88 px apart
+
+[[machine]]              # four of them, two of each kind; its body is a square of 132 px
+kind = "A"               # or "B"
+at = [520, 216]
+flow = "down"            # up, down, left or right: from its input slot to its output slot
+worker = "right"         # the side on which its worker stands, across the flow
+
+[[worker]]               # three of them: where they rest
+at = [800, 450]
+"""
+
+from dataclasses import dataclass
+from math import sqrt
+
+from pigaming_app.games.factory.state import (
+    ENTRY,
+    EXIT,
+    FIRE,
+    ICE,
+    INPUT,
+    OUTPUT,
+    SHELVES,
+    TEAMS,
+    WORKERS,
+    A,
+    B,
+)
+from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
+from pigaming_app.sim.contact import in_wall
+from pigaming_app.sim.flow_field import Errand, free_node, grow
+from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, World
+
+WAYS = {"right": (1, 0), "left": (-1, 0), "down": (0, 1), "up": (0, -1)}
+TEAM_NAMES = {"ice": ICE, "fire": FIRE}
+KINDS = {"entry": ENTRY, "exit": EXIT}
+BODY = 66.0  # px from a machine's middle to its sides
+ROUND = 36.0  # px, radius of a body's corners
+SLOT_AT, SPOT_AT = 126.0, 114.0  # px from a machine's middle
+SHELF = 88.0  # px from one slot of a warehouse to the next
+FORK, REACH = 64.0, 40.0  # px from a robot's centre to its fork, and from there to a slot
+
+
+@dataclass(frozen=True)
+class SlotSpec:
+    """A slot; team or machine is -1."""
+
+    kind: int
+    team: int
+    machine: int
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class MachineSpec:
+    """A machine, with the place of its worker; `flow`: from input to output."""
+
+    kind: int
+    x: float
+    y: float
+    spot_x: float
+    spot_y: float
+    flow: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Floor:
+    """What a floor has besides walls and starts. `slots` in the order of `Factory.slots`."""
+
+    slots: tuple[SlotSpec, ...]
+    machines: tuple[MachineSpec, ...]
+    homes: tuple[tuple[float, float], ...]
+    aisle: tuple[float, float, float, float]
+
+
+def read(table: Table) -> Layout:
+    """A floor is warehouses, machines, an aisle and people. Raises Wrong."""
+    table.only("title", "start", "aisle", "warehouse", "machine", "worker")
+    starts = read_starts(table)
+    machines = tuple(_machine(entry) for entry in table.tables("machine"))
+    if sorted(one.kind for one in machines) != [A, A, B, B]:
+        raise table.wrong("machine", "two machines of kind A and two of kind B are needed")
+    homes = tuple(_home(entry) for entry in table.tables("worker"))
+    if len(homes) != WORKERS:
+        raise table.wrong("worker", f"{len(homes)} workers, but there must be {WORKERS}")
+    slots = (*_shelves(table), *_machine_slots(machines))
+    floor = Floor(slots, machines, homes, _aisle(table.table("aisle")))
+    layout = Layout(tuple(wall for one in machines for wall in _body(one)), starts, floor)
+    _check_ways(layout, floor)
+    return layout
+
+
+def _machine(entry: Table) -> MachineSpec:
+    entry.only("kind", "at", "flow", "worker")
+    kind = A if entry.word("kind", ("A", "B")) == "A" else B
+    x, y = entry.point("at")
+    if not (BODY <= x <= WIDTH - BODY and BODY <= y <= HEIGHT - BODY):
+        raise entry.wrong("at", "its body would stand outside the arena")
+    flow, side = WAYS[entry.word("flow", tuple(WAYS))], WAYS[entry.word("worker", tuple(WAYS))]
+    if flow[0] * side[0] + flow[1] * side[1]:
+        raise entry.wrong("worker", "must be a side across the flow")
+    return MachineSpec(kind, x, y, x + SPOT_AT * side[0], y + SPOT_AT * side[1], flow)
+
+
+def _home(entry: Table) -> tuple[float, float]:
+    entry.only("at")
+    return entry.point("at")
+
+
+def _aisle(entry: Table) -> tuple[float, float, float, float]:
+    entry.only("at", "size")
+    x, y = entry.point("at")
+    w, h = entry.numbers("size", 2, 50.0, WIDTH)
+    if x + w > WIDTH or y + h > HEIGHT:
+        raise entry.wrong("size", "the aisle ends outside the arena")
+    return x, y, w, h
+
+
+def _shelves(table: Table) -> tuple[SlotSpec, ...]:
+    """The slots of all warehouses, in the order of `Factory.slots`. Raises Wrong."""
+    there: dict[tuple[int, int], tuple[float, float]] = {}
+    for entry in table.tables("warehouse"):
+        entry.only("team", "kind", "at")
+        key = TEAM_NAMES[entry.word("team", tuple(TEAM_NAMES))], KINDS[entry.word("kind", tuple(KINDS))]
+        if key in there:
+            raise entry.wrong("kind", "this team has one already")
+        x, y = entry.point("at")
+        if y + (SHELVES - 1) * SHELF > HEIGHT - 36:
+            raise entry.wrong("at", "its last slot would lie outside the arena")
+        there[key] = x, y
+    if len(there) != TEAMS * len(KINDS):
+        raise table.wrong("warehouse", "each team needs an entry and an exit")
+    return tuple(
+        SlotSpec(kind, team, -1, there[team, kind][0], there[team, kind][1] + i * SHELF)
+        for team in range(TEAMS)
+        for kind in (ENTRY, EXIT)
+        for i in range(SHELVES)
+    )
+
+
+def _machine_slots(machines: tuple[MachineSpec, ...]) -> tuple[SlotSpec, ...]:
+    return tuple(
+        SlotSpec(kind, -1, m, one.x + sign * SLOT_AT * one.flow[0], one.y + sign * SLOT_AT * one.flow[1])
+        for m, one in enumerate(machines)
+        for kind, sign in ((INPUT, -1), (OUTPUT, 1))
+    )
+
+
+def _body(one: MachineSpec) -> tuple[WallSpec, WallSpec]:
+    """Two thick strokes that fill the square."""
+    inner = BODY - ROUND
+    upper, lower = (
+        WallSpec(one.x - inner, one.y + dy, one.x + inner, one.y + dy, ROUND, SOLID) for dy in (-inner, inner)
+    )
+    return upper, lower
+
+
+def _check_ways(layout: Layout, floor: Floor) -> None:
+    """Robots get to every slot, and people to every machine. Raises Wrong."""
+    world = World()
+    build(world, Arena("", {}, layout.walls, layout.starts, "", floor))
+    field = Errand()
+    grow(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
+    free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
+    for k, slot in enumerate(floor.slots):
+        if not any(FORK - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < FORK + REACH for x, y in free):
+            raise Wrong(_name(k, slot), f"no robot can reach its slot at ({slot.x:g}, {slot.y:g})")
+        for other in floor.slots[:k]:
+            if abs(slot.x - other.x) < 68 and abs(slot.y - other.y) < 68:
+                raise Wrong(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies over another")
+        for m, one in enumerate(floor.machines):
+            if slot.machine != m and abs(slot.x - one.x) < BODY + 34 and abs(slot.y - one.y) < BODY + 34:
+                raise Wrong(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies in machine[{m + 1}]")
+    places = [(f"machine[{m + 1}].worker", one.spot_x, one.spot_y) for m, one in enumerate(floor.machines)]
+    places += [(f"worker[{i + 1}].at", x, y) for i, (x, y) in enumerate(floor.homes)]
+    for key, x, y in places:
+        if in_wall(world, x, y) or not field.reach[free_node(world, x, y)]:
+            raise Wrong(key, f"no person can get to ({x:g}, {y:g})")
+
+
+def _name(k: int, slot: SlotSpec) -> str:
+    return f"machine[{slot.machine + 1}]" if slot.machine >= 0 else f"warehouse[{k // SHELVES + 1}]"

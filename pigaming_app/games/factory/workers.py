@@ -1,0 +1,235 @@
+"""Robot Factory: machines and the people who work at them.
+
+A worker who rests is sent to the machine that has something for it: a fitting pallet in the input while the output is
+free, or a finished pallet that its owner has not collected for too long, which it carries to the owner's entry. One who
+gets no nearer for a while gives up: another who rests is sent, and other machines come first.
+"""
+
+from typing import Any
+
+from pigaming_app.games.factory.pallets import first_slot, free_shelf, move
+from pigaming_app.games.factory.pedestrians import look, send, walk
+from pigaming_app.games.factory.state import (
+    BY_WORKER,
+    CARRYING,
+    DONE,
+    ENTRY,
+    FETCHING,
+    GOING,
+    HALF,
+    IN_MACHINE,
+    IN_SLOT,
+    MACHINE_SLOTS,
+    MACHINES,
+    RAW,
+    RESTING,
+    WAITING,
+    WORKERS,
+    WORKING,
+    A,
+)
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.world import WIDTH
+
+BESIDE = 96.0  # px from a slot at which a worker stands to take or put down
+
+
+@kernel
+def fits(kind: int, state: int) -> bool:
+    """Whether a machine of a kind can work on a pallet in a state."""
+    return bool(state == (RAW if kind == A else HALF))
+
+
+@kernel
+def run_crew(match: Any) -> None:
+    """One tick of all machines and people."""
+    for m in range(MACHINES):
+        run_machine(match, m)
+    call_worker(match)
+    for w in range(WORKERS):
+        run_worker(match, w)
+
+
+@kernel
+def run_machine(match: Any, m: int) -> None:
+    """Process, and put what is done into the output, which has been kept free for it."""
+    machine = match.machines[m]
+    if not machine.pallet and match.slots[MACHINE_SLOTS + 2 * m].pallet and has_work(match, m):
+        machine.stalled += 1
+    elif machine.stalled:
+        machine.stalled -= 1
+    if not machine.pallet:
+        if not match.slots[MACHINE_SLOTS + 2 * m + 1].pallet:
+            machine.keeps = 0
+        return
+    machine.left -= 1
+    if machine.left > 0:
+        return
+    p = machine.pallet - 1
+    pallet = match.pallets[p]
+    pallet.state = HALF if machine.kind == A else DONE
+    pallet.steps += 1
+    match.loads[pallet.fed - 1].steps += 1
+    move(match, p, IN_SLOT, MACHINE_SLOTS + 2 * m + 1)
+
+
+@kernel
+def has_work(match: Any, m: int) -> bool:
+    """Whether a machine could begin with what lies in its input."""
+    machine = match.machines[m]
+    p, done = match.slots[MACHINE_SLOTS + 2 * m].pallet, match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
+    return bool(p and not done and not machine.pallet and fits(machine.kind, match.pallets[p - 1].state))
+
+
+@kernel
+def is_late(match: Any, m: int) -> bool:
+    """Whether a finished pallet has waited too long in a machine's output."""
+    p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
+    return bool(p and match.pallets[p - 1].waited >= match.rules.collect)
+
+
+@kernel
+def call_worker(match: Any) -> None:
+    """Send a worker who rests to the machine at which something has waited longest: one of them a tick."""
+    m, longest = -1, -1
+    for i in range(MACHINES):
+        machine = match.machines[i]
+        if not machine.worker and (has_work(match, i) or is_late(match, i)):
+            lies = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
+            waited = match.pallets[match.slots[lies].pallet - 1].waited
+            if machine.refused:
+                waited = min(waited, match.tick - machine.refused_at)
+            if waited > longest:
+                m, longest = i, waited
+    if m < 0:
+        return
+    w = nearest_resting(match, match.machines[m])
+    if w < 0:
+        return
+    worker, machine = match.workers[w], match.machines[m]
+    worker.task, worker.machine, machine.worker = GOING, m, w + 1
+    if has_work(match, m):
+        send(worker, machine.spot_x, machine.spot_y)
+    else:
+        worker.task = FETCHING
+        stand_at(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
+
+
+@kernel
+def nearest_resting(match: Any, machine: Any) -> int:
+    """The worker who rests nearest to a machine, preferably not the one who could not get there; -1: nobody rests."""
+    best, least = -1, 1e18
+    for w in range(WORKERS):
+        worker = match.workers[w]
+        dx, dy = worker.x - machine.spot_x, worker.y - machine.spot_y
+        away = dx * dx + dy * dy + (1e12 if machine.refused == w + 1 else 0.0)
+        if worker.task == RESTING and away < least:
+            best, least = w, away
+    return best
+
+
+@kernel
+def stand_at(worker: Any, slot: Any, machine: Any) -> None:
+    """Send a worker to the side of a machine's slot on which its own place is."""
+    dx, dy = machine.spot_x - machine.x, machine.spot_y - machine.y
+    side = BESIDE / 114.0
+    send(worker, slot.x + side * dx, slot.y + side * dy)
+
+
+@kernel
+def run_worker(match: Any, w: int) -> None:
+    """One tick of one person."""
+    worker, rules = match.workers[w], match.rules
+    if worker.task == WORKING:
+        work(match, w)
+        return
+    there = walk(match, worker, rules.walk, rules.worker_radius)
+    if worker.machine >= 0 and worker.held_up >= rules.patience:
+        give_up(match, w)
+    elif worker.task == GOING:
+        if not has_work(match, worker.machine):
+            go_home(match, worker)
+        elif there:
+            begin(match, w)
+    elif worker.task == FETCHING:
+        fetch(match, w, there)
+    elif worker.task == CARRYING and there:
+        put_down(match, w)
+
+
+@kernel
+def give_up(match: Any, w: int) -> None:
+    """Leave a machine that this worker cannot get to, to others."""
+    machine = match.machines[match.workers[w].machine]
+    machine.refused, machine.refused_at = w + 1, match.tick
+    go_home(match, match.workers[w])
+
+
+@kernel
+def begin(match: Any, w: int) -> None:
+    """Take what lies in the input into the machine."""
+    worker = match.workers[w]
+    m = worker.machine
+    machine, p = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1
+    move(match, p, IN_MACHINE, m)
+    machine.left, machine.keeps = match.rules.process, p + 1
+    machine.stalled, machine.refused = 0, 0
+    worker.task, worker.walking = WORKING, 0
+
+
+@kernel
+def work(match: Any, w: int) -> None:
+    """Stand at the machine, face it, and go on or go home when it is done."""
+    worker = match.workers[w]
+    machine = match.machines[worker.machine]
+    look(worker, machine.x - worker.x, machine.y - worker.y)
+    if not machine.pallet:
+        go_home(match, worker)
+
+
+@kernel
+def fetch(match: Any, w: int, there: int) -> None:
+    """Take a pallet that waits too long out of the output, unless its owner came after all."""
+    worker = match.workers[w]
+    m = worker.machine
+    if not is_late(match, m):
+        go_home(match, worker)
+        return
+    if not there:
+        return
+    p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet - 1
+    team = match.pallets[p].team
+    shelf = free_shelf(match, team, ENTRY)
+    worker.shelf = shelf if shelf >= 0 else first_slot(team, ENTRY)
+    move(match, p, BY_WORKER, w)
+    match.machines[m].worker, match.machines[m].refused = 0, 0
+    worker.machine, worker.task = -1, CARRYING
+    send_to_shelf(match, worker)
+
+
+@kernel
+def put_down(match: Any, w: int) -> None:
+    """Put a pallet onto the shelf; if there is no room, to those that wait outside for a shelf."""
+    worker = match.workers[w]
+    p = worker.pallet - 1
+    if match.slots[worker.shelf].pallet:
+        move(match, p, WAITING, match.pallets[p].team)
+    else:
+        move(match, p, IN_SLOT, worker.shelf)
+    go_home(match, worker)
+
+
+@kernel
+def send_to_shelf(match: Any, worker: Any) -> None:
+    """Send a worker to the front of the shelf for which it carries something."""
+    slot = match.slots[worker.shelf]
+    send(worker, slot.x + (BESIDE if slot.x < 0.5 * WIDTH else -BESIDE), slot.y)
+
+
+@kernel
+def go_home(match: Any, worker: Any) -> None:
+    """Send a worker to where it rests; the machine it was busy with is free for another."""
+    if worker.machine >= 0:
+        match.machines[worker.machine].worker = 0
+    worker.machine, worker.task = -1, RESTING
+    send(worker, worker.home_x, worker.home_y)

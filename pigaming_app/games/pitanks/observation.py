@@ -1,0 +1,239 @@
+"""What a brain sees of a match of PiTanks: named numbers, as from the robot's own seat.
+
+Bearings are relative to the own heading, in (-pi, pi], clockwise positive. Others are seen as they were `delay` seconds
+ago, by their speed; the own pose is never delayed. `clear` says that nothing stands between.
+"""
+
+from math import atan2, cos, sin, sqrt
+from typing import Annotated, Any
+
+from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, SHIELD
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.flow_field import Errand, find_way
+from pigaming_app.sim.grid import BLOCKED, node_at
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+
+OTHERS = ROBOTS - 1
+BESIDE = 22.0  # px between a robot in cover and the wall
+
+
+@record
+class Eyes:
+    """What shapes the view of one seat, and what it asks of the navigator."""
+
+    delay: float  # s by which others are seen late
+    errand: Errand
+
+
+@record
+class Other:
+    """Another robot, in the order of the seats after one's own. Team mates are seen too."""
+
+    present: int
+    mate: int
+    x: float
+    y: float
+    distance: float
+    bearing: float
+    aim: float  # bearing at which to fire to meet it
+    facing: float  # where it points, relative to the way from it to here: 0: straight at me
+    clear: int
+    protected: int
+    score: int
+
+
+@record
+class View:
+    """What one seat sees."""
+
+    x: float
+    y: float
+    heading: float
+    linear: float
+    angular: float
+    turn_rate: float
+    lead: int  # own (team's) score less the best other's
+    seconds_left: float
+    loaded: int  # 1: the gun is ready
+    turbo: float
+    protected: int
+    shield: int
+    mine: int
+    others: Annotated[list[Other], OTHERS]
+    cover: int  # 1: there is one, from the nearest opponent, behind the inner wall that is nearest to go to
+    cover_x: float
+    cover_y: float
+    cover_distance: float
+    threat: float  # s until the soonest bullet hits, if nobody moves; 9: none
+    threat_bearing: float  # where it comes from
+    threat_side: float  # px by which its path passes this robot's centre; positive: on the right of the bullet
+    prize: int  # 1: a pick-up lies there
+    prize_x: float
+    prize_y: float
+    prize_distance: float
+    way_x: float  # where to drive now to get on with the errand
+    way_y: float
+    way_bearing: float
+    way_distance: float
+    goal_distance: float  # as the crow flies
+    straight: int  # 1: nothing is in the way to the goal
+
+
+@kernel
+def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+    """Fill the view of one seat."""
+    robot, tank = match.robots[seat], match.tanks[seat]
+    view.x, view.y, view.heading = robot.x, robot.y, robot.heading
+    view.linear, view.angular, view.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
+    view.seconds_left = (match.rules.ticks - match.tick) * 0.02
+    view.loaded = 0 if tank.cooldown else 1
+    view.turbo, view.protected = robot.turbo, tank.protected
+    view.shield, view.mine = tank.powers[SHIELD], tank.powers[MINE]
+    nearest = -1
+    for i in range(OTHERS):
+        j = (seat + 1 + i) % ROBOTS
+        other = view.others[i]
+        see_other(match, robot, j, eyes.delay, other)
+        if other.present and not other.mate and (nearest < 0 or other.distance < view.others[nearest].distance):
+            nearest = i
+    view.lead = lead(match, seat)
+    view.cover = 0
+    if nearest >= 0:
+        see_cover(match, robot, view.others[nearest].x, view.others[nearest].y, view)
+    see_threat(match, seat, robot, eyes.delay, view)
+    view.prize = 0
+    if match.rules.pickups:
+        see_prize(match, robot, view)
+    see_way(match, robot, eyes, view)
+
+
+@kernel
+def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
+    """Robot j as `robot` sees it."""
+    seen = match.robots[j]
+    other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
+    if not seen.present:
+        return
+    vx, vy = seen.linear * cos(seen.heading), seen.linear * sin(seen.heading)
+    other.x, other.y = seen.x - delay * vx, seen.y - delay * vy
+    dx, dy = other.x - robot.x, other.y - robot.y
+    other.distance = sqrt(dx * dx + dy * dy)
+    way = atan2(dy, dx)
+    other.bearing = turn_to(way - robot.heading)
+    soon = other.distance / match.rules.bullet_speed + delay
+    other.aim = turn_to(atan2(dy + soon * vy, dx + soon * vx) - robot.heading)
+    other.facing = turn_to(seen.heading - delay * seen.angular - way - 3.141592653589793)
+    other.clear = clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
+    other.protected = match.tanks[j].protected
+    other.score = seen.score
+
+
+@kernel
+def lead(match: Any, seat: int) -> int:
+    """The score of the seat's team less that of the best other team."""
+    own, best = 0, -1000000
+    for j in range(ROBOTS):
+        robot = match.robots[j]
+        if not robot.present:
+            continue
+        total = 0
+        for mate in match.robots:
+            if mate.present and mate.team == robot.team:
+                total += mate.score
+        if robot.team == match.robots[seat].team:
+            own = total
+        elif total > best:
+            best = total
+    return own - best
+
+
+@kernel
+def see_cover(match: Any, robot: Any, from_x: float, from_y: float, view: Any) -> None:
+    """The nearest place from which an inner wall hides this robot from (from_x, from_y)."""
+    least = 1e9
+    for i in range(match.wall_count):
+        wall = match.walls[i]
+        if not wall.health:
+            continue
+        mx, my = 0.5 * (wall.ax + wall.bx), 0.5 * (wall.ay + wall.by)
+        ex, ey = wall.bx - wall.ax, wall.by - wall.ay
+        length = sqrt(ex * ex + ey * ey)
+        if length < 1.0:
+            continue
+        gap = wall.half + RADIUS + BESIDE
+        nx, ny = -ey / length * gap, ex / length * gap
+        if nx * (mx - from_x) + ny * (my - from_y) < 0.0:
+            nx, ny = -nx, -ny
+        x, y = mx + nx, my + ny
+        dx, dy = x - robot.x, y - robot.y
+        away = dx * dx + dy * dy
+        if (
+            away < least
+            and RADIUS < x < WIDTH - RADIUS
+            and RADIUS < y < HEIGHT - RADIUS
+            and not match.grid[node_at(x, y)] & BLOCKED
+        ):
+            least = away
+            view.cover, view.cover_x, view.cover_y = 1, x, y
+    if view.cover:
+        view.cover_distance = sqrt(least)
+
+
+@kernel
+def see_threat(match: Any, seat: int, robot: Any, delay: float, view: Any) -> None:
+    """The soonest bullet that would hit if nobody moved; those fired less than `delay` ago are not seen yet."""
+    view.threat, view.threat_bearing, view.threat_side = 9.0, 0.0, 0.0
+    reach = RADIUS + match.rules.bullet_radius
+    speed2 = match.rules.bullet_speed * match.rules.bullet_speed
+    for k in range(ROBOTS):
+        owner = match.robots[k]
+        if not owner.present or owner.team == robot.team:
+            continue
+        for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
+            bullet = match.bullets[i]
+            if not bullet.alive:
+                continue
+            px, py = robot.x - bullet.x, robot.y - bullet.y
+            ahead = (px * bullet.vx + py * bullet.vy) / speed2
+            if ahead <= 0.0 or ahead >= view.threat:
+                continue
+            side = (bullet.vx * py - bullet.vy * px) / match.rules.bullet_speed
+            if -reach < side < reach:
+                ox, oy = bullet.x - owner.x, bullet.y - owner.y
+                if ox * ox + oy * oy >= delay * delay * speed2:
+                    view.threat, view.threat_side = ahead, side
+                    view.threat_bearing = turn_to(atan2(-bullet.vy, -bullet.vx) - robot.heading)
+
+
+@kernel
+def see_prize(match: Any, robot: Any, view: Any) -> None:
+    """The nearest pick-up."""
+    least = 1e9
+    for pickup in match.pickups:
+        dx, dy = pickup.x - robot.x, pickup.y - robot.y
+        away = dx * dx + dy * dy
+        if pickup.alive and away < least:
+            least = away
+            view.prize, view.prize_x, view.prize_y = 1, pickup.x, pickup.y
+    if view.prize:
+        view.prize_distance = sqrt(least)
+
+
+@kernel
+def see_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
+    """Where to drive now to get on with the errand."""
+    errand = eyes.errand
+    if not errand.wanted:
+        view.way_bearing, view.way_distance, view.goal_distance, view.straight = 0.0, 0.0, 0.0, 1
+        return
+    find_way(match, errand, robot.x, robot.y)
+    view.way_x, view.way_y, view.straight = errand.way_x, errand.way_y, errand.straight
+    dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
+    view.way_distance = sqrt(dx * dx + dy * dy)
+    view.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
+    view.goal_distance = sqrt(dx * dx + dy * dy)

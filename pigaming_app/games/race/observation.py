@@ -1,0 +1,187 @@
+"""What a brain sees of a race: named numbers, as from the robot's own seat.
+
+Bearings are relative to the own heading, in (-pi, pi], clockwise positive; ways along the course are in px, forwards
+positive. Others are seen as they were `delay` seconds ago, by their speed; the own pose is never delayed.
+"""
+
+from math import atan2, cos, sin, sqrt
+from typing import Annotated, Any
+
+from pigaming_app.games.race.course import Place, leg, locate, spot, way_round
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.world import ROBOTS
+
+OTHERS = ROBOTS - 1
+BACK = 160.0  # px at a time that lead back to a missed line
+PACE = 40.0  # px for which the pace of the fastest line must be kept
+RUN_UP = 70.0  # px before a line from which it can be crossed well
+
+
+@record
+class Eyes:
+    """What shapes the view of one seat."""
+
+    delay: float  # s by which others are seen late
+    look: float  # px along the course to what it drives for
+    place: Place  # for working things out
+
+
+@record
+class Mark:
+    """A point of the fastest line."""
+
+    x: float
+    y: float
+    right_x: float  # of length 1, across the course to the right
+    right_y: float
+    ideal: float  # px aside of the centre line
+    half: float  # px from the centre line to the edges
+
+
+@record
+class Other:
+    """Another robot, in the order of the seats after one's own."""
+
+    present: int
+    x: float
+    y: float
+    distance: float
+    bearing: float
+    ahead: float  # px along the course, the short way round
+    aside: float  # px from the centre line
+    speed: float  # px/s along the course
+    sideways: float  # px/s across it, to the right
+    finished: int
+
+
+@record
+class View:
+    """What one seat sees."""
+
+    x: float
+    y: float
+    heading: float
+    linear: float
+    angular: float
+    speed: float  # full speed, px/s
+    turn_rate: float
+    turbo: float  # what is left in the meter, 0..1
+    turbo_factor: float  # of speed, while it is on
+    boosting: int
+    along: float  # share of the way round
+    aside: float
+    half: float
+    on: int
+    lean: float  # heading, relative to the way of the course
+    ideal: float  # where the fastest line is here, px aside of the centre line
+    pace: float  # least speed of that line in the next PACE px, as a share of full speed
+    turn: float  # sine of the angle by which the course turns from here to twice as far ahead, positive to the right
+    left: float  # px to the finish
+    past: float  # px by which it is past the line that it must cross next; negative: the way to it
+    return_x: float  # where to drive to get back before that line, if it is past it
+    return_y: float
+    rank: int
+    finished: int
+    ahead: Mark  # as far ahead as the eyes look
+    others: Annotated[list[Other], OTHERS]
+
+
+@kernel
+def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+    """Fill the view of one seat."""
+    robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
+    course, place = match.course, eyes.place
+    locate(course, robot.x, robot.y, place)
+    along = place.along
+    view.x, view.y, view.heading = robot.x, robot.y, robot.heading
+    view.linear, view.angular = robot.linear, robot.angular
+    view.speed, view.turn_rate = rules.speed, rules.turn_rate
+    view.turbo, view.turbo_factor, view.boosting = robot.turbo, rules.turbo_factor, robot.boosting
+    view.along, view.aside = along / course.length, place.aside
+    view.half, view.on = place.half, place.on
+    view.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
+    view.left = rules.laps * course.length - racer.progress
+    view.rank, view.finished = racer.rank, racer.finished
+    see_way(match, place, eyes.look, view)
+    see_mark(match, along + eyes.look, view.ahead)
+    see_next(match, seat, along, view)
+    for i in range(OTHERS):
+        see_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
+
+
+@kernel
+def see_way(match: Any, place: Any, look: float, view: Any) -> None:
+    """The fastest line from here on, and how the course turns."""
+    course = match.course
+    k, _ = leg(course, place.along)
+    view.ideal, view.pace = match.ideal[k], match.pace[k]
+    for i in range(k + 1, k + 1 + int(PACE / course.step)):
+        pace = match.pace[i % course.count]
+        if pace < view.pace:
+            view.pace = pace
+    x, y = leg_way(course, k + int(2.0 * look / course.step))
+    view.turn = place.tangent_x * y - place.tangent_y * x
+
+
+@kernel
+def leg_way(course: Any, k: int) -> tuple[float, float]:
+    """The way of the leg from point k on, of about length 1."""
+    a = k % course.count
+    b = (k + 1) % course.count
+    return (course.xs[b] - course.xs[a]) / course.step, (course.ys[b] - course.ys[a]) / course.step
+
+
+@kernel
+def see_mark(match: Any, along: float, mark: Any) -> None:
+    """A point of the fastest line."""
+    course = match.course
+    k, share = leg(course, along)
+    after = k + 1 if k + 1 < course.count else 0
+    ax, ay = course.xs[k], course.ys[k]
+    ex, ey = course.xs[after] - ax, course.ys[after] - ay
+    way = sqrt(ex * ex + ey * ey)
+    mark.right_x, mark.right_y = -ey / way, ex / way
+    mark.ideal = match.ideal[k] + share * (match.ideal[after] - match.ideal[k])
+    mark.half = course.half[k]
+    mark.x = ax + share * ex + mark.ideal * mark.right_x
+    mark.y = ay + share * ey + mark.ideal * mark.right_y
+
+
+@kernel
+def see_next(match: Any, seat: int, along: float, view: Any) -> None:
+    """How far it is to the line that the robot must cross next, or past it, and where to go then."""
+    racer, course = match.racers[seat], match.course
+    behind = racer.passed - 1 - racer.back
+    here = match.lines[(seat + behind) % ROBOTS].along
+    ahead = match.lines[(seat + behind + 1) % ROBOTS].along
+    gap, way = way_round(course, here, ahead), way_round(course, here, along)
+    view.past = way - gap
+    if way > gap and not racer.missed and way - gap > course.length - way:  # not yet at the last one
+        view.past = way - course.length - gap
+    if racer.finished:
+        view.past = -course.length
+    back = view.past + RUN_UP if view.past > 0.0 else RUN_UP
+    view.return_x, view.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
+
+
+@kernel
+def see_other(match: Any, robot: Any, j: int, along: float, eyes: Any, other: Any) -> None:
+    """Robot j as `robot`, at `along`, sees it."""
+    seen, place = match.robots[j], eyes.place
+    other.present = seen.present
+    if not seen.present:
+        return
+    vx, vy = seen.linear * cos(seen.heading), seen.linear * sin(seen.heading)
+    other.x, other.y = seen.x - eyes.delay * vx, seen.y - eyes.delay * vy
+    dx, dy = other.x - robot.x, other.y - robot.y
+    other.distance = sqrt(dx * dx + dy * dy)
+    other.bearing = turn_to(atan2(dy, dx) - robot.heading)
+    locate(match.course, other.x, other.y, place)
+    ahead = way_round(match.course, along, place.along)
+    other.ahead = ahead - match.course.length if ahead > 0.5 * match.course.length else ahead
+    other.aside = place.aside
+    other.speed = vx * place.tangent_x + vy * place.tangent_y
+    other.sideways = vy * place.tangent_x - vx * place.tangent_y
+    other.finished = match.racers[j].finished

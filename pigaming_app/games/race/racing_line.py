@@ -1,0 +1,137 @@
+"""The fastest line round a course, and the speed it allows.
+
+A robot has no grip to lose: it may turn at its full rate whatever its speed. So a piece of a line takes as long as its
+length at full speed or its turn at the full rate, whichever is more, and the fastest line is short where it can be, and
+wide where it would else have to wait for its own turning. It is found by pushing the line aside in bumps, broad ones
+first, on a coarse ring of points and then on finer ones, for as long as that saves time.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from math import atan2, hypot, sqrt
+
+from pigaming_app.games.race.course import POINTS, Course
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+MARGIN = 3.0  # px that the line keeps from the edges
+WALL = RADIUS + 6.0  # px that it keeps from the outer walls
+LEVELS = (  # points of the course to one of the line; how broad bumps are, in points; how high, in px; rounds at most
+    (4, (8, 4, 2, 1), (32.0, 16.0, 8.0, 4.0, 2.0, 1.0), 6),
+    (2, (8, 4, 2, 1), (4.0, 2.0, 1.0, 0.5), 6),
+    (1, (8, 4, 2), (2.0, 1.0, 0.5), 2),
+)
+ENOUGH = 1e-3  # s saved in a round, below which it stops
+EASE = 2  # points over which a slower pace begins and ends
+
+
+@lru_cache(maxsize=32)
+def fastest(course: Course, speed: float, turn_rate: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """For each point of the course how many px aside of it the line lies, and the share of full speed there."""
+    band: list[float] = []
+    for every, breadths, heights, rounds in LEVELS:
+        rope = Rope(course, every, speed, turn_rate)
+        rope.begin(band)
+        for _ in range(rounds):
+            if sum(rope.push(breadth, height) for breadth in breadths for height in heights) < ENOUGH:
+                break
+        band = rope.aside
+    return tuple(band), _pace(rope, speed, turn_rate)
+
+
+class Rope:
+    """A line round the course, held at every so manieth of its points."""
+
+    def __init__(self, course: Course, every: int, speed: float, turn_rate: float) -> None:
+        self.count = POINTS // every
+        self.speed, self.turn_rate = speed, turn_rate
+        self.posts = [_post(course, i * every) for i in range(self.count)]
+        self.room = [_room(course.half[i * every], post) for i, post in enumerate(self.posts)]
+        self.aside = [0.0] * self.count
+        self.xs, self.ys = [0.0] * self.count, [0.0] * self.count
+        self.costs = [0.0] * self.count
+
+    def begin(self, band: Sequence[float]) -> None:
+        """Lie where a coarser line lay; none: in the middle."""
+        more = self.count // len(band) if band else 1
+        for i in range(self.count):
+            self.set(i, _between(band, i // more, i % more / more) if band else 0.0)
+        self.costs = [self.cost(i) for i in range(self.count)]
+
+    def set(self, i: int, aside: float) -> None:
+        """Move the line at post i, as far as there is room."""
+        low, high = self.room[i]
+        aside = low if aside < low else high if aside > high else aside
+        x, y, right_x, right_y = self.posts[i]
+        self.aside[i] = aside
+        self.xs[i], self.ys[i] = x + aside * right_x, y + aside * right_y
+
+    def cost(self, i: int) -> float:
+        """About the s that the line takes round post i: the more of driving and turning, the corner of it rounded."""
+        after = i + 1 - self.count
+        x, y = self.xs[i], self.ys[i]
+        ax, ay, bx, by = x - self.xs[i - 1], y - self.ys[i - 1], self.xs[after] - x, self.ys[after] - y
+        drive = (sqrt(ax * ax + ay * ay) + sqrt(bx * bx + by * by)) / (2.0 * self.speed)
+        turn = atan2(ax * by - ay * bx, ax * bx + ay * by) / self.turn_rate
+        return float((drive**8 + turn**8) ** 0.125)
+
+    def push(self, breadth: int, height: float) -> float:
+        """Try bumps of that breadth and height, to either side, all the way round; the s saved."""
+        saved = 0.0
+        for middle in range(0, self.count, max(1, breadth // 2)):
+            posts = [(middle + k) % self.count for k in range(-breadth, breadth + 1)]
+            before = sum([self.costs[i] for i in posts])
+            for side in (height, -height):
+                kept = [self.aside[i] for i in posts]
+                for i, k in zip(posts, range(-breadth, breadth + 1), strict=True):
+                    self.set(i, self.aside[i] + side * (1 - abs(k) / breadth))
+                costs = [self.cost(i) for i in posts]
+                if before - sum(costs) > 1e-6:
+                    saved += before - sum(costs)
+                    for i, cost in zip(posts, costs, strict=True):
+                        self.costs[i] = cost
+                    break
+                for i, aside in zip(posts, kept, strict=True):
+                    self.set(i, aside)
+        return saved
+
+
+def _post(course: Course, i: int) -> tuple[float, float, float, float]:
+    """A point of the course, and the way to its right."""
+    after = (i + 1) % POINTS
+    ex, ey = course.xs[after] - course.xs[i - 1], course.ys[after] - course.ys[i - 1]
+    way = hypot(ex, ey)
+    return course.xs[i], course.ys[i], -ey / way, ex / way
+
+
+def _room(half: float, post: tuple[float, float, float, float]) -> tuple[float, float]:
+    """How far the line may go to the left and to the right of a post."""
+    x, y, right_x, right_y = post
+    sides = []
+    for side in (-1.0, 1.0):
+        room = half - MARGIN
+        while room > 0.0 and not (
+            WALL <= x + side * room * right_x <= WIDTH - WALL and WALL <= y + side * room * right_y <= HEIGHT - WALL
+        ):
+            room -= 1.0
+        sides.append(side * max(0.0, room))
+    return sides[0], sides[1]
+
+
+def _between(band: Sequence[float], i: int, share: float) -> float:
+    """A ring of numbers between its places, without corners (after Catmull and Rom)."""
+    a, b, c, d = (band[(i + k) % len(band)] for k in (-1, 0, 1, 2))
+    cubic = 2.0 * a - 5.0 * b + 4.0 * c - d + share * (3.0 * (b - c) + d - a)
+    return b + 0.5 * share * (c - a + share * cubic)
+
+
+def _pace(rope: Rope, speed: float, turn_rate: float) -> tuple[float, ...]:
+    """The share of full speed at which the line can be turned along, eased so that the motors can follow."""
+    turns = []
+    for i in range(rope.count):
+        a, b, c = ((rope.xs[(i + k) % rope.count], rope.ys[(i + k) % rope.count]) for k in (-2, 0, 2))
+        ux, uy, vx, vy = b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]
+        angle = abs(atan2(ux * vy - uy * vx, ux * vx + uy * vy))
+        turns.append(2.0 * angle * speed / turn_rate / (hypot(ux, uy) + hypot(vx, vy)))
+    shares = [1.0 / max(1.0, turn) for turn in turns]
+    return tuple(min(shares[(i + k) % rope.count] for k in range(-EASE // 2, EASE // 2 + 1)) for i in range(rope.count))

@@ -1,0 +1,121 @@
+"""The boards that are projected to calibrate: 7 x 5 markers over the whole canvas, and a second board to verify.
+
+A `Look` gathers what the camera sees of a board in several pictures. The second board has its markers elsewhere, so
+that an error there is an error of the calibration and not what the solver has fitted away.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.calibration.ground_plane import NoGround, Points
+from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.signals import Frame, Image
+from pigaming_app.hardware.vision.markers import Markers, opencv
+
+CANVAS = (1920, 1080)
+ARENA_AT = (160.0, 140.0)  # of the arena's corner on the canvas
+COLUMNS, ROWS = 7, 5
+FIRST_ID = 14  # 0..3 are robots, 10..13 corners
+FRAMES = 10  # pictures that are averaged
+ENOUGH = 26  # of the 35 markers
+SHAKE = 1.5  # px of the camera, standard deviation of a corner above which something moves
+LIGHT = 235  # of the board's ground: below full, so that a camera is less likely to overflow
+
+
+@dataclass(frozen=True)
+class Board:
+    """A board with its middle at `middle` and its markers' centres `pitch` apart, all in canvas px."""
+
+    middle: tuple[float, float]
+    pitch: tuple[float, float]
+    edge: int = 132  # of a marker
+
+    @property
+    def corners(self) -> dict[int, Points]:
+        """The corners of each marker in ArUco's order, arena px, (4, 2).
+
+        A pixel's place is that of its middle: a marker that fills the pixels 10..13 has edges at 9.5 and 13.5.
+        """
+        half = self.edge / 2.0
+        square = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
+        return {number: square + centre - np.array(ARENA_AT) - 0.5 for number, centre in self._centres().items()}
+
+    def picture(self) -> Image:
+        """What to project: (1080, 1920), grey."""
+        cv = opencv()
+        words = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
+        page = np.full((CANVAS[1], CANVAS[0]), LIGHT, np.uint8)
+        for number, (x, y) in self._centres().items():
+            left, top = round(x - self.edge / 2), round(y - self.edge / 2)
+            marker = cv.aruco.generateImageMarker(words, number, self.edge)
+            page[top : top + self.edge, left : left + self.edge] = np.minimum(marker, LIGHT)
+        return page
+
+    def _centres(self) -> dict[int, NDArray[np.float64]]:
+        (x, y), (wide, high) = self.middle, self.pitch
+        return {
+            FIRST_ID + row * COLUMNS + column: np.array(
+                (x + (column - (COLUMNS - 1) / 2) * wide, y + (row - (ROWS - 1) / 2) * high)
+            )
+            for row in range(ROWS)
+            for column in range(COLUMNS)
+        }
+
+
+BOARD = Board((960.0, 540.0), (270.0, 208.0))
+HELD_OUT = Board((976.0, 553.0), (238.0, 182.0))  # every marker at least 16 px beside its place on the first
+BOARD_IDS = tuple(range(FIRST_ID, FIRST_ID + COLUMNS * ROWS))
+
+
+class Look:
+    """What the camera sees of a board. Raises NoVision where OpenCV is missing."""
+
+    def __init__(self) -> None:
+        self._markers = Markers(BOARD_IDS)
+        self._seen: dict[int, list[Points]] = {}
+        self.frames = 0
+        self.size = (0, 0)  # of the pictures
+
+    def add(self, frame: Frame) -> int:
+        """Look at one more picture; how many markers of the board are in it."""
+        self.frames += 1
+        self.size = (frame.image.shape[1], frame.image.shape[0])
+        marks = self._markers.exact(frame.image, self._markers.everywhere(frame.image))
+        for mark in marks:
+            self._seen.setdefault(mark.number, []).append(mark.corners)
+        return len(marks)
+
+    @property
+    def ready(self) -> bool:
+        """Whether it has seen as many pictures as are averaged."""
+        return self.frames >= FRAMES
+
+    def corners(self) -> Mapping[int, Points]:
+        """The mean corners of the markers seen in at least half of the pictures, camera px. Raises NoGround."""
+        often = {number: np.array(seen) for number, seen in self._seen.items() if 2 * len(seen) >= self.frames}
+        if len(often) < ENOUGH:
+            sentence = (
+                f"The camera sees {len(often)} of the {COLUMNS * ROWS} markers of the board, {ENOUGH} are needed: "
+                "aim it at the whole picture, focus it, dim the lights, clear the mat."
+            )
+            raise NoGround(Said(sentence, "few", seen=len(often), all=COLUMNS * ROWS, needed=ENOUGH))
+        if missing := _empty_corners(often):
+            sentence = f"The camera sees nothing of the board's {missing} corner: aim it at the whole picture."
+            raise NoGround(Said(sentence, missing.replace(" ", "_")))
+        shake = float(np.median([seen.std(axis=0).max() for seen in often.values()]))
+        if shake > SHAKE:
+            sentence = f"The picture moves by {shake:.1f} px: hold camera, projector and mat still."
+            raise NoGround(Said(sentence, "moves", shake=f"{shake:.1f}"))
+        return {number: np.median(seen, axis=0) for number, seen in often.items()}
+
+
+def _empty_corners(seen: Mapping[int, object]) -> str:
+    """The first corner of the board, 2 x 2 markers, of which none is seen, or nothing."""
+    for name, top, left in (("top left", 0, 0), ("top right", 0, 5), ("bottom left", 3, 0), ("bottom right", 3, 5)):
+        block = [FIRST_ID + (top + i) * COLUMNS + left + j for i in (0, 1) for j in (0, 1)]
+        if not any(number in seen for number in block):
+            return name
+    return ""

@@ -1,0 +1,122 @@
+"""Where the camera hangs: the point of the mat straight under it, and its height. The lids of the robots need it.
+
+Two ways. With a ruler: the operator measures the height, and the point follows from how the mat looks (`hung`). Or
+a robot stands on four projected outlines, and how far the camera sees it beside each says both (`stood`).
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import cos, exp, log, sin, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
+from pigaming_app.hardware.calibration.solver import least_squares
+from pigaming_app.hardware.messages import Said
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
+FOCAL = 0.3, 4.0  # in widths of the picture: from a fish-eye to a telephoto lens
+UNLIKE = 20.0  # mm by which the mat may look other than from there: the image on it is not quite a rectangle
+
+Matrix = NDArray[np.float64]
+
+
+def hung(ground: Ground, height: float) -> Ground:
+    """The ground with its camera `height` mm above the mat, as measured, and the foot point that follows.
+
+    Fits the camera's turn, its foot and a focal length (not calibrated, only used here) to how the plane of the mat is
+    seen. Raises NoGround.
+    """
+    if not LOWEST <= height <= HIGHEST:
+        sentence = f"A camera {height:.0f} mm above the mat: {LOWEST:.0f} to {HIGHEST:.0f} mm are possible."
+        raise NoGround(Said(sentence, "height", height=f"{height:.0f}", low=f"{LOWEST:.0f}", high=f"{HIGHEST:.0f}"))
+    x, y = np.meshgrid(np.linspace(0.0, WIDTH, 5), np.linspace(0.0, HEIGHT, 4))
+    view = _View(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
+    first = min((view.start(focal) for focal in np.geomspace(*FOCAL, 24)), key=view.cost)
+    best = least_squares(view.misses, first)
+    if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > UNLIKE:
+        sentence = f"The mat does not look as from {height:.0f} mm above: measure the camera's height again."
+        raise NoGround(Said(sentence, "other_height", height=f"{height:.0f}"))
+    return replace(
+        ground, foot=(float(best[3] * 1000.0 / ground.mm), float(best[4] * 1000.0 / ground.mm)), height=height
+    )
+
+
+def stood(ground: Ground, places: Sequence[tuple[float, float]], seen: Sequence[tuple[float, float]]) -> Ground:
+    """The ground with the camera's place by a robot that stood at `places`, arena px, seen at `seen`, camera px.
+
+    What is `lid` mm above p is seen over C + (p - C) s, s = H / (H - lid): linear in s and in (1 - s) C. Raises
+    NoGround.
+    """
+    there, apparent = np.array(places, dtype=np.float64), ground.on_mat(np.array(seen, dtype=np.float64))
+    if len(there) < 2 or float(there.std(axis=0).max()) < 100.0:
+        raise NoGround(Said("The robot must stand in at least two places, far from each other.", "places"))
+    away = there - there.mean(axis=0)
+    grown = float((away * (apparent - apparent.mean(axis=0))).sum() / (away * away).sum())
+    if not ground.lid / HIGHEST < grown - 1.0 < ground.lid / (LOWEST - ground.lid):
+        sentence = "The robot was not where the outlines are: put it there as exactly as possible and try again."
+        raise NoGround(Said(sentence, "beside"))
+    foot = (apparent.mean(axis=0) - grown * there.mean(axis=0)) / (1.0 - grown)
+    return replace(ground, foot=(float(foot[0]), float(foot[1])), height=ground.lid * grown / (grown - 1.0))
+
+
+class _View:
+    """How a pinhole `height` mm over the mat would see places on it (mm), against how they are seen.
+
+    Six numbers are a camera: its turn as a rotation vector, its foot in m, the logarithm of its focal length in widths.
+    """
+
+    def __init__(self, ground: Ground, places: Points, height: float) -> None:
+        self.places, self.height = places, height
+        self.matrix = _mat_to_rays(ground)
+        self.rays = project(self.matrix, places)
+        reach = project(self.matrix, places + np.array((1.0, 0.0))) - self.rays
+        self.fine = float(np.sqrt((reach * reach).sum(axis=1)).mean())  # widths to a mm of the mat
+
+    def start(self, focal: float) -> Matrix:
+        """The camera with this focal length that the homography comes closest to: H = K (r1 r2 t)."""
+        rays = np.diag([1.0 / focal, 1.0 / focal, 1.0]) @ self.matrix
+        r1, r2, t = (rays / (0.5 * (np.linalg.norm(rays[:, 0]) + np.linalg.norm(rays[:, 1])))).T
+        left, _, right = np.linalg.svd(np.stack([r1, r2, np.cross(r1, r2)], axis=1))
+        eye = -(left @ right).T @ t
+        return np.array([*_vector(left @ right), eye[0] / 1000.0, eye[1] / 1000.0, log(focal)])
+
+    def misses(self, camera: Matrix) -> Matrix:
+        """By how many mm of the mat the places are seen elsewhere."""
+        away = np.column_stack([self.places - camera[3:5] * 1000.0, np.full(len(self.places), self.height)])
+        seen = away @ _turn(camera[:3]).T
+        rays = exp(camera[5]) * seen[:, :2] / np.maximum(seen[:, 2:], 1.0)
+        return np.asarray((rays - self.rays).reshape(-1) / self.fine)
+
+    def cost(self, camera: Matrix) -> float:
+        """The sum of their squares."""
+        misses = self.misses(camera)
+        return float(misses @ misses)
+
+
+def _mat_to_rays(ground: Ground) -> Matrix:
+    """The homography from mm on the mat to straightened camera px round the lens's centre, in widths."""
+    back = np.linalg.inv(np.array(ground.plane).reshape(3, 3))
+    (x, y), width = ground.lens.centre, ground.lens.size[0]
+    to_rays = np.array([[1.0 / width, 0.0, -x / width], [0.0, 1.0 / width, -y / width], [0.0, 0.0, 1.0]])
+    matrix = to_rays @ back @ np.diag([1.0 / ground.mm, 1.0 / ground.mm, 1.0])
+    ahead = matrix[2] @ (WIDTH / 2.0 * ground.mm, HEIGHT / 2.0 * ground.mm, 1.0)
+    return np.asarray(matrix if ahead > 0.0 else -matrix)
+
+
+def _turn(vector: Matrix) -> Matrix:
+    """The rotation about a vector by its length (Rodrigues)."""
+    angle = sqrt(float(vector @ vector))
+    x, y, z = vector / max(angle, 1e-12)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + sin(angle) * cross + (1.0 - cos(angle)) * (cross @ cross))
+
+
+def _vector(turn: Matrix) -> Matrix:
+    """The rotation vector of a rotation: its axis is what the rotation leaves alone."""
+    axis = np.linalg.svd(turn - np.eye(3))[2][-1]
+    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    angle = np.arctan2(0.5 * float(axis @ skew), 0.5 * (float(np.trace(turn)) - 1.0))
+    return np.asarray(axis * angle)

@@ -1,0 +1,167 @@
+"""Looking through a camera beside the pictures of the arcade: what it sees, and whether its calibration still holds.
+
+Each is a Worker: it opens the camera, works bit by bit, and lets go of it.
+"""
+
+from collections.abc import Callable
+from math import inf
+from typing import ClassVar
+
+import numpy as np
+
+from pigaming_app.hardware.calibration.drift import Drift
+from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
+from pigaming_app.hardware.calibration.site import Sees, Site
+from pigaming_app.hardware.messages import Said, said
+from pigaming_app.hardware.signals import Frame, Image
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers, NoVision, opencv
+from pigaming_app.hardware.worker import Worker, log
+
+BLIND = 6.0  # s without a picture after which it is given up
+SMALL = (520, 292)  # px of the picture that shows what the camera sees
+SPOT, NEAR = (140.0, 400.0), 90.0  # arena px: where a robot is asked to stand, and how near that is
+SEARCH = 0.5  # s between two looks for it
+RATE = 1.0  # s over which pictures are counted
+
+NO_PICTURE = Said("The camera sends no pictures.", "no_picture")
+BROKEN = Said("Something broke; the log says what.", "broken")
+
+
+class Looking(Worker):
+    """Opens a camera and hands on its pictures. A camera has one user at a time: the next one waits for it."""
+
+    users: ClassVar[dict[tuple[str, int], Worker]] = {}  # the last user of each camera, by the site's name and number
+
+    locks = True  # whether the camera locks its exposure: to measure, but not just to look
+    fresh = False  # whether it finds it anew; else it stays as the calibration has left it, which is what matches need
+
+    def __init__(self, site: Site, number: int) -> None:
+        super().__init__()
+        self.site, self.number = site, number
+        self.trouble: str | None = None
+        self.small: Image | None = None  # the newest picture, as small as it is shown
+        self._eye: Sees | None = None
+        self._since = self._newest = inf  # s: when it was opened, when the newest picture came
+
+    def begin(self) -> None:
+        """Work in a thread, or be pumped where time is made up."""
+        if not self.site.stepped:
+            before, self.users[self.site.name, self.number] = self.users.get((self.site.name, self.number)), self
+            self.start(before)
+
+    def step(self) -> None:
+        """Look at the newest picture, if there is a new one."""
+        now = self.site.clock()
+        if self._eye is None:
+            self._since = self._newest = now
+            try:
+                self._eye = self.site.open(self.number, self.locks, self.fresh)
+            except NoVision as missing:
+                self.give_up(said(missing))
+                return
+        frame = self._eye.newest()
+        if frame is not None:
+            self._newest = now
+            self.small = shrunk(frame.image)
+            self.look(frame)
+        else:
+            self.idle(now - self._newest, self._eye.trouble)
+
+    def look(self, frame: Frame) -> None:
+        """A new picture."""
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        """No new picture for so long."""
+
+    def give_up(self, trouble: str) -> None:
+        """Say this sentence, and write it into the log once."""
+        if trouble != self.trouble and getattr(trouble, "key", "") != "yet":
+            log.warning("camera %d: %s", self.number, trouble)
+        self.trouble = trouble
+
+    def failed(self, error: Exception) -> None:
+        self.give_up(BROKEN)
+
+    def end(self) -> None:
+        if self._eye is not None:
+            self._eye.close()
+
+
+class Preview(Looking):
+    """What a camera sees: `small`, its `size` in px and how many pictures a second; or what is wrong with it."""
+
+    locks = False
+
+    def __init__(self, site: Site, number: int) -> None:
+        super().__init__(site, number)
+        self.size = (0, 0)
+        self.rate = 0.0
+        self.count = 0
+        self._counted = (inf, 0)
+
+    def look(self, frame: Frame) -> None:
+        self.size, self.trouble = (frame.image.shape[1], frame.image.shape[0]), None
+        self.count += 1
+        now, (since, before) = self.site.clock(), self._counted
+        if now - since > RATE:
+            self.rate = (self.count - before) / (now - since)
+        if not 0.0 <= now - since <= RATE:
+            self._counted = (now, self.count)
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        if seconds > 1.0:
+            self.give_up(trouble or NO_PICTURE)
+
+
+class Checking(Looking):
+    """Whether a calibration still holds: how far the four corner markers are from where it says that they are seen.
+
+    `load` makes the ground for a camera with pictures of so many px, or raises NoGround. `marker_mm` is how large the
+    marker of a robot at `SPOT` seems: far from its true size, the width of the mat was measured wrongly.
+    """
+
+    def __init__(self, site: Site, number: int, load: Callable[[tuple[int, int]], Ground]) -> None:
+        super().__init__(site, number)
+        self.drift: Drift | None = None
+        self.mm: float | None = None  # None: not yet known
+        self.marker_mm: float | None = None
+        self._load = load
+        self._robots: Markers | None = None
+        self._searched = -inf
+
+    def look(self, frame: Frame) -> None:
+        if self.trouble is not None:
+            return
+        try:
+            if self.drift is None:
+                self.drift = Drift(self._load((frame.image.shape[1], frame.image.shape[0])))
+        except NoGround as trouble:
+            self.give_up(said(trouble))
+            return
+        self.drift.see(frame)
+        self.mm = self.drift.mm or None  # exactly 0: none has been seen often enough
+        if frame.captured - self._searched > SEARCH:
+            self._searched = frame.captured
+            self._measure(frame, self.drift.ground)
+
+    def _measure(self, frame: Frame, ground: Ground) -> None:
+        """How large the marker of a robot on the spot seems."""
+        self._robots = self._robots or Markers(ROBOT_IDS)
+        self.marker_mm = None
+        for mark in self._robots.everywhere(frame.image):
+            away = ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT)
+            if float(away @ away) < NEAR * NEAR:
+                self.marker_mm = ground.edge_mm(mark)
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        if seconds > BLIND:
+            self.give_up(trouble or NO_PICTURE)
+
+
+def shrunk(image: Image) -> Image:
+    """A picture as small as it is shown, whatever its shape."""
+    cv = opencv()
+    h, w = image.shape
+    scale = min(SMALL[0] / w, SMALL[1] / h)
+    size = (max(1, round(w * scale)), max(1, round(h * scale)))
+    return np.asarray(cv.resize(image, size, interpolation=cv.INTER_AREA), dtype=np.uint8)

@@ -1,0 +1,198 @@
+"""Where on the mat something is that the camera sees: the lens, the plane of the mat, and the height of the lids.
+
+A calibration is found by `boards`, kept as a text (the caller owns the file) and read back with care: one of another
+display, camera or version, or one that somebody edited by hand, is refused in one sentence.
+"""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from math import atan2, hypot
+from zlib import crc32
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.calibration.lens import Lens
+from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.signals import Fix, Mark
+from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.world import WIDTH
+from pigaming_app.storage.parsing import ParseError, shown, toml_of
+
+VERSION = 1
+LID = 70.0  # mm from the mat to the marker on a robot
+MARKER = 50.0  # mm, the edge of a robot's marker
+SIZE_TOLERANCE = 0.12  # a marker so much larger or smaller than on a lid is in a hand, or another's
+SKEW_TOLERANCE = 1.18  # longest edge by shortest: more is a marker that is tilted
+
+Points = NDArray[np.float64]  # (n, 2)
+
+
+class NoGround(ValueError):
+    """A calibration that cannot be used; the text is one sentence for the operator."""
+
+
+@dataclass(frozen=True)
+class Ground:
+    """One calibration: from camera px to arena px. The camera hangs `height` mm above the point `foot` (arena px)."""
+
+    display: str  # what it was made on, as `Canvas.displays` names it
+    lens: Lens  # knows the camera's size
+    plane: tuple[float, ...]  # homography, row by row: straightened camera px -> arena px on the mat
+    width_mm: float  # of the arena on the mat, measured with a ruler
+    foot: tuple[float, float]
+    height: float  # mm
+    lid: float = LID
+    marker: float = MARKER
+    mean_mm: float = 0.0  # error of the verification, on a board that was not used to solve
+    max_mm: float = 0.0
+
+    def __post_init__(self) -> None:
+        matrix = np.array(self.plane, dtype=np.float64).reshape(3, 3)
+        object.__setattr__(self, "_onto", matrix)
+        object.__setattr__(self, "_back", np.linalg.inv(matrix))
+
+    @property
+    def mm(self) -> float:
+        """How many mm of the mat one arena px is."""
+        return self.width_mm / WIDTH
+
+    def on_mat(self, seen: Points) -> Points:
+        """Arena px of what lies on the mat and is seen at these camera px, (n, 2) -> (n, 2)."""
+        return project(self._onto, self.lens.straighten(seen))  # type: ignore[attr-defined]
+
+    def at_height(self, seen: Points, height: float) -> Points:
+        """Arena px under what is `height` mm above the mat and is seen at these camera px."""
+        apparent = self.on_mat(seen)
+        foot = np.array(self.foot)
+        return np.asarray(foot + (apparent - foot) * ((self.height - height) / self.height))
+
+    def seen_at(self, places: Points, height: float = 0.0) -> Points:
+        """Camera px at which these places, arena px, `height` mm above the mat, are seen."""
+        foot = np.array(self.foot)
+        apparent = foot + (places - foot) * (self.height / (self.height - height))
+        return self.lens.bend(project(self._back, apparent))  # type: ignore[attr-defined]
+
+    def fixes(self, marks: Sequence[Mark], captured: float) -> list[Fix | str]:
+        """Where the robots with these markers are; or why one cannot be a marker on a robot: `size` or `tilted`."""
+        if not marks:
+            return []
+        seen = np.concatenate([mark.corners for mark in marks])
+        corners = self.at_height(seen, self.lid).reshape(-1, 4, 2)
+        found = zip(marks, corners.tolist(), strict=True)
+        return [self._fix(mark.number, corner, captured) for mark, corner in found]
+
+    def edge_mm(self, mark: Mark) -> float:
+        """The edge of a marker on a lid, mm: another than the printed one says that the mat was measured wrongly."""
+        corners = self.at_height(mark.corners, self.lid).tolist()
+        return sum(_edges(corners)) / 4.0 * self.mm
+
+    def _fix(self, number: int, corners: list[list[float]], captured: float) -> Fix | str:
+        edges = _edges(corners)
+        if not max(edges) <= SKEW_TOLERANCE * min(edges):
+            return "tilted"
+        if abs(sum(edges) / 4.0 * self.mm / self.marker - 1.0) > SIZE_TOLERANCE:
+            return "size"
+        (ax, ay), (bx, by), (cx, cy), (dx, dy) = corners
+        heading = atan2(ay + by - cy - dy, ax + bx - cx - dx)
+        return Fix(number, (ax + bx + cx + dx) / 4.0, (ay + by + cy + dy) / 4.0, heading, captured)
+
+
+def _edges(corners: list[list[float]]) -> list[float]:
+    return [hypot(corners[i][0] - corners[i - 1][0], corners[i][1] - corners[i - 1][1]) for i in range(4)]
+
+
+def project(matrix: NDArray[np.float64], points: Points) -> Points:
+    """Points (n, 2) through a homography."""
+    flat = points @ matrix[:, :2].T + matrix[:, 2]
+    return np.asarray(flat[:, :2] / flat[:, 2:])
+
+
+def nominal(camera: tuple[int, int] = (1920, 1080), width_mm: float = 2112.0, height: float = 2500.0) -> Ground:
+    """A camera straight above the middle, without distortion, that sees the whole 1920 x 1080 canvas: for tests."""
+    scale = 1920.0 / camera[0]
+    plane = (scale, 0.0, -160.0, 0.0, scale, -140.0, 0.0, 0.0, 1.0)
+    return Ground("", Lens(camera), plane, width_mm, (800.0, 400.0), height)
+
+
+def written(ground: Ground) -> str:
+    """The text of a calibration's file."""
+    import tomli_w
+
+    entries = {"version": VERSION, **asdict(ground)}
+    return tomli_w.dumps({**entries, "check": _check(entries)})
+
+
+def read(text: str, display: str, camera: tuple[int, int]) -> Ground:
+    """The calibration that a file holds, for this display and a camera of this size. Raises NoGround."""
+    try:
+        entries = toml_of(text)
+    except ParseError as error:
+        raise NoGround(Said(f"The calibration cannot be read ({error}): calibrate again.", "damaged")) from error
+    if entries.get("version") != VERSION:
+        sentence = f"The calibration is of version {shown(entries.get('version'))}, not {VERSION}: calibrate again."
+        raise NoGround(Said(sentence, "version"))
+    check = entries.pop("check", None)
+    if check != _check(entries):
+        raise NoGround(Said("The calibration was changed by hand or is damaged: calibrate again.", "damaged"))
+    try:
+        ground = _ground(Table(entries))
+    except (Wrong, np.linalg.LinAlgError) as wrong:
+        raise NoGround(Said(f"The calibration cannot be used ({wrong}): calibrate again.", "damaged")) from wrong
+    if ground.display != display:
+        sentence = f"The calibration was made on display {ground.display}, not {display}: calibrate again."
+        raise NoGround(Said(sentence, "other_display"))
+    if ground.lens.size != camera:
+        raise NoGround(misfit(ground, camera))
+    return ground
+
+
+def misfit(ground: Ground, camera: tuple[int, int]) -> Said:
+    """Why pictures of this size cannot be used with a calibration."""
+    theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
+    sentence = f"The calibration was made with a camera of {theirs} px, not {ours}: calibrate again."
+    return Said(sentence, "other_camera", theirs=theirs, ours=ours)
+
+
+def measured(ground: Ground, foot: tuple[float, float], height: float) -> Ground:
+    """The same calibration with the camera's place as the operator measured it: foot in arena px, height in mm."""
+    return replace(ground, foot=foot, height=height)
+
+
+def _check(entries: dict[str, object]) -> int:
+    return crc32(repr(sorted((key, _plain(value)) for key, value in entries.items())).encode())
+
+
+def _plain(value: object) -> object:
+    """The same whether it comes from a dataclass or from TOML, which knows no tuples."""
+    if isinstance(value, dict):
+        return sorted((key, _plain(inner)) for key, inner in value.items())
+    return [_plain(inner) for inner in value] if isinstance(value, list | tuple) else value
+
+
+def _ground(table: Table) -> Ground:
+    lens = table.table("lens")
+    width, height = lens.numbers("size", 2, 16, 16384)
+    plane = table.numbers("plane", 9, -1e6, 1e6)
+    foot = table.numbers("foot", 2, -1e5, 1e5)
+    if not np.isfinite(np.linalg.inv(np.array(plane).reshape(3, 3))).all():
+        raise table.wrong("plane", "not a plane that can be seen")
+    cx, cy = lens.numbers("centre", 2, 0, 16384)
+    display = table.entries.get("display")
+    if not isinstance(display, str):
+        raise table.wrong("display", "a text is missing")
+    lid, above = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
+    if lid >= above:
+        raise table.wrong("lid", "as high as the camera")
+    return Ground(
+        display,
+        Lens((int(width), int(height)), lens.number("k1"), lens.number("k2"), (cx, cy)),
+        plane,
+        table.number("width_mm", None, 100.0, 20000.0, " mm"),
+        (foot[0], foot[1]),
+        above,
+        lid,
+        table.number("marker", None, 5.0, 500.0, " mm"),
+        table.number("mean_mm", None, 0.0),
+        table.number("max_mm", None, 0.0),
+    )

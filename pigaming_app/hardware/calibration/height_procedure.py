@@ -1,0 +1,102 @@
+"""A robot that is put on projected outlines tells where the camera hangs, and how well the mat was measured.
+
+Which outline must be projected stands in `place`; whoever projects it says so (`shown`).
+"""
+
+from math import inf
+
+import numpy as np
+
+from pigaming_app.hardware.calibration import camera_task as looking
+from pigaming_app.hardware.calibration.camera_position import stood
+from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, Looking
+from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
+from pigaming_app.hardware.calibration.procedure import LIT
+from pigaming_app.hardware.calibration.site import Site
+from pigaming_app.hardware.messages import Said, said
+from pigaming_app.hardware.signals import Frame, Mark
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers
+
+PLACES = ((320.0, 220.0), (1280.0, 220.0), (1280.0, 680.0), (320.0, 680.0))  # arena px of the outlines
+NEAR = 90.0  # arena px from an outline within which a robot is meant to stand on it
+STILL = 12  # pictures in which a robot must not move
+UNREST = 1.0  # px of the camera that it may tremble
+PATIENCE = 120.0  # s for somebody to put a robot down
+
+
+class Standing(Looking):
+    """A robot is put on one outline after the other; where the camera sees it says how high the camera hangs.
+
+    At the end `found` is the ground with the camera's place, and `marker_mm` how large the robot's marker seems: far
+    from its true size, the mat was measured wrongly.
+    """
+
+    def __init__(self, site: Site, number: int, ground: Ground) -> None:
+        super().__init__(site, number)
+        self.ground = ground
+        self.found: Ground | None = None
+        self.marker_mm = 0.0
+        self.seen: list[tuple[float, float]] = []  # camera px, by place
+        self._markers: Markers | None = None
+        self._lately: list[Mark] = []
+        self._begun = self._shown = inf
+
+    @property
+    def place(self) -> int | None:
+        """Which outline of PLACES is waited for; None: it is over."""
+        return None if self.found or self.trouble else len(self.seen)
+
+    @property
+    def steady(self) -> float:
+        """For how much of the time it needs the robot has stood still, 0..1."""
+        return min(1.0, len(self._lately) / STILL)
+
+    def shown(self, place: int) -> None:
+        """The outline of this place is projected."""
+        if place == self.place and self._shown == inf:
+            self._shown = self._begun = self.site.clock()
+            self.site.stand(*PLACES[place])
+
+    def look(self, frame: Frame) -> None:
+        if self.place is None or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
+            return
+        if frame.captured > self._begun + PATIENCE:
+            self.give_up(Said("Nobody has put a robot on the outline.", "nobody"))
+            return
+        self._markers = self._markers or Markers(ROBOT_IDS)
+        here = [mark for mark in self._markers.everywhere(frame.image) if self._is_near(mark, self.place)]
+        if len(here) != 1 or (self._lately and here[0].number != self._lately[0].number):
+            self._lately = []
+            return
+        self._lately.append(here[0])
+        del self._lately[:-STILL]
+        if len(self._lately) == STILL and _tremble(self._lately) < UNREST:
+            self._note()
+
+    def idle(self, seconds: float, trouble: str | None) -> None:
+        if seconds > looking.BLIND and self.place is not None:
+            self.give_up(trouble or NO_PICTURE)
+
+    def _is_near(self, mark: Mark, place: int) -> bool:
+        away = self.ground.on_mat(mark.corners).mean(axis=0) - np.array(PLACES[place])
+        return float(away @ away) < NEAR * NEAR
+
+    def _note(self) -> None:
+        """The robot stands: take its place down; after the last, all is known."""
+        x, y = np.median([mark.corners.mean(axis=0) for mark in self._lately], axis=0).tolist()
+        self.seen.append((x, y))
+        last, self._lately, self._shown = self._lately[-1], [], inf
+        if len(self.seen) < len(PLACES):
+            return
+        try:
+            found = stood(self.ground, PLACES, self.seen)
+        except NoGround as trouble:
+            self.give_up(said(trouble))
+            return
+        self.marker_mm = found.edge_mm(last)
+        self.found = found
+
+
+def _tremble(marks: list[Mark]) -> float:
+    """By how many px of the camera a marker's middle moved, standard deviation."""
+    return float(np.std([mark.corners.mean(axis=0) for mark in marks], axis=0).max())

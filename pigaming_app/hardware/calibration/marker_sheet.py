@@ -1,0 +1,102 @@
+"""The markers to print and stick on the robots: a page of A4 as a PDF, to scale, with a ruler to check that.
+
+A marker is 50 mm wide with one white cell round it, and is cut out along the grey line; its triangle points ahead.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from pigaming_app.hardware.calibration.ground_plane import MARKER
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, opencv
+
+PAGE = (210.0, 297.0)  # mm, A4
+POINT = 72.0 / 25.4  # PDF's unit in a mm
+CELLS = 6  # of a marker with its black rim; one more all round is white
+RULER = 100.0  # mm
+SAID = (
+    "Print at 100 %, without fitting to the page: the ruler must measure 100 mm. Matt paper.",
+    "Cut along the grey lines, keep the white rim; glue flat on the lid, the triangle's side ahead.",
+    "Imprimir a 100 %, sem ajustar à página: a régua tem de medir 100 mm. Papel mate.",
+    "Cortar pelas linhas cinzentas, com a margem branca; colar liso na tampa, o triângulo para a frente.",
+)
+
+
+def sheet(edge: float = MARKER) -> bytes:
+    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60). Raises NoVision, ValueError."""
+    if not 20.0 <= edge <= 60.0:
+        raise ValueError(f"Markers of {edge:g} mm: 20 to 60 mm fit on the page and on a robot.")
+    return _pdf("\n".join([*_markers(edge), *_ruler(), *_words()]))
+
+
+def cells(number: int) -> "np.ndarray[tuple[int, int], np.dtype[np.bool_]]":
+    """Which of the 6 x 6 cells of a marker are black. Raises NoVision."""
+    cv = opencv()
+    words = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
+    return np.asarray(cv.aruco.generateImageMarker(words, number, CELLS) < 128)
+
+
+def _markers(edge: float) -> Iterator[str]:
+    """Two columns, two rows."""
+    cell, pitch = edge / CELLS, (90.0, 105.0)
+    whole = edge + 2.0 * cell
+    for i, number in enumerate(ROBOT_IDS):
+        middle = PAGE[0] / 2.0 + (i % 2 - 0.5) * pitch[0]
+        left, top = middle - edge / 2.0, 45.0 + (i // 2) * pitch[1]
+        yield f"0.6 G {_box(left - cell, top - cell, whole, whole)} S 0 g"
+        for row, column in np.argwhere(cells(number)).tolist():
+            yield f"{_box(left + column * cell, top + row * cell, cell, cell)} f"
+        tip = top - cell - 6.0
+        yield f"{_at(middle, tip)} m {_at(middle - 3, tip + 4.5)} l {_at(middle + 3, tip + 4.5)} l f"
+        yield _text(left + edge + cell + 3.0, top + 8.0, 22, str(i + 1))
+
+
+def _ruler() -> Iterator[str]:
+    left, y = (PAGE[0] - RULER) / 2.0, 258.0
+    yield f"0 G {_at(left, y)} m {_at(left + RULER, y)} l S"
+    for mm in range(0, int(RULER) + 1):
+        tick = 6.0 if mm % 10 == 0 else 4.0 if mm % 5 == 0 else 2.5
+        yield f"{_at(left + mm, y)} m {_at(left + mm, y - tick)} l S"
+    for mm in range(0, int(RULER) + 1, 10):
+        yield _text(left + mm - 1.0, y + 4.5, 8, str(mm))
+
+
+def _words() -> Iterator[str]:
+    yield _text(20.0, 22.0, 16, "PiGaming")
+    for i, said in enumerate(SAID):
+        yield _text(20.0, 270.0 + 5.0 * i, 9, said)
+
+
+def _at(x: float, y: float) -> str:
+    """A point in mm from the top left, as PDF counts from the bottom left."""
+    return f"{x * POINT:.3f} {(PAGE[1] - y) * POINT:.3f}"
+
+
+def _box(x: float, y: float, wide: float, high: float) -> str:
+    return f"{_at(x, y + high)} {wide * POINT:.3f} {high * POINT:.3f} re"
+
+
+def _text(x: float, y: float, size: int, said: str) -> str:
+    safe = said.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
+    return f"BT /F1 {size} Tf {_at(x, y)} Td ({safe}) Tj ET"
+
+
+def _pdf(drawing: str) -> bytes:
+    """A file of one page, as PDF 1.4 wants it: objects, and a table of where they begin."""
+    stream = b"0.3 w\n" + drawing.encode("cp1252")
+    size = f"[0 0 {PAGE[0] * POINT:.3f} {PAGE[1] * POINT:.3f}]".encode()
+    objects = [
+        b"<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
+        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+        b"<< /Type /Page /Parent 2 0 R /MediaBox " + size + b" /Contents 4 0 R "
+        b"/Resources << /Font << /F1 5 0 R >> >> >>",
+        b"<< /Length %d >>\nstream\n%s\nendstream" % (len(stream), stream),
+        b"<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>",
+    ]
+    out, begins = bytearray(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n"), []
+    for number, body in enumerate(objects, 1):
+        begins.append(len(out))
+        out += b"%d 0 obj\n%s\nendobj\n" % (number, body)
+    count, table = len(objects) + 1, b"".join(b"%010d 00000 n \n" % begin for begin in begins)
+    end = b"trailer << /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (count, len(out))
+    return bytes(out + b"xref\n0 %d\n0000000000 65535 f \n%s" % (count, table) + end)

@@ -1,0 +1,104 @@
+"""Real and simulated robots in one match: to a simulated one, a real one is a thing that moves and cannot be pushed.
+
+Any robot can be swapped at any time: a simulated one goes on from where the real one stood; a real one first drives to
+where the simulated one stands, or is carried there (`take_places`).
+"""
+
+from collections.abc import Iterable, Sequence
+from math import hypot
+from typing import Any
+
+from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.sim.contact import ROUNDS, SLOP, keep_out, part, settle
+from pigaming_app.sim.plant import Pose, Twist
+from pigaming_app.sim.robot import RADIUS, roll
+from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.world import HEIGHT, WIDTH, World
+
+BERTH = 7.0  # px by which a real robot that takes over keeps clear of walls
+
+
+class MixedPlant(RealPlant):
+    """The robots of `real` are real ones, the others simulated in the world's record."""
+
+    def __init__(self, world: World, rig: Rig, real: Iterable[int] = ()) -> None:
+        super().__init__(world, rig, real)
+        self.arriving: set[int] = set()  # real robots that will take over
+
+    def drive(self, twists: Sequence[Twist], dt: float) -> None:
+        """Real robots drive as they may; simulated ones among them as on their own floor."""
+        super().drive(twists, dt)
+        simulated = [i for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
+        for i in simulated:
+            self.world.robots[i].ask_linear, self.world.robots[i].ask_angular = twists[i]
+        drive_among(self.world, simulated)
+
+    def place(self, poses: Sequence[Pose]) -> None:
+        """Put the simulated robots in their places at once; the real ones begin to take theirs."""
+        for i, (x, y, heading) in enumerate(poses):
+            if i not in self.real:
+                robot = self.world.robots[i]
+                robot.x, robot.y, robot.heading = x, y, heading
+                robot.linear = robot.angular = 0.0
+        super().place(poses)
+
+    def swap(self, robot: int, real: bool) -> None:
+        """Hand a robot of the match to the real or the simulated one. A real one must take its place first."""
+        goals = self.goals
+        if not real:
+            self.real.discard(robot)
+            self.arriving.discard(robot)
+            goals.pop(robot, None)
+            self.safety.forget(robot, not self.real | self.arriving)
+        elif robot not in self.real:
+            self.arriving.add(robot)
+            record = self.world.robots[robot]
+            goals[robot] = (*clear_of_walls(self.world, record.x, record.y), record.heading)
+        self.summon(goals)
+
+    def take_places(self) -> bool:
+        """One tick of driving to the places; whether all have arrived."""
+        done = super().take_places()
+        if done:
+            self.accept_places()
+        return done
+
+    def accept_places(self) -> None:
+        """Let everybody begin where it stands; who was summoned takes over."""
+        super().accept_places()
+        self.real |= self.arriving
+        self.arriving.clear()
+
+
+def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:
+    """The nearest place to which a real robot can drive: simulated ones stand as close to walls as they like."""
+    for _ in range(ROUNDS):
+        x = min(max(x, RADIUS + BERTH), WIDTH - RADIUS - BERTH)
+        y = min(max(y, RADIUS + BERTH), HEIGHT - RADIUS - BERTH)
+        for i in range(world.wall_count):
+            wall = world.walls[i]
+            dx, dy = off_wall(wall, x, y)
+            off, room = hypot(dx, dy), wall.half + RADIUS + BERTH
+            if wall.health and 0.0 < off < room:
+                x, y = x + dx * (room / off - 1.0), y + dy * (room / off - 1.0)
+    return x, y
+
+
+def drive_among(world: Any, simulated: Sequence[int]) -> None:
+    """One tick of these robots, as in sim.contact; the others stay exactly where they are, whoever runs into them."""
+    robots = world.robots
+    from_where = [(robots[i], robots[i].x, robots[i].y) for i in simulated]
+    fixed = [(robot, robot.x, robot.y) for i, robot in enumerate(robots) if i not in simulated]
+    for i in simulated:
+        roll(robots[i])
+    for _ in range(2 * ROUNDS):  # each takes back half of what a robot overlaps one that cannot be pushed
+        moved = part(robots) > SLOP
+        for robot, x, y in fixed:
+            robot.x, robot.y = x, y
+        for i in simulated:
+            moved = bool(keep_out(world, robots[i])) or moved
+        if not moved:
+            break
+    for robot, x, y in from_where:
+        settle(world, robot, x, y)

@@ -1,0 +1,252 @@
+"""The hardware of one arena, put together: a camera's eye, a tracker and a link, on one clock.
+
+`pump` does what there is to do now: look at the newest picture, let the link talk. In the arena a thread does that
+(`start`); in simulated time whoever owns the time does. What a robot is told goes through `tell`, which also lets the
+tracker know.
+"""
+
+import logging
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from pigaming_app.hardware.control.kinematics import Kinematics
+from pigaming_app.hardware.control.motion_check import Obedience
+from pigaming_app.hardware.control.motion_model import Wear
+from pigaming_app.hardware.control.safety import Signs
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
+from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Image, Telemetry, Wheels
+from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
+from pigaming_app.sim.plant import Sighting, Twist
+from pigaming_app.sim.world import DT, ROBOTS
+
+# A 3pi that nobody has measured: a deadband as such motors have it, and s of dead time for tick, serial line and air.
+UNMEASURED = replace(
+    NOMINAL, left=replace(NOMINAL.left, deadband=0.03), right=replace(NOMINAL.right, deadband=0.03), dead_time=0.03
+)
+SPARSE = 24  # px between those of a picture that are compared with the one before
+AGAIN = 0.5  # s until the next try after something broke
+PERIOD = 0.005  # s between two looks for a new picture
+GREETING = 0.5  # s after which every robot in reach has heard of this rig, and reported since
+
+log = logging.getLogger("pigaming")
+
+
+class Follows(Protocol):
+    """The part of a tracker that a rig uses."""
+
+    looked: float  # s, when the newest picture was taken that was looked at
+
+    @property
+    def refused(self) -> Mapping[int, str]: ...
+
+    expected: set[int]  # robots worth searching for
+
+    def sent(self, time: float, twists: Sequence[Twist | None]) -> None: ...
+
+    def see(self, frame: Frame) -> Sequence[Fix]: ...
+
+    def sense(self, now: float) -> list[Sighting]: ...
+
+    def doubled(self) -> set[int]: ...
+
+    def wear(self, robot: int) -> Wear: ...
+
+
+class Talks(Protocol):
+    """The part of a link that a rig uses."""
+
+    @property
+    def telemetry(self) -> Mapping[int, Telemetry]: ...
+
+    @property
+    def trouble(self) -> Any: ...
+
+    def send(self, wheels: Sequence[Wheels | None]) -> None: ...
+
+    def pump(self) -> None: ...
+
+    def start(self) -> object: ...
+
+    def close(self) -> None: ...
+
+
+class Notes(Protocol):
+    """Who wants to know all that is sent and seen."""
+
+    def sent(self, time: float, wheels: Sequence[Wheels | None]) -> None: ...
+
+    def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None: ...
+
+    def believed(self, now: float, sightings: Sequence[Sighting]) -> None: ...
+
+
+class Rig:
+    """Robot i wears marker i; `channels[i]` is the place of its radio in what the link sends (see pairing)."""
+
+    def __init__(
+        self,
+        eye: Eye,
+        tracker: Follows,
+        link: Talks,
+        clock: Clock,
+        drivetrains: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS,
+        drift: Callable[[], float] = lambda: 0.0,
+    ) -> None:
+        self.eye, self.tracker, self.link, self.clock = eye, tracker, link, clock
+        self.kinematics = [Kinematics(one) for one in drivetrains]
+        self.obedience = Obedience(drivetrains)
+        self._channels: Sequence[int] = tuple(range(ROBOTS))
+        self.drift = drift  # mm by which the corner markers have moved
+        self.recorder: Notes | None = None
+        self._begun = clock()
+        self._deaf_since: dict[int, float] = {}  # s, by robot
+        self._image: Image | None = None  # the newest
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+        self._closing = threading.Event()
+
+    @property
+    def channels(self) -> Sequence[int]:
+        """The place of each robot's radio in what the link sends."""
+        return self._channels
+
+    @channels.setter
+    def channels(self, channels: Sequence[int]) -> None:
+        self._channels = channels
+        with self._lock:
+            self.obedience.forget()
+
+    def pump(self) -> None:
+        """Look at the newest picture, if there is a new one, and let the link do its part. Idle while a thread runs."""
+        if self._thread is None:
+            self._look()
+            self.link.pump()
+
+    def sense(self, ahead: float = 0.0) -> list[Sighting]:
+        """Where the robots are now, or will be so many seconds ahead if nothing else is said to them."""
+        with self._lock:
+            return self.tracker.sense(self.clock() + ahead)
+
+    def tell(self, wheels: Sequence[Wheels | None]) -> None:
+        """Tell every robot what to do from now on; None: motors off."""
+        sent: list[Wheels | None] = [None] * ROBOTS
+        for robot, one in enumerate(wheels):
+            sent[self.channels[robot]] = one
+        twists = [one and self.kinematics[i].comes_to(one) for i, one in enumerate(wheels)]
+        now = self.clock()
+        with self._lock:
+            self.tracker.sent(now, twists)
+            self.obedience.sent(now, twists)
+            if self.recorder:
+                self.recorder.sent(now, wheels)
+                self.recorder.believed(now, self.tracker.sense(now))
+        self.link.send(sent)
+        self.pump()
+
+    def tell_one(self, channel: int, wheels: Wheels) -> None:
+        """Tell the robot of one radio what to do, whichever marker it wears; the others are off."""
+        sent: list[Wheels | None] = [None] * ROBOTS
+        sent[channel] = wheels
+        with self._lock:
+            self.obedience.forget()
+        self.link.send(sent)
+        self.pump()
+
+    def forget(self, robot: int) -> None:
+        """Judge anew from now on whether this robot does as it is told."""
+        with self._lock:
+            self.obedience.forget(robot)
+
+    def telemetry(self, robot: int) -> Telemetry | None:
+        """What a robot said last."""
+        return self.link.telemetry.get(self.channels[robot])
+
+    def signs(self, outside: Mapping[int, float]) -> dict[int, Signs]:
+        """How things stand with these robots, which have been outside the arena for so many seconds.
+
+        What is said now holds for a tick, so what was seen counts as old as it will be then.
+        """
+        now, gone, drift = self.clock(), self.link.trouble is not None, self.drift()
+        with self._lock:
+            looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
+            ages = [sighting.age for sighting in self.tracker.sense(now)]  # by `now`, which is past by now
+            contradictions = [self.obedience.contradiction(robot) for robot in range(ROBOTS)]
+        found = {}
+        for robot, seconds in outside.items():
+            report = self.telemetry(robot)
+            found[robot] = Signs(
+                picture=now - max(looked, self._begun) + DT,
+                unseen=ages[robot] + DT if looked > now - ages[robot] + 1e-6 else 0.0,
+                refused=refused.get(robot, ""),
+                doubled=robot in doubled,
+                outside=seconds,
+                silence=now - (report.heard if report else self._begun),
+                battery=report.battery if report else Signs().battery,
+                refuses=report is not None and bool(report.flags & EMPTY),
+                deaf=self._deaf(robot, report),
+                astray=contradictions[robot].astray,
+                stuck=contradictions[robot].stuck,
+                leaving=contradictions[robot].leaving,
+                unlinked=gone,
+                drift=drift,
+            )
+        return found
+
+    def _deaf(self, robot: int, report: Telemetry | None) -> float:
+        """Seconds from the first to the newest of the reports, without one between, that the deadman has tripped.
+
+        Not counted is that of a robot that had nobody to hear before this rig began.
+        """
+        if report is None or not report.flags & DEADMAN or report.heard < self._begun + GREETING:
+            self._deaf_since.pop(robot, None)
+            return 0.0
+        return max(1e-3, report.heard - self._deaf_since.setdefault(robot, report.heard))
+
+    def start(self) -> "Rig":
+        """Look and talk in threads of their own until close(); the clock must be one of real time."""
+        self.link.start()
+        self._thread = threading.Thread(target=self._run, name="rig", daemon=True)
+        self._thread.start()
+        return self
+
+    def close(self) -> None:
+        """Stop the robots and let go of camera and radio. May be called again."""
+        self.link.close()
+        self._closing.set()
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join(timeout=1.0)
+        self.eye.close()
+
+    def _run(self) -> None:
+        pause = PERIOD
+        while not self._closing.wait(pause):
+            try:
+                self._look()
+                pause = PERIOD
+            except Exception:  # the picture grows old, and robots stop; perhaps the next one can be used
+                log.exception("a picture could not be used")
+                pause = AGAIN
+
+    def _look(self) -> None:
+        frame = self.eye.newest()
+        if frame is None:
+            return
+        before, self._image = self._image, frame.image
+        if before is not None and _same(before, frame.image):
+            return  # a driver that hands out the same picture again: real ones differ by their noise
+        with self._lock:
+            fixes = self.tracker.see(frame)
+            self.obedience.seen(fixes)
+            for robot, kinematics in enumerate(self.kinematics):
+                kinematics.wear = self.tracker.wear(robot)
+            if self.recorder:
+                self.recorder.seen(self.clock(), frame.captured, fixes)
+
+
+def _same(one: Image, other: Image) -> bool:
+    """Whether two pictures are the same; a few px tell mostly that they are not."""
+    return np.array_equal(one[::SPARSE, ::SPARSE], other[::SPARSE, ::SPARSE]) and np.array_equal(one, other)

@@ -1,0 +1,186 @@
+"""Finds out what a robot's wheels are like from a recorded run: gains, deadbands, lag, dead time, wheel base.
+
+Multiple shooting: the run is cut into windows of a second, each with a start pose of its own that is fitted along, so
+that noise and slip do not add up; what the wheels do follows from what they were told, over all of the run.
+Levenberg-Marquardt with the start poses projected out (Golub and Pereyra 1973), for each dead time of a grid.
+"""
+
+from dataclasses import replace
+from math import exp
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.recordings import Course, Floats
+from pigaming_app.sim.drivetrain import Drivetrain, Wheel
+
+Index = NDArray[np.intp]
+
+WINDOW = 1.0  # s
+STEP = 0.005  # s of the model
+NOISE = np.array([0.8, 0.8, 0.012])  # px, px, rad: of a fix
+FEWEST = 8  # fixes in a window that counts
+HUBER = 3.0  # standard deviations beyond which a fix counts less
+LATEST, COARSE = 0.20, 0.02  # s: the longest dead time that is tried, and from one to the next
+EARLY = 2.0  # s before which what was told does not matter any more
+ROUNDS, TRIES = 25, 6
+LATE = 6  # the place of the dead time among the numbers: left, right, their deadbands, lag, base, dead time
+NUDGES = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1, 1e-3])  # of these, to see what they do
+LEAST = np.array([100.0, 100.0, 0.0, 0.0, 0.01, 20.0, 0.0])
+MOST = np.array([3000.0, 3000.0, 0.5, 0.5, 0.5, 300.0, 0.5])
+
+
+class Track(NamedTuple):
+    """A robot on an endless floor from (0, 0, 0): times (n,) and poses (n, 3)."""
+
+    times: Floats
+    poses: Floats
+
+    def at(self, times: Floats) -> Floats:
+        """Poses (m, 3) at these times."""
+        return np.column_stack([np.interp(times, self.times, self.poses[:, i]) for i in range(3)])
+
+
+def track(course: Course, drivetrain: Drivetrain, begin: float, end: float) -> Track:
+    """Where the commands lead a robot with this drivetrain, from `begin` to `end`."""
+    times = np.asarray(begin - EARLY + STEP * np.arange(int((end - begin + EARLY) / STEP) + 2), dtype=np.float64)
+    acts = course.told_at + drivetrain.dead_time
+    left, right = (
+        _follow(_mean(acts, _speed(course.wheels[:, i], wheel), times), drivetrain.lag)
+        for i, wheel in enumerate((drivetrain.left, drivetrain.right))
+    )
+    heading = np.concatenate(([0.0], np.cumsum((left - right) / drivetrain.base * STEP)))
+    middle = 0.5 * (heading[1:] + heading[:-1])
+    way = 0.5 * (left + right) * STEP
+    x = np.concatenate(([0.0], np.cumsum(way * np.cos(middle))))
+    y = np.concatenate(([0.0], np.cumsum(way * np.sin(middle))))
+    return Track(times, np.column_stack([x, y, heading]))
+
+
+def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
+    """Pieces of a track (m, 3) that begin at `firsts` (w,), each moved rigidly to where it fits its fixes (m, 3) best.
+
+    Gives back the poses (m, 3) and the moves (w, 3): where the first point of each piece goes, and the turn about it.
+    """
+    counts = np.diff(np.append(firsts, len(there)))
+    move = seen[firsts].copy()
+    move[:, 2] = np.add.reduceat(seen[:, 2] - there[:, 2], firsts) / counts
+    for _ in range(3):
+        moved = shifted(there, firsts, move)
+        rest = (seen - moved) / NOISE**2
+        dx, dy = (moved - np.repeat(move, counts, axis=0))[:, :2].T
+        slope = np.column_stack([rest[:, 0], rest[:, 1], rest[:, 2] + dx * rest[:, 1] - dy * rest[:, 0]])
+        normal = np.zeros((len(firsts), 3, 3))
+        near, turn = NOISE[0] ** -2, NOISE[2] ** -2
+        normal[:, 0, 0] = normal[:, 1, 1] = near * counts
+        normal[:, 0, 2] = normal[:, 2, 0] = -near * np.add.reduceat(dy, firsts)
+        normal[:, 1, 2] = normal[:, 2, 1] = near * np.add.reduceat(dx, firsts)
+        normal[:, 2, 2] = near * np.add.reduceat(dx * dx + dy * dy, firsts) + turn * counts
+        move = move + np.linalg.solve(normal, np.add.reduceat(slope, firsts)[:, :, None])[:, :, 0]
+    return shifted(there, firsts, move), move
+
+
+def shifted(there: Floats, firsts: Index, move: Floats) -> Floats:
+    """Pieces of a track (m, 3) that begin at `firsts` (w,), moved by `move` (w, 3)."""
+    counts = np.diff(np.append(firsts, len(there)))
+    begin, to = np.repeat(there[firsts], counts, axis=0), np.repeat(move, counts, axis=0)
+    c, s = np.cos(to[:, 2]), np.sin(to[:, 2])
+    x, y = (there - begin)[:, :2].T
+    return np.column_stack([to[:, 0] + c * x - s * y, to[:, 1] + s * x + c * y, there[:, 2] + to[:, 2]])
+
+
+def identify(course: Course, start: Drivetrain) -> Drivetrain:
+    """The drivetrain that explains a course best, sought from `start`."""
+    grid = np.arange(0.0, LATEST + 1e-9, COARSE)
+    tried = [_fitted(course, replace(start, dead_time=float(dead)), LATE) for dead in grid]
+    return _fitted(course, min(tried, key=lambda one: one[0])[1], LATE + 1)[1]
+
+
+def _fitted(course: Course, start: Drivetrain, free: int) -> tuple[float, Drivetrain]:
+    """Levenberg-Marquardt in the first `free` numbers of the drivetrain: the cost, and the drivetrain."""
+    vector, damping = _vector(start), 1e-3
+    rest = _residual(course, start)
+    cost = _cost(rest)
+    for _ in range(ROUNDS):
+        weights = np.minimum(1.0, HUBER / np.maximum(np.abs(rest), 1e-9)) ** 0.5
+        jacobian = _jacobian(course, vector[:free], vector, rest) * weights[:, None]
+        normal, slope = jacobian.T @ jacobian, jacobian.T @ (rest * weights)
+        for _ in range(TRIES):
+            change = np.zeros(len(vector))
+            change[:free] = np.linalg.solve(normal + damping * np.diag(np.diag(normal) + 1e-9), slope)
+            candidate = _drivetrain(vector - change)
+            new_rest = _residual(course, candidate)
+            if _cost(new_rest) < cost:
+                break
+            damping *= 8.0
+        else:
+            break
+        gain, vector, rest, damping = cost - _cost(new_rest), _vector(candidate), new_rest, damping / 4.0
+        cost -= gain
+        if gain < 1e-5 * cost:
+            break
+    return cost, _drivetrain(vector)
+
+
+def _residual(course: Course, drivetrain: Drivetrain) -> Floats:
+    """What is left of all windows, in sigmas, each placed where it fits best."""
+    whole = track(course, drivetrain, course.seen_at[0], course.seen_at[-1])
+    window = ((course.seen_at - course.seen_at[0]) / WINDOW).astype(int)
+    kept = np.bincount(window)[window] >= FEWEST
+    seen, window = course.poses[kept], window[kept]
+    if not len(seen):
+        return np.zeros(1)
+    firsts = np.flatnonzero(np.diff(window, prepend=-1))
+    fitted, _ = placed(whole.at(course.seen_at[kept]), seen, firsts)
+    return np.asarray(((seen - fitted) / NOISE).ravel())
+
+
+def _jacobian(course: Course, free: Floats, vector: Floats, rest: Floats) -> Floats:
+    """By differences. The start poses are fitted anew for each, which projects them out."""
+    columns = []
+    for i in range(len(free)):
+        nudged = vector.copy()
+        nudged[i] += NUDGES[i]
+        columns.append((_residual(course, _drivetrain(nudged)) - rest) / NUDGES[i])
+    return np.column_stack(columns)
+
+
+def _vector(drivetrain: Drivetrain) -> Floats:
+    left, right = drivetrain.left, drivetrain.right
+    numbers = (left.speed, right.speed, left.deadband, right.deadband, drivetrain.lag, drivetrain.base)
+    return np.array([*numbers, drivetrain.dead_time])
+
+
+def _drivetrain(vector: Floats) -> Drivetrain:
+    """The drivetrain of these numbers, each kept to what is possible."""
+    left, right, left_band, right_band, lag, base, dead = np.clip(vector, LEAST, MOST).tolist()
+    return Drivetrain(Wheel(left, left_band), Wheel(right, right_band), base, lag, dead)
+
+
+def _cost(rest: Floats) -> float:
+    """Huber's, summed."""
+    size = np.abs(rest)
+    return float(np.sum(np.where(size <= HUBER, 0.5 * size**2, HUBER * (size - 0.5 * HUBER))))
+
+
+def _speed(shares: Floats, wheel: Wheel) -> Floats:
+    over = np.maximum(np.minimum(np.abs(shares), 1.0) - wheel.deadband, 0.0)
+    return np.asarray(np.sign(shares) * wheel.speed * over / (1.0 - wheel.deadband))
+
+
+def _mean(acts: Floats, speeds: Floats, times: Floats) -> Floats:
+    """Of speeds that hold from `acts` on, the mean over each step between two times."""
+    way = np.concatenate(([0.0], np.cumsum(speeds[:-1] * np.diff(acts))))  # up to each command
+    acts, way = np.append(acts, times[-1] + 1.0), np.append(way, way[-1] + speeds[-1] * (times[-1] + 1.0 - acts[-1]))
+    return np.asarray(np.diff(np.interp(times, acts, way)) / STEP)
+
+
+def _follow(target: Floats, lag: float) -> Floats:
+    """First-order motors, exact for steps: the mean speed of each step."""
+    kept = exp(-STEP / lag)
+    count = min(len(target), int(12.0 * lag / STEP) + 1)
+    answer = (1.0 - kept) * kept ** np.arange(count)
+    reached = np.concatenate(([0.0], np.convolve(target, answer)[: len(target)]))
+    mean = (1.0 - kept) * lag / STEP
+    return np.asarray(target + (reached[:-1] - target) * mean)

@@ -1,0 +1,69 @@
+"""Pictures of how true the simulator is. They need the extra `plots` (matplotlib), which is imported only here."""
+
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from pigaming_app.hardware.recordings import Run
+from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Verdict, predictions
+from pigaming_app.sim.drivetrain import NOMINAL
+from pigaming_app.storage.safe_files import write
+
+SHOWN = 6  # predictions drawn for each robot
+
+
+class NoPlots(Exception):
+    """Pictures cannot be made; the text is one sentence."""
+
+
+def draw(run: Run, verdicts: Sequence[Verdict], folder: Path) -> list[Path]:
+    """Write horizon.png and paths.png into the folder; their paths. Raises NoPlots, NotSaved."""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise NoPlots("The package matplotlib is missing, so there are no plots; everything else works.") from None
+    made = []
+    for name, paint in (("horizon.png", _horizons), ("paths.png", _paths)):
+        figure = Figure(figsize=(10, 6), layout="constrained")
+        paint(figure, run, verdicts)
+        picture = BytesIO()
+        figure.savefig(picture, dpi=120, format="png")
+        write(folder / name, picture.getvalue())
+        made.append(folder / name)
+    return made
+
+
+def _horizons(figure: Any, run: Run, verdicts: Sequence[Verdict]) -> None:
+    """How far off the model is, before and after, at each horizon."""
+    axes = figure.add_subplot()
+    for verdict in verdicts:
+        colour = f"C{verdict.robot}"
+        axes.plot(HORIZONS, verdict.before.mm, "o--", color=colour, label=f"robot {verdict.robot + 1}, nominal")
+        axes.plot(HORIZONS, verdict.after.mm, "o-", color=colour, label=f"robot {verdict.robot + 1}, identified")
+    axes.set_yscale("log")
+    axes.set_xticks(HORIZONS)
+    axes.set_xlabel("s ahead")
+    axes.set_ylabel("root mean square error, mm")
+    axes.set_title("Where the model expects a robot, in the part of the run that it does not know")
+    axes.grid(alpha=0.3)
+    axes.legend()
+
+
+def _paths(figure: Any, run: Run, verdicts: Sequence[Verdict]) -> None:
+    """Some predictions of five seconds beside what was seen."""
+    grid = figure.subplots(2, 2, squeeze=True).ravel()
+    for axes, verdict in zip(grid, verdicts, strict=False):
+        course = run.courses[verdict.robot]
+        begin, end = course.seen_at[0], course.seen_at[-1]
+        rest = course.between(end - HELD_OUT * (end - begin), end + 1.0)
+        for model, style, label in ((NOMINAL, "C3:", "nominal"), (verdict.drivetrain, "C0-", "identified")):
+            found = predictions(rest, model, HORIZONS[-1])
+            for i, one in enumerate(found[:: max(1, len(found) // SHOWN)]):
+                if model is NOMINAL:
+                    axes.plot(one.seen[:, 0], one.seen[:, 1], "k.", markersize=2, label="seen" if not i else None)
+                axes.plot(one.predicted[:, 0], one.predicted[:, 1], style, label=label if not i else None)
+        axes.set_title(f"robot {verdict.robot + 1}")
+        axes.set_aspect("equal")
+        axes.invert_yaxis()
+    grid[0].legend()

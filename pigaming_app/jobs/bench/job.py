@@ -1,0 +1,132 @@
+"""The job `bench`: how fast the engine, the pictures and the start are on this machine.
+
+Each figure of speed is the best of several runs: other programs can only make a run slower, so the best is nearest to
+what the code itself needs. The scene is a full match: the game's first arena, all its rules, four normal AIs, and the
+longest way to the goal, so that it does not end while it is measured.
+"""
+
+import os
+import platform
+import subprocess
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from statistics import median
+from time import perf_counter, time
+from typing import Any
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.jobs.bench import memory as bench_memory
+from pigaming_app.jobs.bench import walk as bench_walk
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.world import HZ
+
+RUNS = 5
+PLAIN_TICKS = 3000
+MATCHES = 32
+TICKS = 6000
+FRAMES = 600
+STARTS = 3
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def measure(game: str) -> dict[str, Any]:
+    """All figures by name. Without numba those of compiled play are None."""
+    plain = min(_plain_run(game, seed) for seed in range(1, RUNS + 1))
+    one = both = None
+    if can_compile():
+        compiled_ticks(game, 0)
+        one = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
+        both = max(1.0 / one, *(_two_processes(game) for _ in range(3)))
+    frames = _frames(game)
+    slowest = bench_walk.measure()
+    return {
+        "game": game,
+        "plain_us_per_tick": 1e6 * plain,
+        "compiled_us_per_tick": None if one is None else 1e6 * one,
+        "compiled_ticks_per_second": both,
+        "real_time_factor_plain": 1.0 / (HZ * plain),
+        "real_time_factor_compiled": None if one is None else 1.0 / (HZ * one),
+        "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
+        "worst_frame_ms": max(slowest.values()),
+        "worst_frame_ms_by_screen": slowest,
+        "start_s": min(_start() for _ in range(STARTS)),
+        "rss_mb": bench_memory.measure(),
+        "machine": machine(),
+    }
+
+
+def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
+    """The scene that is measured, in so many matches."""
+    rules = GAMES[game]
+    one, two, three, four = (Seat("normal", team) for team in rules.teams)
+    arena, goal = arenas(game)[0], max(rules.goals, default=0)
+    setups = [
+        Setup(game, arena, (one, two, three, four), 5.0, seed + i, rules.variants[0], goal) for i in range(matches)
+    ]
+    return Batch(setups, [BRAINS[game]["normal"]] * 4, fast)
+
+
+def compiled_ticks(game: str, seed: int) -> float:
+    """Ticks a second of one compiled loop. Seed 0 only compiles."""
+    matches = batch(game, 1000 * seed + 1, MATCHES, True)
+    if seed == 0:
+        matches.play(0)
+        return 0.0
+    began = perf_counter()
+    matches.play(TICKS)
+    return matches.ticks() / (perf_counter() - began)
+
+
+def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
+    """Play in a process of its own from the moment `start_at` on: when it began, when it ended, ticks played."""
+    matches = batch(game, 1000 * seed + 1, 2 * MATCHES, True)
+    matches.play(0)
+    while time() < start_at:
+        pass
+    began = time()
+    matches.play(TICKS)
+    return began, time(), matches.ticks()
+
+
+def machine() -> str:
+    """What this was measured on."""
+    python = f"Python {platform.python_version()}"
+    return f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores, {python}"
+
+
+def _plain_run(game: str, seed: int) -> float:
+    matches = batch(game, seed, 1, False)
+    began = perf_counter()
+    matches.play(PLAIN_TICKS)
+    return (perf_counter() - began) / matches.ticks()
+
+
+def _two_processes(game: str) -> float:
+    """Ticks a second of two processes together, from the first start to the last end."""
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        start_at = time() + 4.0
+        spans = [job.result() for job in [pool.submit(work, game, seed, start_at) for seed in (1, 2)]]
+    ticks = sum(ticks for _, _, ticks in spans)
+    return ticks / (max(end for _, end, _ in spans) - min(begin for begin, _, _ in spans))
+
+
+def _frames(game: str) -> list[float]:
+    """Milliseconds of each frame of a busy match, sorted, on a display that nobody sees."""
+    os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
+    from pigaming_app.scenes.views.benchmark.frame_times import frame_times
+
+    return sorted(frame_times(game, FRAMES))
+
+
+def _start() -> float:
+    """Seconds from `python3 main.py` to the end of its first frame of the title (and of the program)."""
+    unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    began = perf_counter()
+    subprocess.run([sys.executable, str(ROOT / "main.py"), "--frames", "1"], env=unseen, check=True)
+    return perf_counter() - began

@@ -1,0 +1,199 @@
+"""The job `bench robots`: can real robots be trusted to this program? Proven on the emulated arena, in two processes.
+
+Robots are tracked at 0.35 m/s by a camera of 1080p with 30 and with 60 pictures a second, 80 ms late in all; everything
+in the table of faults goes wrong once; twenty minutes of all three games are played by people who mash the buttons,
+with two in a hundred packets and pictures lost; and a program that drives them is killed. Of several runs the worst
+counts, but for the time that a picture takes: there other programs can only do harm.
+"""
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future, ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import NamedTuple, TypeVar
+
+from pigaming_app.ai import make
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
+from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.emulator.radio import Air
+from pigaming_app.hardware.proof import emergencies
+from pigaming_app.hardware.proof import trials as proving
+from pigaming_app.hardware.proof.emergencies import EMERGENCIES, Stopped
+from pigaming_app.hardware.proof.testbed import Bed, one_core
+from pigaming_app.hardware.proof.trials import Followed, Masher, Played, Trail
+from pigaming_app.sim.world import ROBOTS
+
+Found = TypeVar("Found")
+Run = tuple[float, int]  # pictures a second, seed
+RATES = (30.0, 60.0)  # pictures a second
+SECONDS = 20.0  # for which robots are followed
+MATCHES, MINUTES = 10, 2.0
+LOST = 0.02  # share of packets, and of pictures, in a match
+TARGETS = {  # what the figures must reach: at most, but for frames_complete
+    "pose_rmse_mm": 3.0,
+    "pose_rmse_deg": 1.5,
+    "tracker_ms": 4.0,
+    "frames_complete": 0.995,
+    "calibration_mean_mm": 1.5,
+    "calibration_max_mm": 3.0,
+    "wall_entry_mm": 5.0,
+    "worst_stop_ms": 300.0,
+    "false_alarms": 0.0,
+}
+
+
+class Unproven(Exception):
+    """Something that must happen did not: one sentence."""
+
+
+class Job(NamedTuple):
+    """One match on the mat. `mashed`: by people who mash the buttons, else by the normal AIs; `carried`: somebody puts
+    the robots on their places, else they drive there."""
+
+    game: str
+    arena: str
+    fps: float
+    seed: int
+    minutes: float = MINUTES
+    mashed: bool = True
+    carried: bool = False
+
+
+def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
+    """All figures by name; `note` is told what was found on the way. Raises Unproven."""
+    with ProcessPoolExecutor(2, get_context("spawn"), one_core) as pool:
+        followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
+        stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
+        calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
+        played = [(job, pool.submit(on_mat, job)) for job in jobs()]
+        tracks = _noted(followed, note)
+        stops = _stops(stopped, note)
+        matches = [_match(job, future, note) for job, future in played]
+        boards = [_of(future, "calibrating") for future in calibrated]
+    stops["kill -9"] = _killed(note)
+    return {
+        "pose_rmse_mm": max(run.rmse_mm for run in tracks.values()),
+        "pose_rmse_deg": max(run.rmse_deg for run in tracks.values()),
+        "tracker_ms": max(min(run.tracker_ms for (rate, _), run in tracks.items() if rate == fps) for fps in RATES),
+        "frames_complete": min(run.complete for run in tracks.values()),
+        "calibration_mean_mm": max(board.mean_mm for board in boards),
+        "calibration_max_mm": max(board.max_mm for board in boards),
+        "wall_entry_mm": max(run.deepest_mm for run in matches),
+        "worst_stop_ms": 1e3 * max(stops.values()),
+        "false_alarms": float(sum(run.alarms for run in matches)),
+    }
+
+
+def reached(figures: dict[str, float]) -> dict[str, bool]:
+    """Which figures are as good as they must be."""
+    return {
+        key: value >= TARGETS[key] if key == "frames_complete" else value <= TARGETS[key]
+        for key, value in figures.items()
+    }
+
+
+def jobs() -> list[Job]:
+    """Twenty minutes in all games and many arenas, at both rates."""
+    found = []
+    for i in range(MATCHES):
+        game = list(GAMES)[i % len(GAMES)]
+        places = arenas(game)
+        found.append(Job(game, places[i // len(GAMES) % len(places)], RATES[i % 4 == 3], i + 1))
+    return found
+
+
+def on_mat(job: Job, ground: Ground | None = None) -> Played:
+    """Play a match on an emulated mat of its own; a `ground` that is known need not be found."""
+    rules = GAMES[job.game]
+    one, two, three, four = (Seat("normal", team) for team in rules.teams)
+    goal = max(rules.goals, default=0)
+    setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.variants[0], goal)
+    bed = Bed(job.seed, job.fps, LOST, Air(loss=LOST, doubled=LOST / 2, broken=LOST / 4), ground)
+    match = Match(setup, lambda world: RealPlant(world, bed.rig))
+    for seat in range(ROBOTS):
+        seed = ROBOTS * job.seed + seat
+        match.sit(seat, Masher(seed) if job.mashed else make(job.game, "normal", seed))
+        if job.carried:
+            robot = match.state.robots[seat]
+            bed.arena.place(seat, (robot.x, robot.y, robot.heading))
+    return proving.play(bed, match, 60.0 * job.minutes)
+
+
+def follow_alone(seed: int, fps: float) -> Followed:
+    """Follow robots, on one core."""
+    return proving.follow(Trail(Bed(seed, fps)), SECONDS)
+
+
+def calibration(seed: int) -> Ground:
+    """What a calibration finds; it knows its errors on the board that it was not solved from."""
+    return Bed(seed, RATES[0]).ground
+
+
+def all_emergencies(seed: int, fps: float) -> dict[str, Stopped]:
+    """Everything that can go wrong, one after the other, to different robots."""
+    trail = Trail(Bed(seed, fps))
+    stops = {name: emergencies.stop(trail, name, i % ROBOTS) for i, name in enumerate(EMERGENCIES)}
+    return {
+        **stops,
+        "program hangs": Stopped(emergencies.hang(trail), True),
+        "program ends": Stopped(emergencies.leave(trail), True),
+    }
+
+
+def _noted(followed: Mapping[Run, Future[Followed]], note: Callable[[str], None]) -> dict[Run, Followed]:
+    tracks = {}
+    for (fps, seed), future in followed.items():
+        run = _of(future, f"tracking at {fps:.0f} fps, seed {seed}")
+        tracks[fps, seed] = run
+        note(
+            f"tracked at {fps:.0f} fps, seed {seed}: {run.rmse_mm:.2f} mm, {run.rmse_deg:.2f} deg, "
+            f"{run.tracker_ms:.2f} ms a frame, {100 * run.complete:.2f} % complete"
+        )
+    return tracks
+
+
+def _stops(stopped: dict[float, Future[dict[str, Stopped]]], note: Callable[[str], None]) -> dict[str, float]:
+    """Seconds by what went wrong. Raises Unproven when the game did not say what happened."""
+    stops = {}
+    for fps, future in stopped.items():
+        for name, run in _of(future, f"emergencies at {fps:.0f} fps").items():
+            note(f"{name} at {fps:.0f} fps: motors stood after {1e3 * run.seconds:.0f} ms")
+            if not run.said:
+                raise Unproven(f"{name}: the game did not say what had happened")
+            stops[f"{name} {fps}"] = run.seconds
+    return stops
+
+
+def _match(job: Job, future: Future[Played], note: Callable[[str], None]) -> Played:
+    """How a match went."""
+    run = _of(future, f"{job.game} in {job.arena}, seed {job.seed}")
+    note(
+        f"{job.game} in {job.arena} at {job.fps:.0f} fps: played to its end in {run.seconds:.0f} s, "
+        f"{run.paused:.1f} s of them paused, places taken in {run.places:.0f} s, {run.deepest_mm:.1f} mm into a wall, "
+        f"{run.alarms} false alarms"
+    )
+    return run
+
+
+def _killed(note: Callable[[str], None]) -> float:
+    """Seconds; 0 where it cannot be tried. Raises Unproven."""
+    try:
+        seconds = emergencies.kill(1)
+    except (OSError, ImportError) as reason:
+        note(f"kill -9 was not tried: {reason}")
+        return 0.0
+    except RuntimeError as reason:
+        raise Unproven(f"kill -9: {reason}") from reason
+    note(f"kill -9: motors stood after {1e3 * seconds:.0f} ms")
+    return seconds
+
+
+def _of(future: Future[Found], what: str) -> Found:
+    """What a process found. Raises Unproven where something that must happen did not."""
+    try:
+        return future.result()
+    except (RuntimeError, NoGround) as reason:
+        raise Unproven(f"{what}: {reason}") from reason

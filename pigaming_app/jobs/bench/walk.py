@@ -1,0 +1,22 @@
+"""The longest frame of every screen, measured by a walk through the arcade in a process of its own; see scenes/walk."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def measure() -> dict[str, float]:
+    """Milliseconds of CPU time by screen, the longest first. Raises subprocess.CalledProcessError."""
+    with TemporaryDirectory() as home:
+        unseen = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
+        command = [sys.executable, "-m", "pigaming_app.scenes.walk.walker"]
+        done = subprocess.run(
+            command, env={**os.environ, **unseen}, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
+        )
+    found: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
+    return dict(sorted(found.items(), key=lambda screen: -screen[1]))

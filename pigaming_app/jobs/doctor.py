@@ -1,0 +1,192 @@
+"""The job `doctor`: what is there, what is missing, and what to do about it. It changes nothing and never hangs."""
+
+import contextlib
+import json
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from pigaming_app import ASSETS
+from pigaming_app.boot.interpreter import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
+from pigaming_app.storage.parsing import json_of, one_line
+from pigaming_app.storage.scores import migrations
+from pigaming_app.storage.settings import folders
+
+ROOM = 100_000_000  # bytes of free disk, below which it is said
+PATIENCE = 15.0  # seconds for all that drivers are asked
+ANEW = "get the whole folder of the program again"
+EXTRAS = {
+    "train": "bench and duel fetch it when they first run; the arcade does not need it",
+    "hardware": "only real robots need it",
+}
+DEVICES = {  # what main.py can do without, and what to do about it
+    "pygame": ("problem", "delete the folder .venv and start main.py again"),
+    "displays": ("note", "connect one to play; play --headless, duel and bench go without"),
+    "sound": ("note", "the arcade is silent, and works"),
+    "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
+    "fonts": ("problem", ANEW),
+}
+
+
+@dataclass(frozen=True)
+class Line:
+    """One thing that was looked at. `state`: ok, note (one can play all the same) or problem."""
+
+    what: str
+    state: str
+    found: str
+    advice: str = ""
+
+
+def run(as_json: bool) -> int:
+    """Print the report; 1 if something prevents playing."""
+    lines = report()
+    well = all(line.state != "problem" for line in lines)
+    if as_json:
+        print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
+        return int(not well)
+    for line in lines:
+        advice = f"  ->  {line.advice}" if line.advice else ""
+        print(one_line(f"{line.state:8} {line.what:24} {line.found}{advice}"))
+    print("All is well." if well else "Something prevents playing: see the lines that begin with problem.")
+    return int(not well)
+
+
+def report() -> list[Line]:
+    """Everything worth looking at. It never raises: what fails becomes a line."""
+    return [*_system(), *_packages(), *_folders(), *_older_scores(), *_assets(), *_devices(), _engine()]
+
+
+def _system() -> Iterator[Line]:
+    yield Line("Python", "ok", f"{platform.python_version()}, {sys.executable}")
+    yield Line(
+        "system", "ok", f"{platform.system()} {platform.release()}, {platform.machine()}, {os.cpu_count()} cores"
+    )
+
+
+def _packages() -> Iterator[Line]:
+    there = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
+    for group in (ARCADE, *EXTRAS):
+        try:
+            wanted = requirements([group])
+        except Trouble as trouble:
+            yield Line("packages", "problem", str(trouble))
+            return
+        for one in wanted:
+            name = one.partition(">")[0]
+            if not lacks(there, one):
+                yield Line(name, "ok", there[name])
+            elif group == ARCADE:
+                yield Line(name, "problem", f"{there.get(name, 'missing')}, but {one} is needed", "start main.py again")
+            else:
+                yield Line(name, "note", there.get(name, "not installed"), EXTRAS[group])
+    if both_pygames(there):
+        yield Line(
+            "pygame", "problem", "it is installed beside pygame-ce and they overwrite each other", "uninstall both"
+        )
+
+
+def _folders() -> Iterator[Line]:
+    where = folders()
+    for what, folder in (("settings", where.config), ("scores", where.data), ("cache", where.cache)):
+        there = _nearest(folder)
+        try:
+            tempfile.TemporaryFile(dir=there).close()
+        except OSError as error:
+            yield Line(what, "note", f"{folder} ({error.strerror})", "it cannot be written, so nothing will be kept")
+            continue
+        room = shutil.disk_usage(there).free
+        full = f"only {room // 1_000_000} MB are free: make room, or nothing will be kept" if room < ROOM else ""
+        yield Line(what, "note" if full else "ok", str(folder), full)
+
+
+def _older_scores() -> Iterator[Line]:
+    """What was carried over from version 1.3.0, when, and where its backup lies."""
+    data = folders().data
+    done, waits = migrations(data)
+    for one in done:
+        games = ", ".join(f"{one_line(game, 20)} {rows}" for game, rows in one.rows.items()) or "none"
+        day, backup = f"{one.when:%Y-%m-%d %H:%M}", data / one.backup
+        found = f"rows of version 1.3.0 carried over on {day}: {games}; shown as older, backup {backup}"
+        lost = "" if backup.is_file() else f"the backup has gone: keep a copy of {data / one.file}"
+        yield Line("older scores", "note" if lost else "ok", found, lost)
+    if waits:
+        yield Line("older scores", "note", "those of version 1.3.0 wait to be carried over", "start the arcade once")
+
+
+def _nearest(folder: Path) -> Path:
+    """The folder, or the first one above it that is there."""
+    for place in (folder, *folder.parents):
+        with contextlib.suppress(OSError):  # a name that is too long
+            if place.exists():
+                return place
+    return Path()
+
+
+def _assets() -> Iterator[Line]:
+    from pigaming_app.games import GAMES
+    from pigaming_app.games.arenas import arenas, load
+    from pigaming_app.sim.arena import ArenaError
+
+    for game in GAMES:
+        names = arenas(game)
+        for name in names:
+            try:
+                load(game, name)
+            except ArenaError as error:
+                yield Line("arena", "note", str(error), "mend the file, or take it away")
+        yield Line(
+            "arenas", "ok" if names else "problem", f"{game}: {', '.join(names) or 'none'}", "" if names else ANEW
+        )
+    for what, files, state in (("texts", "text/*.toml", "problem"), ("sounds", "sounds/*.ogg", "note")):
+        count = len(list(ASSETS.glob(files)))
+        yield Line(what, "ok" if count else state, f"{count} files", "" if count else ANEW)
+
+
+def _devices() -> Iterator[Line]:
+    answers = _probed()
+    for what, (state, advice) in DEVICES.items():
+        if what not in answers:
+            yield Line(what, state, "its driver did not answer", advice)
+        else:
+            found, wrong = answers[what]
+            none = "none; the keyboard will do" if what == "pads" else "none"
+            text = "; ".join(part for part in (found, wrong) if part) or none
+            yield Line(what, state if wrong else "ok", text.rstrip("."), advice if wrong else "")
+
+
+def _probed() -> dict[str, tuple[str, str]]:
+    """What the probe could tell before it ended, crashed or had to be stopped: found and wrong, by name."""
+    command = [sys.executable, "-m", "pigaming_app.ui.probe"]
+    surroundings = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
+    try:
+        said = subprocess.run(
+            command, cwd=ROOT, env=surroundings, capture_output=True, timeout=PATIENCE, check=False
+        ).stdout
+    except subprocess.TimeoutExpired as stopped:
+        said = stopped.stdout or b""
+    answers: dict[str, tuple[str, str]] = {}
+    for line in said.decode(errors="replace").splitlines():
+        with contextlib.suppress(ValueError):  # a driver may print as well
+            name, found, wrong = json_of(line)
+            answers[str(name)] = str(found), str(wrong)
+    return answers
+
+
+def _engine() -> Line:
+    try:
+        from pigaming_app.ai import seated
+        from pigaming_app.games.setup import choose
+
+        match = seated(choose("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
+        for _ in range(50):
+            match.tick()
+    except Exception as error:  # whatever is broken in it, the report is wanted
+        return Line("engine", "problem", f"{type(error).__name__}: {error}", ANEW)
+    return Line("engine", "ok", "a second of a match was played")

@@ -1,0 +1,107 @@
+"""The job `league`: every brain against every other, told as two tables not wider than 100 columns, or as JSON.
+
+The first says who stands where, the second how each fared against each.
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+
+from pigaming_app.ai.experiments import league as leagues
+from pigaming_app.ai.experiments.league import Duel, League, Standing
+
+WIDTH = 100  # columns
+NOTES = (
+    "Rating: Bradley-Terry, mean 0; a tie is half a win for each. 100 points more are 64 wins in 100.",
+    "Every pair is lent one tie that nobody played, so that clean sweeps stay finite.",
+    "In brackets: 95 % intervals, of ratings by Bayesian bootstrap over the seeds, of wins by Wilson.",
+)
+
+
+def rank(arguments: argparse.Namespace, goal: int | None) -> int:
+    """Play the league that the command line asked for, and tell how it went. Raises ChoiceError or ArenaError."""
+    found = leagues.league(
+        arguments.game,
+        arguments.brains,
+        arguments.matches,
+        arguments.seed,
+        arguments.minutes,
+        arguments.arena,
+        arguments.variant,
+        goal=goal,
+        heard=_progress if sys.stderr.isatty() else None,
+    )
+    if sys.stderr.isatty():
+        print(end="\r\x1b[K", file=sys.stderr)
+    if arguments.json:
+        print(json.dumps(plain(found)))
+    else:
+        print("\n".join(line.rstrip() for line in told(found)))
+    return 0
+
+
+def plain(found: League) -> dict[str, object]:
+    """A league as plain values; a brain's rating lies beside its other numbers."""
+    whole = asdict(found)
+    for standing in whole["standings"]:
+        rating = standing.pop("rating")
+        standing.update(rating=rating["rating"], rating95=(rating["low"], rating["high"]))
+    return whole
+
+
+def told(found: League) -> Iterator[str]:
+    """The lines of both tables."""
+    brains = [standing.brain for standing in found.standings]
+    name = max(len(brain) for brain in brains) + 2
+    yield f"{found.game}, {found.arena}, {found.minutes:g} min, {found.variant}: {found.matches} matches a pair,"
+    yield f"the seeds from {found.seed} on, each from both sides; {found.seconds:.1f} s"
+    yield ""
+    yield f"{'':4}{'':{name}}{'rating':>7}{'':16}{'W / T / L':>17}{'wins':>8}{'':17}{'mean score':>11}"
+    for place, standing in enumerate(found.standings, 1):
+        yield f"{place:>3} {standing.brain:{name}}{_row(standing)}"
+    yield ""
+    yield "W/T/L of each row against each column, and its wins in %"
+    yield from _cross(found.duels, brains, name)
+    yield ""
+    yield from NOTES
+
+
+def _row(standing: Standing) -> str:
+    rating, played = standing.rating, standing.wins + standing.ties + standing.losses
+    low, high = (100 * share for share in standing.wilson95)
+    around = f"[{round(rating.low):+}, {round(rating.high):+}]"
+    results = f"{standing.wins} / {standing.ties} / {standing.losses}"
+    between = f"[{low:.1f}, {high:.1f}]"
+    wins = f"{100 * standing.wins / played:.1f} %"
+    return f"{round(rating.rating):+7} {around:15}{results:>17}{wins:>8} {between:16}{standing.mean_score:11.2f}"
+
+
+def _cross(duels: Sequence[Duel], brains: Sequence[str], name: int) -> Iterator[str]:
+    """Two lines for each brain, in as many blocks of columns as the width needs."""
+    results = {pair: cell for duel in duels for pair, cell in _cells(duel)}
+    cell = max(len(text) for pair in results.values() for text in (*pair, *brains)) + 2
+    columns = max(1, (WIDTH - name) // cell)
+    for first in range(0, len(brains), columns):
+        across = brains[first : first + columns]
+        yield ""
+        yield f"{'':{name}}" + "".join(f"{brain:>{cell}}" for brain in across)
+        for brain in brains:
+            for line, title in enumerate((brain, "")):
+                texts = (results[brain, other][line] if other != brain else "-" * (not line) for other in across)
+                yield f"{title:{name}}" + "".join(f"{text:>{cell}}" for text in texts)
+
+
+def _cells(duel: Duel) -> Iterator[tuple[tuple[str, str], tuple[str, str]]]:
+    """What a duel says from either side: results, and the interval of the wins."""
+    for left, right, wins, losses in (
+        (duel.left, duel.right, duel.wins, duel.losses),
+        (duel.right, duel.left, duel.losses, duel.wins),
+    ):
+        low, high = leagues.wilson(wins, duel.matches)
+        yield (left, right), (f"{wins}/{duel.ties}/{losses}", f"[{100 * low:.0f}, {100 * high:.0f}]")
+
+
+def _progress(number: int, of: int, left: str, right: str) -> None:
+    print(end=f"\r\x1b[Kduel {number + 1} of {of}: {left} and {right}", file=sys.stderr, flush=True)

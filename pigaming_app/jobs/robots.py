@@ -1,0 +1,163 @@
+"""The job `robots`: what is plugged in, which robots are there and how well; on request who is who, and how late."""
+
+import json
+import time
+from argparse import Namespace
+from typing import Any
+
+from pigaming_app.hardware.session.workshop import Workshop, keep_radios, open_workshop, wiring
+
+LISTEN = 2.5  # s
+HZ = 50
+CASES = {
+    "fits": "drives marker {marker}, as it should",
+    "swapped": "drives marker {marker}: swap the markers, or go on like this",
+    "none": "no marker turned: is it covered, off the mat, or the battery empty?",
+    "wired": "the robot with marker {marker} turned the wrong way or drove off: check the wires of its motors",
+    "several": "more than one robot turned: two radios have the same number",
+    "twice": "two robots wear the same marker",
+    "absent": "nobody answers there",
+}
+
+
+class NotThere(Exception):
+    """What was asked for cannot be done; the text is one sentence."""
+
+
+def run(arguments: Namespace) -> int:
+    """Do the job. Raises NotThere."""
+    told = look(arguments)
+    if arguments.json:
+        print(json.dumps(told))
+    else:
+        _print(told)
+    return 0
+
+
+def look(arguments: Namespace) -> dict[str, Any]:
+    """All that can be said, by name; what is wrong stands there as a sentence. Raises NotThere."""
+    from pigaming_app.hardware.radio.serial_line import ports
+    from pigaming_app.hardware.vision.discovery import cameras
+    from pigaming_app.hardware.vision.markers import NoVision
+
+    told: dict[str, Any] = {
+        "ports": [found._asdict() for found in ports()],
+        "cameras": [known._asdict() for known in cameras()],
+    }
+    try:
+        shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
+    except (ValueError, ImportError, NoVision) as trouble:
+        if arguments.emulate is not None:
+            raise NotThere(str(trouble)) from None
+        if arguments.pair or arguments.latency:
+            raise NotThere(f"Robots can only be moved where they are seen. {trouble}") from None
+        return {**told, **_heard(arguments), "eyes": str(trouble)}
+    try:
+        return {**told, **_looked(shop, arguments)}
+    finally:
+        shop.close()
+
+
+def _heard(arguments: Namespace) -> dict[str, Any]:
+    """What the radio alone tells."""
+    from pigaming_app.hardware.session.assembly import linked
+
+    link = linked(wiring(arguments.camera, arguments.port))
+    with link.start():
+        time.sleep(LISTEN)
+        return {"radio": link.trouble and str(link.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
+
+
+def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
+    """What is heard and seen; then the robots move, if that was asked for."""
+    rig, told = shop.rig, dict[str, Any]()
+    for _ in range(round(LISTEN * HZ)):
+        shop.tick()
+        rig.pump()
+    seen = rig.sense()
+    told["radio"] = rig.link.trouble and str(rig.link.trouble)
+    told["eyes"] = getattr(rig.eye, "trouble", None)
+    told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
+    movable = [i for i in range(4) if told["robots"][i]["heard"]]
+    if (arguments.pair or arguments.latency) and not movable:
+        raise NotThere(told["radio"] or "No robot answers: are they switched on?")
+    if arguments.pair:
+        told["pairing"] = _paired(shop, kept=arguments.emulate is None)
+    if arguments.latency:
+        told["latency"] = [_late(shop, i) for i in movable if told["robots"][i]["seen"]]
+    return told
+
+
+def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
+    """One robot: its radio, battery (V), how well it is heard, where it is seen (px, px, rad)."""
+    report, quality = link.telemetry.get(channel), link.quality(channel)
+    there = seen is not None and seen.age < 1.0
+    return {
+        "robot": robot + 1,
+        "radio": channel + 1,
+        "heard": report is not None and quality.share > 0.0,
+        "battery": round(report.battery, 2) if report else None,
+        "share": round(quality.share, 2),
+        "strength": quality.strength,
+        "echo_ms": None if quality.echo is None else round(1000 * quality.echo),
+        "seen": there,
+        "at": [round(float(one), 2) for one in seen[:3]] if there else None,
+    }
+
+
+def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
+    """Spin each robot in turn; remember who is who unless it is unclear."""
+    from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+    from pigaming_app.storage.safe_files import NotSaved
+
+    pairing = Pairing(shop.rig)
+    while not pairing.tick():
+        shop.tick()
+    shop.rig.channels = pairing.channels
+    if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
+        try:
+            keep_radios(pairing.channels)
+        except NotSaved as trouble:
+            raise NotThere(str(trouble)) from None
+    return [
+        {"radio": one.channel + 1, "marker": None if one.marker is None else one.marker + 1, "case": str(one.case)}
+        for one in sorted(pairing.findings)
+    ]
+
+
+def _late(shop: Workshop, robot: int) -> dict[str, Any]:
+    """Shake one robot."""
+    from pigaming_app.hardware.commissioning.latency import Shake
+
+    shake = Shake(shop.rig, robot)
+    while not shake.tick():
+        shop.tick()
+    found = shake.result()
+    names = ("acts", "picture", "total", "lag")
+    return {"robot": robot + 1, **{f"{name}_ms": found and round(1000 * getattr(found, name)) for name in names}}
+
+
+def _print(told: dict[str, Any]) -> None:
+    for name in ("ports", "cameras"):
+        there = ", ".join(" ".join(str(part) for part in one.values()) for one in told[name])
+        print(f"{name:9} {there or 'none'}")
+    for name in ("radio", "eyes"):
+        print(f"{name:9} {told.get(name) or 'well'}")
+    for one in told["robots"]:
+        print(f"robot {one['robot']}   {_described(one)}")
+    for one in told.get("pairing", ()):
+        print(f"radio {one['radio']}   {CASES[one['case']].format(marker=one['marker'])}")
+    for one in told.get("latency", ()):
+        late = "it did not move, or was hardly seen"
+        if one["total_ms"] is not None:
+            late = f"{one['total_ms']} ms: {one['acts_ms']} to the motors, {one['picture_ms']} for the picture"
+        print(f"latency {one['robot']} {late}")
+
+
+def _described(one: dict[str, Any]) -> str:
+    if not one["heard"]:
+        return "not heard" + (", seen" if one["seen"] else "")
+    strength = "" if one["strength"] is None else f" at {one['strength']} dBm"
+    echo = "" if one["echo_ms"] is None else f", answers in {one['echo_ms']} ms"
+    where = f", seen at {one['at'][0]:.0f}, {one['at'][1]:.0f}" if one["seen"] else ", not seen"
+    return f"{one['battery']:.2f} V, {one['share']:.0%} of its reports{strength}{echo}{where}"

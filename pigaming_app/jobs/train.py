@@ -1,0 +1,241 @@
+"""The job `train`: a Q-table trained in self-play, with its progress shown, kept in a file, and measured on the way.
+
+Ctrl-C ends it after the match that is being played, and keeps what has been learned; `--resume` goes on from there, and
+the table is then the same, to the last bit, as if nothing had happened.
+"""
+
+import argparse
+import csv
+import json
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import fields, replace
+from importlib.util import find_spec
+from io import BytesIO, StringIO
+from os.path import realpath
+from time import perf_counter
+from typing import Any, NamedTuple
+
+from pigaming_app.ai.experiments import training
+from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.ai.qlearning.table_files import load
+from pigaming_app.games.arenas import load as load_arena
+from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError
+from pigaming_app.sim.kernel import can_compile, engine_hash
+from pigaming_app.sim.world import HZ
+from pigaming_app.storage.safe_files import check_target, write
+
+BAR = 24  # characters
+SHOWN_EVERY = 0.1  # s
+MEASURES = 10  # of a training, spread evenly
+MEASURED = 10  # matches for each
+
+
+class Point(NamedTuple):
+    """Where a training stood; wins, ties and losses against the frozen FSM."""
+
+    matches: int
+    experiences: int
+    temperature: float
+    states: int
+    pairs: int
+    wins: int
+    ties: int
+    losses: int
+
+
+def train(arguments: argparse.Namespace) -> int:
+    """Train as asked. Raises ChoiceError, ArenaError, TableError or NotSaved."""
+    _check(arguments)
+    course = _begin(arguments)
+    points: list[Point] = []
+    if course.fast and not training.cached():
+        print("compiling the training, once", file=sys.stderr)
+    course.warm()
+    with _interrupts() as stopped:
+        print("Ctrl-C ends it after the match that is being played, and keeps what has been learned", file=sys.stderr)
+        seconds = _train(course, arguments, points, stopped)
+        course.save(arguments.out, arguments.out.stem)
+        if arguments.csv:
+            write(arguments.csv, _csv_of(points))
+        if arguments.curve:
+            write(arguments.curve, _curve_of(points, arguments))
+    _tell(course, arguments, points, seconds, bool(stopped))
+    return 130 if stopped else 0
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    """Say at the door what cannot be done, not after the training."""
+    if not 1 <= arguments.matches <= 1_000_000:
+        raise ChoiceError(f"--matches: {arguments.matches}; possible are 1 to 1000000")
+    if not LEAST_MINUTES <= arguments.minutes <= MOST_MINUTES:
+        raise ChoiceError(f"--minutes: {arguments.minutes:g}; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
+    load_arena(training.GAME, arguments.arena)
+    if arguments.out.suffix != ".npz":
+        raise ChoiceError(f"--out: {arguments.out}: the name of a table ends in .npz")
+    if arguments.curve and arguments.curve.suffix.lower() != ".png":
+        raise ChoiceError(f"--curve: {arguments.curve}: the name of a picture ends in .png")
+    taken: set[str] = set()
+    for option in ("out", "csv", "curve"):
+        path = getattr(arguments, option)
+        if path is None:
+            continue
+        if path.is_dir() or not path.absolute().parent.is_dir():
+            raise ChoiceError(f"--{option}: {path}: there is no such folder, or it is one itself")
+        if realpath(path) in taken:
+            raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
+        taken.add(realpath(path))
+        check_target(path)
+    if arguments.curve and find_spec("matplotlib") is None:
+        raise ChoiceError("--curve: matplotlib is missing; `pip install matplotlib`, or use --csv")
+
+
+def _recipe(arguments: argparse.Namespace) -> Recipe:
+    """The recipe that was asked for. Raises ChoiceError."""
+    kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
+    changes: dict[str, float] = {}
+    for text in arguments.set:
+        name, equals, value = text.partition("=")
+        if name not in kinds or not equals:
+            raise ChoiceError(f"--set: {text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
+        try:
+            changes[name] = kinds[name](value)
+        except ValueError:
+            raise ChoiceError(f"--set: {text!r}; {value!r} is not such a number") from None
+    try:
+        return replace(RECIPES[arguments.reward], **changes)  # type: ignore[arg-type]
+    except ValueError as wrong:
+        raise ChoiceError(f"--set: {wrong}") from None
+
+
+def _begin(arguments: argparse.Namespace) -> training.Training:
+    """A fresh training, or one that goes on. Raises ChoiceError or TableError."""
+    recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
+    if not arguments.resume:
+        return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
+    kept = load(arguments.out)
+    asked = (recipe, arguments.seed, arguments.arena, arguments.minutes, engine_hash())
+    words = ("reward (or --set)", "seed", "arena", "minutes", "version of the engine")
+    there = (kept.recipe, kept.seed, kept.arena, kept.minutes, kept.engine)
+    for word, wish, found in zip(words, asked, there, strict=True):
+        if wish != found:
+            raise ChoiceError(f"--resume: {arguments.out.name} was trained with another {word}")
+    return training.load(arguments.out, fast)
+
+
+def _train(course: training.Training, arguments: argparse.Namespace, points: list[Point], stopped: list[int]) -> float:
+    """Train on to so many matches, or until stopped; the s that it took, without those spent on measuring."""
+    a_match = round(arguments.minutes * 60 * HZ)
+    every = max(1, -(-arguments.matches // MEASURES))
+    seconds, shown = 0.0, 0.0
+    _note(course, points)
+    while course.matches < arguments.matches and not stopped:
+        began = perf_counter()
+        course.run(a_match)
+        seconds += perf_counter() - began
+        if course.matches % every == 0 or course.matches == arguments.matches:
+            _note(course, points)
+        if perf_counter() - shown > SHOWN_EVERY or course.matches >= arguments.matches:
+            shown = perf_counter()
+            _show(course, arguments.matches, points[-1])
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+    return seconds
+
+
+def _note(course: training.Training, points: list[Point]) -> None:
+    """Measure where the training stands; before the first match nothing has been learned yet, and nothing is played."""
+    score = course.measure(matches=MEASURED) if course.matches else (0, 0, 0)
+    pairs = int(course.table.pairs)
+    points.append(Point(course.matches, course.experiences, course.temperature, course.visited, pairs, *score))
+
+
+def _show(course: training.Training, matches: int, last: Point) -> None:
+    """One line of progress; on a screen it replaces the one before it."""
+    done = BAR * course.matches // matches
+    score = f"FSM {last.wins}-{last.ties}-{last.losses}" if last.matches else "FSM not met yet"
+    line = (
+        f"[{'#' * done}{'.' * (BAR - done)}] {course.matches}/{matches} matches  {course.experiences:,} experiences  "
+        f"T {course.temperature:.3f}  {course.visited:,} states  {score}"
+    )
+    if sys.stderr.isatty():
+        print(f"\r{line}", end="", file=sys.stderr, flush=True)
+    elif last.matches == course.matches:
+        print(line, file=sys.stderr, flush=True)
+
+
+@contextmanager
+def _interrupts() -> Iterator[list[int]]:
+    """While this lasts Ctrl-C and a polite end only note that somebody wishes to stop."""
+    stopped: list[int] = []
+    kinds = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(kind, lambda number, frame: stopped.append(number)) for kind in kinds]
+    try:
+        yield stopped
+    finally:
+        for kind, handler in zip(kinds, before, strict=True):
+            signal.signal(kind, handler)
+
+
+def _csv_of(points: list[Point]) -> bytes:
+    text = StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(Point._fields)
+    writer.writerows(points)
+    return text.getvalue().encode()
+
+
+def _curve_of(points: list[Point], arguments: argparse.Namespace) -> bytes:
+    """The learning curve as a PNG file: what it scored, what it had seen, how daring it was."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    matches = [point.matches for point in points]
+    figure, (score, seen) = pyplot.subplots(2, 1, figsize=(9, 7), sharex=True, layout="constrained")
+    for word, colour in (("wins", "tab:green"), ("ties", "tab:gray"), ("losses", "tab:red")):
+        shares = [getattr(point, word) / MEASURED if point.matches else float("nan") for point in points]
+        score.plot(matches, shares, color=colour, marker="o", label=f"{word} against the FSM")
+    score.set(title=f"Reward {arguments.reward}, seed {arguments.seed}", ylabel="share", ylim=(-0.03, 1.03))
+    score.legend()
+    seen.plot(matches, [point.states for point in points], color="tab:blue", marker="o", label="states visited")
+    seen.set(xlabel="matches of self-play", ylabel="states visited")
+    heat = seen.twinx()
+    heat.plot(matches, [point.temperature for point in points], color="tab:orange", label="temperature")
+    heat.set(ylabel="temperature")
+    figure.legend(loc="outside lower center", ncols=2, handles=[*seen.lines, *heat.lines])
+    picture = BytesIO()
+    figure.savefig(picture, dpi=110, format="png")
+    pyplot.close(figure)
+    return picture.getvalue()
+
+
+def _tell(
+    course: training.Training, arguments: argparse.Namespace, points: list[Point], seconds: float, stopped: bool
+) -> None:
+    """What came of it."""
+    last = points[-1]
+    if arguments.json:
+        told = {
+            "reward": arguments.reward,
+            "seed": arguments.seed,
+            **last._asdict(),
+            "matches": course.matches,
+            "experiences": course.experiences,
+            "measured": MEASURED if last.matches else 0,
+            "seconds": seconds,
+            "compiled": course.fast,
+            "finished": not stopped,
+            "out": str(arguments.out),
+        }
+        print(json.dumps(told))
+        return
+    how = "compiled" if course.fast else "plain"
+    score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against the FSM" if last.matches else ""
+    print(f"{course.matches} matches, {course.experiences:,} experiences, {course.visited:,} states: {arguments.out}")
+    print(f"trained in {seconds:.1f} s ({how}){score}")
+    if stopped:
+        print("stopped before the end; go on with --resume")

@@ -1,0 +1,181 @@
+"""What the brain overlay says above the arena, in place of the panels: what the AI does and why, and its wishes.
+
+Left, whose brain it is and one line each for what it does and why. Right, a bar for everything that it might want, the
+one it follows in white, and its stick; a brain that chooses among moves shows how good each seems instead.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import pygame
+
+from pigaming_app.ai.brain.thoughts import Move
+from pigaming_app.scenes.brain.rose import tone
+from pigaming_app.scenes.views.sprites.factory import state_icon
+from pigaming_app.ui.draw.ink import (
+    BLACK,
+    BODY,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    THIN,
+    WHITE,
+    Color,
+    Ink,
+    badge,
+    cut,
+    dim,
+    icon,
+    mix,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import fitted, word
+from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
+from pigaming_app.ui.draw.surface_cache import cached
+
+Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin round their sprites
+TEXT = 104  # px from the left edge of a box to its texts
+BAR_W, BAR_H, PITCH = 36, 48, 72  # px
+TOP, SIGN_Y = 10, 83  # px from a box's top to its bars, and to the middle of their signs
+CELL, GAP = 28, 30  # px of a cell of the stick; from the stick to the sign beside it
+LEVELS = 10  # tones of a cell each way
+CRATES = {"raw": 0, "half": 1, "done": 2, "damaged": 3}  # signs that are crates
+SIGNS = {
+    "cover": "shield", "attack": "faster", "fire": "shoot", "dodge": "ricochet", "free": "turn_left",
+    "collect": "plus", "left": "left", "line": "up", "right": "right", "brake": "stay", "turbo": "fastest",
+    "back": "behind", "put": "down", "wait": "clock",
+}  # fmt: skip
+
+
+def blank(screen: pygame.Surface, left: int, right: int) -> None:
+    """Take away the panels between two x of the canvas."""
+    screen.fill(BLACK, (left, 0, right - left, Y + H + 4))
+
+
+def draw_words(screen: pygame.Surface, x: int, w: int, seat: int, doing: str, because: str) -> None:
+    """The left box."""
+    put_on(screen, box(seat, w, True), x, Y)
+    lines(screen, x + TEXT, w - TEXT - 20, doing, because)
+
+
+def draw_wishes(screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object) -> None:
+    """The right box of a brain with wishes: a bar for each."""
+    put_on(screen, box(seat, w, False), x, Y)
+    light: Batch = []
+    room = w - 224
+    pitch = min(PITCH, room / max(1, len(wishes)))
+    left = x + 24 + (room - pitch * len(wishes)) / 2
+    for i, (name, value) in enumerate(wishes.items()):
+        at = left + pitch * (i + 0.5)
+        put(light, bar(seat, name == chosen, False), at, Y + TOP)
+        if tall := round(BAR_H * min(1.0, max(0.0, value))):
+            image, dx, dy = bar(seat, name == chosen, True)
+            hidden = EDGE + BAR_H - tall
+            area = 0, hidden, image.get_width(), tall + EDGE
+            screen.blit(image, (at + dx, Y + TOP + dy + hidden), area, special_flags=pygame.BLEND_RGB_ADD)
+        put(light, sign(name, WHITE if name == chosen else MIST), at, Y + SIGN_Y)
+    screen.fblits(light, pygame.BLEND_RGB_ADD)
+
+
+def draw_held(screen: pygame.Surface, right: int, seat: int, held: Move, buttons: Sequence[tuple[str, int]]) -> None:
+    """At the right end of that box, whose x is given: how it holds its stick and its buttons."""
+    light: Batch = []
+    stick(light, right - 128, Y + H / 2, {}, held, PLAYERS[seat])
+    for i, (name, down) in enumerate(buttons):
+        y = Y + H / 2 + 44 * (i - (len(buttons) - 1) / 2)
+        put(light, sign(name, WHITE if down else dim(MIST, 0.35)), right - 46, y)
+    screen.fblits(light, pygame.BLEND_RGB_ADD)
+
+
+def draw_moves(
+    screen: pygame.Surface, x: int, w: int, seat: int, moves: Mapping[Move, float], chosen: object, sure: Sequence[str]
+) -> None:
+    """The right box of a brain that chooses among moves: how good each is, without and with fire, and how `sure`."""
+    put_on(screen, box(seat, w, False), x, Y)
+    light: Batch = []
+    for fire, at in ((0, x + 84), (1, x + 228)):
+        values = {
+            (linear, angular): value for (linear, angular, with_fire), value in moves.items() if with_fire == fire
+        }
+        held = chosen if isinstance(chosen, tuple) and chosen[2] == fire else None
+        stick(light, at, Y + H / 2, values, held, PLAYERS[seat])
+        if fire:
+            put(light, sign("fire", WHITE if held else dim(MIST, 0.5)), at + 76, Y + H / 2)
+    screen.fblits(light, pygame.BLEND_RGB_ADD)
+    lines(screen, x + 360, w - 380, *sure)
+
+
+def lines(screen: pygame.Surface, x: float, room: float, title: str, text: str) -> None:
+    """A title and a smaller line below it, from x on."""
+    for said, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
+        if said:
+            size = fitted(said, size, room, face)
+            lit = word(said, size, color, face, 0.35 if face == "head" else 0.0)
+            lit.draw(screen, x + text_width(said, size, face) / 2, Y + y)
+
+
+def stick(
+    light: Batch, x: float, y: float, values: Mapping[tuple[int, int], float], held: Move | None, color: Color
+) -> None:
+    """Nine cells round (x, y), ahead is up. `values`: how good each is, -1..1; the one held has a white edge."""
+    for linear in (1, 0, -1):
+        for angular in (-1, 0, 1):
+            here = held is not None and held[:2] == (linear, angular)
+            level = round(LEVELS * values.get((linear, angular), 0.0))
+            fill = tone(level) if level else color if here and not values else (34, 42, 54)
+            put(light, cell(fill, here), x + angular * CELL, y - linear * CELL)
+
+
+# ---- sprites
+
+
+def put_on(screen: pygame.Surface, image: pygame.Surface, x: float, y: float) -> None:
+    """Add a box, whose corner without its margin is at (x, y)."""
+    screen.blit(image, (x - EDGE, y - EDGE), special_flags=pygame.BLEND_RGB_ADD)
+
+
+@cached
+def box(seat: int, w: int, named: bool) -> pygame.Surface:
+    """The outline of a box; `named`: with the badge of its robot and the sign of an AI."""
+    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink.line(cut(0, 0, w, H), color, THIN, True)
+    if named:
+        badge(ink, seat, 52, 36, 24)
+        icon(ink, "ai", 52, 82, 20, mix(color, WHITE, 0.5), 3)
+    return ink.lit(0.7)
+
+
+@cached
+def bar(seat: int, chosen: bool, full: bool) -> Sprite:
+    """A wish, from the middle of its top: its light, or the empty frame."""
+    ink = Ink(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).to(EDGE + BAR_W / 2, EDGE)
+    outline = cut(-BAR_W / 2, 0, BAR_W, BAR_H, 6)
+    color = WHITE if chosen else dim(PLAYERS[seat], 0.75)
+    if full:
+        ink.fill(outline, color)
+        return Sprite(ink.lit(0.5), -EDGE - BAR_W // 2, -EDGE)
+    ink.line(outline, ICE if chosen else dim(color, 0.5), LINE - 3, True)
+    return Sprite(ink.plain(), -EDGE - BAR_W // 2, -EDGE)
+
+
+@cached
+def sign(name: str, color: Color) -> Sprite:
+    """What a wish is for: an icon, or a crate's state."""
+    ink = Ink(96, 96, 3).to(48, 48)
+    if name in CRATES:
+        state_icon(ink, CRATES[name], 0, 0, 17, color)
+    else:
+        icon(ink, SIGNS[name], 0, 0, 18, color, 5)
+    return trim(ink.lit(0.4), 48, 48)
+
+
+@cached
+def cell(fill: Color, held: bool) -> Sprite:
+    """One position of a stick."""
+    half = CELL / 2 - 2
+    ink = Ink(64, 64, 3).to(32, 32)
+    ink.fill(cut(-half, -half, 2 * half, 2 * half, 5), fill)
+    if held:
+        ink.line(cut(-half - 1, -half - 1, 2 * half + 2, 2 * half + 2, 5), WHITE, THIN, True)
+    return trim(ink.lit(0.4), 32, 32)

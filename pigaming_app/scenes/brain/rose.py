@@ -1,0 +1,83 @@
+"""A rose of sixteen petals round a robot that looks up: for each direction how good it is there, and what it does.
+
+How long a petal is and its colour say how good; so good and bad differ in light too, for those who see few colours.
+"""
+
+import math
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.ui.draw.ink import ADD, ICE, MIST, THIN, Color, Ink, Points, dim, icon
+from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
+from pigaming_app.ui.draw.surface_cache import cached
+
+PETALS = 16
+GOOD, BAD = (70, 214, 255), (255, 84, 60)
+LEVELS = 10  # lengths of a petal, each way
+EMPTY = (30, 38, 50)
+SHORTEST = 0.2  # of a petal's room
+GLOW = 24  # px round a petal
+SIGN = 15  # px to each side of an action's sign
+SIGN_AT = 27  # px from the end of a petal's room to the middle of the sign
+SIGNS = ("shoot", "ahead", "behind", "turn_left", "turn_right", "stay", "unknown")
+
+
+def draw_petals(
+    screen: pygame.Surface, x: float, y: float, levels: Sequence[int], inner: int = 50, outer: int = 140
+) -> None:
+    """Petals round (x, y); `levels`: for each direction, clockwise from ahead, -LEVELS (bad) to LEVELS (good)."""
+    batch: Batch = []
+    for k, level in enumerate(levels):
+        put(batch, petal(k, level, inner, outer), x, y)
+    screen.fblits(batch, ADD)
+
+
+def draw_signs(screen: pygame.Surface, x: float, y: float, signs: Sequence[str], outer: int = 140) -> None:
+    """What it does in each direction: a name in SIGNS at the end of each petal; shooting is brighter."""
+    batch: Batch = []
+    for k, name in enumerate(signs):
+        angle = middle(k)
+        put(batch, sign(name), x + (outer + SIGN_AT) * math.cos(angle), y + (outer + SIGN_AT) * math.sin(angle))
+    screen.fblits(batch, ADD)
+
+
+def middle(k: int) -> float:
+    """The angle of the middle of a petal on the screen, rad."""
+    return math.tau * k / PETALS - math.pi / 2
+
+
+def tone(level: int) -> Color:
+    """The colour of a level."""
+    return dim(GOOD if level > 0 else BAD, 0.45 + 0.55 * abs(level) / LEVELS)
+
+
+@cached
+def petal(k: int, level: int, inner: int, outer: int) -> Sprite:
+    """One petal and the room it has, round the middle of the rose."""
+    room = _slice(k, inner, outer)
+    left, top = min(x for x, _ in room) - GLOW, min(y for _, y in room) - GLOW
+    w, h = max(x for x, _ in room) + GLOW - left, max(y for _, y in room) + GLOW - top
+    ink = Ink(math.ceil(w), math.ceil(h)).to(-left, -top)
+    ink.line(room, EMPTY, 2, True)
+    if level:
+        reach = inner + (outer - inner) * (SHORTEST + (1 - SHORTEST) * abs(level) / LEVELS)
+        shape, color = _slice(k, inner, reach), tone(level)
+        ink.fill(shape, dim(color, 0.5)).line(shape, color, THIN, True)
+    return trim(ink.lit(0.6), -left, -top)
+
+
+@cached
+def sign(name: str, r: int = SIGN) -> Sprite:
+    """The sign of an action, `r` px to each side."""
+    ink = Ink(2 * r + 32, 2 * r + 32, 3)
+    icon(ink, name, r + 16, r + 16, r, ICE if name == "shoot" else MIST, 0.26 * r if name == "shoot" else 0.32 * r)
+    return trim(ink.lit(0.3), r + 16, r + 16)
+
+
+def _slice(k: int, inner: float, outer: float) -> Points:
+    """The outline of a petal between two radii."""
+    half, at = math.pi / PETALS - 0.03, middle(k)
+    angles = [at + half * i / 4 for i in range(-4, 5)]
+    ends = [(inner * math.cos(a), inner * math.sin(a)) for a in angles]
+    return [*ends, *((outer * math.cos(a), outer * math.sin(a)) for a in reversed(angles))]

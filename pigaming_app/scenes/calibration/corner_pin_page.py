@@ -1,0 +1,237 @@
+"""The corner pin by hand: four corners of a grid are pushed onto the mat, 1 or 10 px at a time; the picture follows.
+
+What is saved is kept in the settings and holds for everything that the arcade shows.
+"""
+
+import logging
+
+import pygame
+
+from pigaming_app.hardware.calibration.corner_pin import STRAIGHT
+from pigaming_app.hardware.messages import said
+from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.play.runner import LEFT, TOP
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import (
+    ALARM,
+    BODY,
+    FOCUS,
+    HAIR,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    STEEL,
+    SUB,
+    THIN,
+    Ink,
+    cut,
+    dim,
+    panel,
+)
+from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.focus import WAYS
+from pigaming_app.ui.widgets.labels import text
+from pigaming_app.ui.window import NoPin
+
+STEPS = (10, 1)  # px
+CORNERS = ((0, 0), (1920, 0), (1920, 1080), (0, 1080))
+BOX = pygame.Rect(460, 316, 1000, 420)  # the black box in the middle
+SAID = 5.0  # seconds for which a sentence stays
+IDLE = 600.0  # seconds without a press until the title, unsaved
+CELL = 120  # px of the grid
+FARTHEST = 800  # px that a corner may be from its own place
+
+log = logging.getLogger("pigaming")
+
+
+class PinPage:
+    """The page. What is pinned stays as it was unless it is saved."""
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.before = house.canvas.corners
+        self.corners = [round(value) for value in self.before or STRAIGHT]
+        self.chosen = self.step = 0
+        self.sentence, self.said = "", 0.0
+        self.prompts = Prompts(
+            house,
+            [
+                (Act.FIRE, "pin.hint_next"),
+                (Act.EXTRA, "pin.hint_step"),
+                (Act.ALT, "pin.hint_reset"),
+                (Act.START, "pin.hint_save"),
+                (Act.BACK, "pin.hint_back"),
+            ],
+            BOX.bottom + 76,
+            solid=True,
+        )
+
+    def entered(self) -> None:
+        """Draw the picture as it is pinned; where that cannot be done, say so."""
+        self._pin()
+
+    def left(self) -> None:
+        """Whoever leaves without saving leaves it as it was."""
+        self._restore()
+
+    def on(self, press: Press) -> Turn:
+        """Directions move the corner; FIRE takes the next one."""
+        press = self.prompts.meant(press)
+        match press.act:
+            case Act.BACK:
+                self.house.sounds.play("back")
+                self._restore()
+                return Pop()
+            case Act.START:
+                return self._save()
+            case Act.FIRE:
+                self.chosen = (self.chosen + 1) % 4
+                self.house.sounds.play("move")
+            case Act.EXTRA:
+                self.step = 1 - self.step
+                self.house.sounds.play("move")
+            case Act.ALT:
+                self.corners = [round(value) for value in STRAIGHT]
+                self.house.sounds.play("accept")
+                self._pin()
+            case Act.CLICK if press.at:
+                self._take(press.at)
+            case act if act in WAYS:
+                self._move(*WAYS[act])
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let a sentence fade."""
+        self.said -= seconds
+        if self.house.idle > IDLE:
+            self._restore()
+            return Home()
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the grid, and in its middle which corner is moved by how much."""
+        words, x, y = self.house.words, BOX.centerx, BOX.y
+        screen.blit(grid(), (0, 0))
+        handle(self.chosen).draw(screen)
+        text(words("pin.title", corner=self.chosen + 1), SUB, FOCUS, "head").draw(screen, x, y + 76)
+        text(words("pin.how"), BODY, ICE, "body", room=BOX.w - 60).draw(screen, x, y + 164)
+        across, down = (self.corners[2 * self.chosen + i] - CORNERS[self.chosen][i] for i in (0, 1))
+        text(words("pin.at", x=signed(across), y=signed(down)), LABEL, ICE, "head", room=BOX.w - 60).draw(
+            screen, x, y + 252
+        )
+        text(words("pin.step", step=STEPS[self.step]), LABEL, MIST, "head").draw(screen, x, y + 340)
+        if self.said > 0.0:
+            plate(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
+        self.prompts.draw(screen)
+
+    # ---- inside
+
+    def _move(self, across: int, down: int) -> None:
+        """Move the corner, unless nothing would fit then."""
+        kept, step = list(self.corners), STEPS[self.step]
+        for i, by in ((0, across * step), (1, down * step)):
+            own = CORNERS[self.chosen][i]
+            moved = self.corners[2 * self.chosen + i] + by
+            self.corners[2 * self.chosen + i] = min(own + FARTHEST, max(own - FARTHEST, moved))
+        if not self._pin():
+            self.corners = kept
+
+    def _take(self, at: tuple[float, float]) -> None:
+        """A click takes the corner in whose quarter it is."""
+        right, low = at[0] > 960, at[1] > 540
+        self.chosen = (2 if right else 3) if low else int(right)
+        self.house.sounds.play("move")
+
+    def _pin(self) -> bool:
+        """Show the picture in these corners; false: it cannot be, and a sentence says why."""
+        straight = self.corners == [round(value) for value in STRAIGHT]
+        try:
+            self.house.canvas.pin([] if straight else self.corners)
+            return True
+        except NoPin as trouble:
+            log.warning("%s", trouble)
+            self._say(tell(self.house.words, said(trouble)))
+            return False
+
+    def _restore(self) -> None:
+        try:
+            self.house.canvas.pin(self.before)
+        except NoPin as trouble:
+            log.warning("%s", trouble)
+
+    def _save(self) -> Turn:
+        """Keep it for good, or say that it cannot be kept."""
+        canvas, settings = self.house.canvas, self.house.settings
+        settings.corners = [round(value) for value in canvas.corners]
+        try:
+            settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self._say(self.house.words("app.unsaved"))
+            return None
+        self.before = canvas.corners
+        self.house.sounds.play("accept")
+        return Pop()
+
+    def _say(self, sentence: str) -> None:
+        self.sentence, self.said = sentence, SAID
+        self.house.sounds.play("back")
+
+
+def signed(number: int) -> str:
+    """A number with its sign; the hyphen is no minus."""
+    return f"{number:+d}".replace("-", "−") if number else "0"
+
+
+@cached
+@sliced
+def grid() -> Steps[pygame.Surface]:
+    """A grid over the whole picture, the edge of the arena, and a black box in the middle."""
+    pane = Pane(0, 0, 1920, 1080)
+    for x in range(0, 1921, CELL):
+        pane.page.cold.line([(x, 0), (x, 1080)], dim(ICE, 0.35), HAIR)
+    yield
+    for y in range(0, 1081, CELL):
+        pane.page.cold.line([(0, y), (1920, y)], dim(ICE, 0.35), HAIR)
+    pane.page.cold.line(cut(3, 3, 1914, 1074, 0), ICE, LINE, True)
+    pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), STEEL, THIN, True)
+    yield
+    light = yield from pane.lighting()
+    surface = pygame.Surface((1920, 1080))
+    light.draw(surface)
+    yield
+    pygame.draw.polygon(surface, (0, 0, 0), cut(BOX.x, BOX.y, BOX.w, BOX.h, 28))
+    frame = Pane(*BOX)
+    panel(frame.hot, BOX.x, BOX.y, BOX.w, BOX.h, STEEL, LINE, 28)
+    light = yield from frame.lighting()
+    light.draw(surface)
+    return surface
+
+
+@cached
+def handle(corner: int) -> Lit:
+    """The corner that is moved: a bright angle, and an arrow out to it."""
+    x, y = CORNERS[corner]
+    across, down = (-1 if x else 1), (-1 if y else 1)  # from the corner into the picture
+    pane = Pane(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)
+    ink: Ink = pane.hot
+    for width, reach in ((THIN, 20), (14, 8)):
+        ends = [(x + across * 240, y + down * reach), (x + across * reach, y + down * reach)]
+        ink.line([*ends, (x + across * reach, y + down * 240)], FOCUS, width)
+    ink.line([(x + across * 60, y + down * 60), (x + across * 170, y + down * 170)], FOCUS, LINE)
+    ink.line(
+        [(x + across * 130, y + down * 60), (x + across * 60, y + down * 60), (x + across * 60, y + down * 130)],
+        FOCUS,
+        LINE,
+    )
+    return pane.done()

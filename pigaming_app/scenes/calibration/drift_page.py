@@ -1,0 +1,121 @@
+"""Does the calibration still hold? The corner markers are shown, and by how much they are not where they should be."""
+
+from functools import partial
+
+import pygame
+
+from pigaming_app.hardware.calibration.camera_task import SPOT, Checking
+from pigaming_app.hardware.calibration.drift import PAUSE, WARN
+from pigaming_app.hardware.calibration.site import Site
+from pigaming_app.hardware.messages import said
+from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.scenes.calibration.corner_markers import draw_corners
+from pigaming_app.scenes.calibration.height_page import DISC, GREY
+from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.result_page import OFF
+from pigaming_app.scenes.calibration.setup_page import site_of
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.play.runner import LEFT, TOP
+from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
+from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.labels import text
+
+BAR = pygame.Rect(560, 640, 800, 40)
+ROOM = 1040  # px between the spot for a robot and as much on the other side
+MOST = 20.0  # mm at the right end of the bar
+IDLE = 300.0  # seconds without a press until the title
+
+
+class CheckPage:
+    """The page, for the camera of the settings."""
+
+    def __init__(self, house: House, site: Site | None = None) -> None:
+        self.house, self.site = house, site or site_of(house)
+        number = house.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
+        self.work = Checking(self.site, number, partial(kept.load, house.canvas.projection, self.site))
+        self.clock = 0.0
+        self.prompts = Prompts(house, [(Act.BACK, "calibrate.hint_back")])
+
+    def entered(self) -> None:
+        """Look."""
+        if self.house.mat is not None:
+            self.house.mat.close()
+        self.work.begin()
+
+    def left(self) -> None:
+        """Let go of the camera."""
+        self.work.close()
+
+    def on(self, press: Press) -> Turn:
+        """Any button leads back."""
+        if self.prompts.meant(press).act in (Act.BACK, Act.FIRE, Act.START):
+            self.house.sounds.play("back")
+            self.left()
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Look on."""
+        self.clock += seconds
+        self.site.advance(seconds)
+        self.work.pump()
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the markers, and between them what is known."""
+        words, work = self.house.words, self.work
+        screen.fill((0, 0, 0))
+        text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
+        if work.trouble is not None:
+            for i, line in enumerate(paragraph(tell(words, work.trouble), ROOM, 4, ALARM, "c")):
+                line.draw(screen, 960, 480 + 60 * i)
+        elif work.mm is None:
+            text(words("calibrate.looking_for"), LABEL, MIST, "body", room=ROOM).draw(screen, 960, 480)
+        else:
+            self._draw_drift(screen, work.mm)
+        try:
+            draw_corners(screen)
+        except NoVision as missing:
+            work.trouble = said(missing)
+        self._draw_spot(screen)
+        self.prompts.draw(screen)
+
+    def _draw_spot(self, screen: pygame.Surface) -> None:
+        """A robot here shows by its marker whether the width of the mat was measured well."""
+        words, work = self.house.words, self.work
+        x, y = LEFT + SPOT[0], TOP + SPOT[1]
+        pygame.draw.circle(screen, GREY, (x, y), DISC)
+        said, color = words("calibrate.put"), MIST
+        if work.marker_mm is not None and work.drift is not None:
+            true = work.drift.ground.marker
+            off = abs(work.marker_mm / true - 1.0) > OFF
+            key, color = ("marker_off", ALARM) if off else ("marker", ICE)
+            said = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{true:.0f}")
+        for i, line in enumerate(paragraph(said, 330, 4, color, "c")):
+            line.draw(screen, x, y + 120 + 48 * i)
+
+    def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
+        key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
+        text(self.house.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
+        bar().draw(screen)
+        share = min(1.0, mm / MOST)
+        pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
+        text(self.house.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
+
+
+@cached
+def bar() -> Lit:
+    """The empty bar, with marks where it warns and where a match pauses."""
+    pane = Pane(BAR.x, BAR.y - 20, BAR.w, 120)
+    pane.hot.line(cut(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
+    marks: tuple[tuple[float, Color], ...] = ((WARN, FOCUS), (PAUSE, ALARM))
+    for mm, color in marks:
+        x = BAR.x + BAR.w * mm / MOST
+        pane.hot.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
+        pane.page.cold.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
+    return pane.done()

@@ -1,0 +1,95 @@
+"""A robot is put on one bright spot after the other; where the camera sees it says how high the camera hangs."""
+
+from dataclasses import replace
+
+import pygame
+
+from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, Standing
+from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
+from pigaming_app.scenes.play.runner import LEFT, TOP
+from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
+from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.labels import text
+
+DISC = 72  # px: the light must fall on all of a lid, which is 70 mm up, aslant
+GREY = (128, 128, 128)
+NEAR, FAR = 86, 128  # px from the middle, of the four lines that help to aim
+
+
+class OutlinesPage:
+    """The page. `finding`: a calibration that lacks only the camera's place."""
+
+    def __init__(self, house: House, finding: Finding) -> None:
+        assert finding.ground is not None
+        self.house, self.finding = house, finding
+        self.work = Standing(finding.site, finding.number, finding.ground)
+        self.work.begin()
+        self.known = 0
+        self.prompts = Prompts(house, [(Act.BACK, "calibrate.hint_stop")], 1040)
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def left(self) -> None:
+        """Let go of the camera."""
+        self.work.close()
+
+    def on(self, press: Press) -> Turn:
+        """Only the way back."""
+        if self.prompts.meant(press).act is Act.BACK:
+            self.house.sounds.play("back")
+            self.left()
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Wait for the robot on the next spot; after the last, show what came out."""
+        work = self.work
+        self.finding.site.advance(seconds)
+        work.pump()
+        if len(work.seen) != self.known:
+            self.known = len(work.seen)
+            self.house.sounds.play("accept")
+        if work.place is not None:
+            return None
+        self.left()
+        ground = work.found or self.finding.ground
+        found = replace(self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small)
+        return Swap(ResultPage(self.house, found))
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the spots, and what to do."""
+        place, words = self.work.place, self.house.words
+        screen.fill((0, 0, 0))
+        for i, (x, y) in enumerate(PLACES):
+            if i == place:
+                pygame.draw.circle(screen, GREY, (LEFT + x, TOP + y), DISC)
+            spot(i == place, i < (place or 0)).draw(screen, LEFT + x, TOP + y)
+        if place is None:
+            return
+        x, y = PLACES[place]
+        filled = round(self.work.steady * STILL)
+        for i in range(STILL):
+            box = pygame.Rect(LEFT + x - STILL * 9 + 18 * i, TOP + y + (150 if y < 450 else -164), 14, 14)
+            pygame.draw.rect(screen, FOCUS if i < filled else STEEL, box, 0 if i < filled else 2)
+        text(words("calibrate.outline"), LABEL, ICE, "head").draw(screen, 960, 560)
+        text(words("calibrate.count", place=place + 1, places=len(PLACES)), LABEL, MIST, "head").draw(screen, 960, 640)
+        self.prompts.draw(screen)
+        self.work.shown(place)
+
+
+@cached
+def spot(here: bool, done: bool) -> Lit:
+    """Four lines that help to put a robot in the middle; no light near its marker."""
+    color = FOCUS if here else dim(ICE, 0.5) if done else STEEL
+    ink = Ink(2 * FAR + 60, 2 * FAR + 60).to(FAR + 30, FAR + 30)
+    for across, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        ink.line([(NEAR * across, NEAR * down), (FAR * across, FAR * down)], color, LINE if here else THIN)
+    if done:
+        ink.line([(-26, 2), (-8, 20), (28, -18)], color, LINE)
+    return Lit(ink.plain(), (-FAR - 30, -FAR - 30))

@@ -1,0 +1,192 @@
+"""What a calibration is worth: the errors on the board that was held out, as numbers and as a picture of arrows.
+
+What failed is said in one sentence, beside what the camera saw.
+"""
+
+import logging
+from dataclasses import dataclass
+
+import pygame
+
+from pigaming_app.hardware.calibration.ground_plane import Ground
+from pigaming_app.hardware.calibration.site import Measures, Site
+from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
+from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.signals import Image
+from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, MIST, STEEL
+from pigaming_app.ui.draw.layers import Lit, backdrop
+from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.labels import blacked, chip, heading, text
+
+HIGH = 84  # px, of a chip
+FOOT = 836  # px, their upper edge
+OFF = 0.04  # share by which a marker may seem larger or smaller than it is
+SAID = 6.0  # seconds for which a sentence stays
+IDLE = 600.0  # seconds without a press until the title
+
+log = logging.getLogger("pigaming")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """How a calibration went: with what, and what came out. `marker_mm`: of a robot's marker, if one was seen."""
+
+    site: Site
+    number: int  # of the camera
+    measures: Measures
+    ground: Ground | None
+    residuals: Residuals | None
+    trouble: str | None = None
+    picture: Image | None = None  # what the camera saw last
+    marker_mm: float = 0.0
+
+    @property
+    def good(self) -> bool:
+        """Whether it may be saved."""
+        return self.trouble is None and self.residuals is not None and self.residuals.accepted
+
+
+class ResultPage:
+    """The page: save, again, or back."""
+
+    def __init__(self, house: House, finding: Finding) -> None:
+        self.house, self.finding = house, finding
+        names = ("save", "again", "leave") if finding.good else ("again", "leave")
+        self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
+        self.sentence, self.said = "", 0.0
+        self.arrows: tuple[Lit, int] | None = None
+        self.prompts = Prompts(house, [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")])
+        small = finding.picture
+        self.picture = None if small is None else grey_surface(small)
+
+    def entered(self) -> None:
+        """It is what it is."""
+        if self.finding.residuals and not self.finding.trouble:
+            log.info("calibration: %s", self.finding.residuals.verdict)
+
+    def on(self, press: Press) -> Turn:
+        """Left and right choose, FIRE does it."""
+        press = self.prompts.meant(press)
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(press):
+            self.house.sounds.play("move")
+        chosen = self.focus.chosen(press)
+        return self._do(chosen) if chosen else None
+
+    def update(self, seconds: float) -> Turn:
+        """Only the focus moves."""
+        self.finding.site.advance(seconds)
+        self.focus.update(seconds)
+        self.said -= seconds
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        words, finding = self.house.words, self.finding
+        screen.blit(backdrop(), (0, 0))
+        title = "good" if finding.good else "failed" if finding.residuals is None or finding.trouble else "bad"
+        heading(words(f"calibrate.{title}"), color=ICE if finding.good else ALARM).draw(screen)
+        blacked(screen, AREA)
+        if finding.residuals is None or finding.trouble:
+            self._draw_failure(screen)
+        else:
+            self._draw_errors(screen, finding.residuals)
+        for spot in self.focus.spots:
+            blacked(screen, spot.rect)
+            state = "focus" if spot.name == self.focus.name else "on"
+            chip(words(f"calibrate.{spot.name}"), spot.rect.w, state, HIGH).draw(screen, *spot.rect.topleft)
+        self.focus.draw(screen)
+        if self.said > 0.0:
+            for line in paragraph(self.sentence, 1600, 1, FOCUS, "c"):
+                line.draw(screen, 960, 1046)
+        self.prompts.draw(screen)
+
+    # ---- what is seen
+
+    def _box(self, i: int) -> pygame.Rect:
+        return pygame.Rect(AREA.x + 388 * i, FOOT, 368, HIGH)
+
+    def _draw_errors(self, screen: pygame.Surface, residuals: Residuals) -> None:
+        words, finding = self.house.words, self.finding
+        self.arrows = self.arrows or arrows(residuals)
+        lit, times = self.arrows
+        lit.draw(screen)
+        text(words("calibrate.enlarged", times=times), BODY, MIST, "body", "l", AREA.w).draw(
+            screen, AREA.x + 24, AREA.bottom - 36
+        )
+        y = SIDE.y
+        for key, value, limit in (("mean", residuals.mean_mm, MEAN_MM), ("most", residuals.max_mm, MAX_MM)):
+            need = words("calibrate.limit", mm=f"{limit:g}")
+            told = words("calibrate.mm", mm=f"{value:.1f}")
+            figure(words(f"calibrate.{key}"), told, value / limit, need).draw(screen, SIDE.x, y)
+            y += 214
+        if not finding.good:
+            lines = paragraph(tell(words, residuals.verdict), SIDE.w, 5)
+        else:
+            ground = finding.ground
+            lines = paragraph(
+                words("calibrate.above", height=f"{ground.height / 1000.0 if ground else 0.0:.2f}"), SIDE.w
+            )
+            lines += self._marker()
+        for i, line in enumerate(lines):
+            line.draw(screen, SIDE.x, y + 20 + 52 * i)
+
+    def _marker(self) -> list[Lit]:
+        """How large a robot's marker seems: it says whether the mat was measured well."""
+        finding, words = self.finding, self.house.words
+        if not finding.marker_mm or finding.ground is None:
+            return []
+        true = finding.ground.marker
+        off = abs(finding.marker_mm / true - 1.0) > OFF
+        key = "marker_off" if off else "marker"
+        said = words(f"calibrate.{key}", mm=f"{finding.marker_mm:.1f}", true=f"{true:.0f}")
+        return [*paragraph(said, SIDE.w, 3, ALARM if off else ICE)]
+
+    def _draw_failure(self, screen: pygame.Surface) -> None:
+        words = self.house.words
+        for i, line in enumerate(paragraph(tell(words, self.finding.trouble or ""), SIDE.w, 9)):
+            line.draw(screen, SIDE.x, SIDE.y + 40 + 52 * i)
+        key = "unseen" if self.picture is None else "sees"
+        text(words(f"calibrate.{key}"), BODY, MIST, "body", "l").draw(screen, AREA.x + 24, AREA.bottom - 36)
+        room = AREA.inflate(-48, -136).move(0, -20)
+        if self.picture is not None:
+            w, h = self.picture.get_size()
+            scale = min(room.w / w, room.h / h)
+            grown = pygame.transform.smoothscale(self.picture, (round(w * scale), round(h * scale)))
+            screen.blit(grown, grown.get_rect(center=room.center))
+        pygame.draw.rect(screen, STEEL, room, 2)
+
+    # ---- what happens
+
+    def _do(self, name: str) -> Turn:
+        from pigaming_app.scenes.calibration.boards_page import BoardsPage
+
+        finding = self.finding
+        if name == "leave":
+            self.house.sounds.play("back")
+            return Pop()
+        if name == "again":
+            self.house.sounds.play("accept")
+            return Swap(BoardsPage(self.house, finding.site, finding.number, finding.measures))
+        if finding.ground is None:
+            return None
+        try:
+            kept.save(finding.ground, finding.site)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self.house.sounds.play("back")
+            path = kept.path(finding.site)
+            self.sentence, self.said = self.house.words("calibrate.unsaved", path=path), SAID
+            return None
+        self.house.sounds.play("accept")
+        return Pop()

@@ -1,0 +1,288 @@
+"""The first page of the calibration: which display, which camera, what was measured; beside it what the camera sees."""
+
+import logging
+
+import pygame
+
+from pigaming_app.hardware.calibration.camera_task import SMALL, Preview
+from pigaming_app.hardware.calibration.ground_plane import NoGround
+from pigaming_app.hardware.calibration.site import Measures, RealSite, Site
+from pigaming_app.hardware.messages import Said, said
+from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.session.real import NoMat
+from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.options.page import Value
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw.ink import BODY, FOCUS, LABEL, MIST
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets import rows
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Focus
+from pigaming_app.ui.widgets.labels import blacked, calling, heading, text
+
+ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
+LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
+HASTE = ((40, 100), (14, 10), (0, 1))  # after so many presses of a held direction, steps of so many mm
+USUAL = 2500  # mm, a height to begin with
+IDLE = 600.0  # seconds without a press until the title
+EVERY = 2.0  # s between two looks for cameras that were plugged in
+SAID = 5.0  # seconds for which a sentence stays
+PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
+
+log = logging.getLogger("pigaming")
+
+
+def site_of(house: House) -> Site:
+    """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
+    try:
+        site: Site | None = getattr(house.mat, "site", None)
+    except NoMat:
+        site = None  # without OpenCV there is nothing; the page says so
+    return site or RealSite()
+
+
+class CalibrationPage:
+    """The page. `camera`: one to begin with, else the one of the settings."""
+
+    def __init__(self, house: House, site: Site | None = None, camera: int | None = None) -> None:
+        self.house, self.site = house, site or site_of(house)
+        self.number = house.settings.camera if camera is None else camera
+        self.measures = self._measured()
+        self.preview: Preview | None = None
+        self.known = self.site.cameras()
+        self.state = ""
+        self._state_of: tuple[int, int] = (0, 0)
+        self.asked = 0.0  # s since it was asked which cameras there are
+        self.held, self.sentence, self.said = 0, "", 0.0
+        self._small: object = None
+        self._picture: pygame.Surface | None = None
+        self.focus = Focus(rows.spots(self._rows()))
+        self.prompts = Prompts(
+            house,
+            [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")],
+        )
+
+    def entered(self) -> None:
+        """Look through the camera, also after a calibration."""
+        self.known = self.site.cameras()
+        if self.site.name == "real" and self.known and self.number not in [one.number for one in self.known]:
+            self.number = self.known[0].number
+        self._look()
+
+    def left(self) -> None:
+        """Let go of the camera."""
+        if self.preview is not None:
+            self.preview.close()
+
+    def on(self, press: Press) -> Turn:
+        """Up and down choose a row, left and right change it; the last row begins."""
+        press = self.prompts.meant(press)
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            self.left()
+            return Pop()
+        if self.focus.on(press):
+            self.house.sounds.play("move")
+        by = rows.pushed(press, self.focus, self._value(self.focus.name))
+        if by:
+            self.held = self.held + 1 if press.repeat else 0
+            self._change(self.focus.name, by)
+        elif self.focus.chosen(press) is not None and press.act is not Act.CLICK:
+            return self._accept(self.focus.name)
+        elif press.act is Act.CLICK and self.focus.under(press) == "begin":
+            return self._accept("begin")
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Look; leave when nobody is there."""
+        self.focus.update(seconds)
+        self.said -= seconds
+        self.asked += seconds
+        if self.asked > EVERY:
+            self.asked, self.known = 0.0, self.site.cameras()
+        self.site.advance(seconds)
+        if self.preview is not None:
+            self.preview.pump()
+            if self.preview.size != self._state_of:
+                self._look_up(self.preview.size)
+        if self.house.idle > IDLE:
+            self.left()
+            return Home()
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("calibrate.title"), self.state).draw(screen)
+        blacked(screen, dials.PANEL)
+        rows.draw(screen, self.house, self.focus, "calibrate", {name: self._value(name) for name in self._rows()})
+        dials.beside().draw(screen, *dials.PANEL.topleft)
+        self._draw_camera(screen)
+        name = self.focus.name
+        text(words(f"calibrate.{name}"), LABEL, FOCUS, "head", "l", dials.PANEL.w - 40).draw(
+            screen, PICTURE.x, dials.PANEL.bottom - 216
+        )
+        for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
+            line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
+        if self.said > 0.0:
+            calling(self.sentence, "", BODY).draw(screen, 960, 916)
+        self.prompts.draw(screen)
+
+    # ---- what is seen
+
+    def _draw_camera(self, screen: pygame.Surface) -> None:
+        """The camera's picture, or why there is none."""
+        preview, words = self.preview, self.house.words
+        if preview is None:
+            return
+        room, below = dials.PANEL.w - 40, PICTURE.bottom + 40
+        if preview.trouble is not None or preview.small is None:
+            sentence = preview.trouble or Said("", "yet")
+            lines = paragraph(tell(words, sentence), room - 40, 5, align="c")
+            for i, line in enumerate(lines):
+                line.draw(screen, PICTURE.centerx, PICTURE.centery + 52 * i - 26 * (len(lines) - 1))
+            pygame.draw.rect(screen, (58, 76, 112), PICTURE, 2)
+            return
+        if preview.small is not self._small:
+            self._small, self._picture = preview.small, grey_surface(preview.small)
+        if self._picture is not None:
+            screen.blit(self._picture, self._picture.get_rect(center=PICTURE.center))
+        w, h = preview.size
+        said = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
+        text(said, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below)
+
+    def _look_up(self, size: tuple[int, int]) -> None:
+        """Whether there is a calibration for this camera and display."""
+        self._state_of, words = size, self.house.words
+        try:
+            ground = kept.load(self.house.canvas.projection, self.site, size)
+            self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
+        except NoGround as trouble:
+            log.warning("%s", trouble)
+            self.state = tell(words, said(trouble))
+
+    # ---- what the rows are
+
+    def _rows(self) -> tuple[str, ...]:
+        return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
+
+    def _value(self, name: str) -> Value:
+        words, measures = self.house.words, self.measures
+        match name:
+            case "display":
+                return Value("arrows", tuple(self.house.canvas.displays()), self.house.canvas.display)
+            case "camera":
+                return Value("arrows", (self._camera(),))
+            case "by":
+                choice = (words("calibrate.ruler"), words("calibrate.robot"))
+                return Value("toggle", choice, int(not measures.height))
+            case "begin":
+                return Value("deed", (words("calibrate.start"),))
+        mm = {"width": measures.width, "lid": measures.lid, "height": measures.height}[name]
+        return Value("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
+
+    def _camera(self) -> str:
+        words = self.house.words
+        if not self.known:
+            return words("calibrate.no_cameras")
+        name = next((known.name for known in self.known if known.number == self.number), "")
+        return words("calibrate.camera_name", number=self.number, name=name) if name else str(self.number)
+
+    def _accept(self, name: str) -> Turn:
+        if name == "begin":
+            return self._begin()
+        if name in ("display", "camera", "by"):
+            self._change(name, 1, around=True)
+        return None
+
+    def _change(self, name: str, by: int, around: bool = False) -> None:
+        """The next value of a row, or the one before it."""
+        measures, canvas = self.measures, self.house.canvas
+        self.house.sounds.play("move")
+        match name:
+            case "display":
+                count = len(canvas.displays())
+                wanted = (canvas.display + by) % count if around else min(count - 1, max(0, canvas.display + by))
+                if wanted != canvas.display:
+                    self._show(wanted, canvas.fullscreen)
+            case "camera":
+                self._next_camera(by)
+            case "by":
+                robot = bool(measures.height) if around else by > 0
+                height = 0.0 if robot else measures.height or self.site.measures.height or USUAL
+                self.measures = Measures(measures.width, height, measures.lid)
+                self.focus.place(rows.spots(self._rows()))
+            case "width" | "lid" | "height":
+                self._measure(name, by)
+        self._keep()
+
+    def _measure(self, name: str, by: int) -> None:
+        """More or less of a length; faster, the longer the direction is held."""
+        low, high = LIMITS[name]
+        step = next(step for held, step in HASTE if self.held >= held)
+        values = {"width": self.measures.width, "lid": self.measures.lid, "height": self.measures.height}
+        values[name] = min(high, max(low, round(values[name] / step + by) * step))
+        self.measures = Measures(values["width"], values["height"], values["lid"])
+
+    def _show(self, display: int, fullscreen: bool) -> None:
+        """Move the picture; a calibration belongs to where it is."""
+        canvas, settings = self.house.canvas, self.house.settings
+        canvas.show(display, fullscreen)
+        settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+        self._state_of = (0, 0)
+
+    def _next_camera(self, by: int) -> None:
+        self.known = self.site.cameras()
+        numbers = [known.number for known in self.known] or [0]
+        here = numbers.index(self.number) if self.number in numbers else 0
+        self.number = numbers[(here + by) % len(numbers)]
+        self._look()
+
+    # ---- what happens
+
+    def _look(self) -> None:
+        """Look through the camera that is chosen, once the one before is free."""
+        self._state_of = (0, 0)
+        if self.house.mat is not None:
+            self.house.mat.close()
+        self.left()
+        self.preview = Preview(self.site, self.number)
+        self.preview.begin()
+
+    def _begin(self) -> Turn:
+        """Show the boards on the whole display."""
+        from pigaming_app.scenes.calibration.boards_page import BoardsPage
+
+        self.house.sounds.play("accept")
+        self.left()
+        canvas = self.house.canvas
+        if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
+            self._show(canvas.display, True)
+        self._keep()
+        return Push(BoardsPage(self.house, self.site, self.number, self.measures))
+
+    def _measured(self) -> Measures:
+        settings = self.house.settings
+        if self.site.name != "real":
+            return self.site.measures
+        return Measures(settings.arena_mm, settings.camera_mm, settings.lid_mm)
+
+    def _keep(self) -> None:
+        """Remember what is chosen; an emulated arena is not worth it."""
+        settings, measures = self.house.settings, self.measures
+        if self.site.name != "real":
+            return
+        settings.camera = self.number
+        settings.arena_mm, settings.camera_mm, settings.lid_mm = measures.width, measures.height, measures.lid
+        try:
+            settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self.sentence, self.said = self.house.words("app.unsaved"), SAID

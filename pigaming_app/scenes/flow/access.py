@@ -1,0 +1,105 @@
+"""Whose press counts.
+
+A device is seated when it drives a seat, or sits on one in the lobby, and is plugged in; every other one is free.
+
+| screen          | seated device                      | free device                              |
+| lobby           | its seat, AIs, teams, begin        | FIRE, START: join                        |
+| setup           | everything                         | nothing                                  |
+| taking places   | begin, simulate, leave             | nothing                                  |
+| countdown, match| drive; START, Escape: pause        | FIRE held: take an AI's seat             |
+| pause           | who paused, for 20 s; then all     | nothing                                  |
+| pad unplugged   | AI now, menu                       | FIRE, START: take the seat               |
+| robot in trouble| simulate, menu, FIRE: release      | nothing                                  |
+| results         | vote, START, change, tables, leave | FIRE: an absent person's seat; held: an AI's |
+| initials        | its own three letters              | nothing                                  |
+
+While nobody is seated, every device counts. The operator counts always: the mouse acts on what it points at, F1 stops
+robots, F4 shows thoughts, and Escape held for a second acts although the keyboard is free: it pauses a match, takes a
+pause over, and leaves any other screen.
+"""
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
+
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.hold import Holds
+
+OWNED = 20.0  # seconds for which a pause belongs to whoever asked for it
+ESCAPE = 1.0  # seconds for which an operator holds Escape
+TAKE = 0.6  # seconds for which FIRE is held to take an AI's seat
+ALWAYS = (Act.FOUND, Act.LOST, Act.STOP, Act.POINT, Act.CLICK)  # from any device
+
+Devices = Sequence[Device | None]
+
+
+class Access:
+    """Admits the presses that count on a page. `devices`: who sits on each seat, asked anew for every press."""
+
+    def __init__(self, house: House, devices: Callable[[], Devices]) -> None:
+        self.controls, self.devices = house.controls, devices
+        self.escape = Holds(house.controls, ESCAPE)
+
+    @property
+    def seated(self) -> list[Device]:
+        """The seated devices."""
+        return [device for device in self.devices() if device and self.controls.connected(device)]
+
+    @property
+    def acting(self) -> Collection[Device]:
+        """The devices whose presses count now; empty: those of all."""
+        return self.seated
+
+    def admit(self, press: Press) -> Press | None:
+        """The press as it counts, from the device that it counts for; None: it does not count."""
+        acting = self.acting
+        if not acting or press.device.kind == "mouse" or press.act in ALWAYS or press.device in acting:
+            return press
+        for cluster in press.among:
+            if cluster in acting:
+                return replace(press, device=cluster)
+        if press.act is Act.BRAIN and press.device.kind == "keys":
+            return press
+        if press.act is Act.BACK and press.device.kind == "keys":
+            self.escape.begin(press)
+        return None
+
+    def update(self, seconds: float) -> Press | None:
+        """Let time pass; the operator's BACK, at the moment at which Escape has been held long enough."""
+        held = self.escape.update(seconds)
+        return held[0] if held else None
+
+    @property
+    def voice(self) -> Device:
+        """The device whose buttons the hints name: the one used last, if its presses count."""
+        last = self.controls.last
+        buttons = [device for device in self.acting if device.kind != "mouse"]
+        return buttons[0] if buttons and last not in buttons else last
+
+
+class Ownership(Access):
+    """A pause belongs to the device that asked for it, for a while and as long as it is plugged in."""
+
+    def __init__(self, house: House, devices: Callable[[], Devices], owner: Device) -> None:
+        super().__init__(house, devices)
+        self.owner, self.left = owner, OWNED
+
+    @property
+    def acting(self) -> Collection[Device]:
+        seated = self.seated
+        if self.owned:
+            return [self.owner]
+        return [self.owner, *seated] if seated and self.controls.connected(self.owner) else seated
+
+    @property
+    def owned(self) -> bool:
+        """Whether only the owner may choose now."""
+        return self.left > 0.0 and self.controls.connected(self.owner)
+
+    def update(self, seconds: float) -> Press | None:
+        """Let time pass; the operator takes the pause over."""
+        self.left -= seconds
+        held = super().update(seconds)
+        if held:
+            self.owner, self.left = held.device, OWNED
+        return held

@@ -1,0 +1,49 @@
+"""What every scene may use: settings, scores, words, devices, sounds and the window."""
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from pigaming_app.scenes.flow.preload import Backstage
+from pigaming_app.scenes.lab.compiler import Compiler
+from pigaming_app.storage.scores import Scores
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.sounds import Sounds
+from pigaming_app.ui.window import Canvas
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.session.real import Mat
+
+
+@dataclass
+class House:
+    """One of each, made once, handed to every scene."""
+
+    settings: Settings
+    scores: Scores
+    words: Words
+    controls: Controls
+    sounds: Sounds
+    canvas: Canvas
+    kiosk: bool = False
+    idle: float = 0.0  # seconds since anyone pressed anything
+    mat: "Mat | None" = None  # where real robots drive
+    compiler: Compiler = field(default_factory=Compiler)  # of the Lab's training
+    backstage: Backstage = field(default_factory=Backstage)
+    stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
+
+    @property
+    def robots(self) -> bool:
+        """Whether real robots can be chosen for a match."""
+        return self.mat is not None and (self.mat.emulated or self.settings.mat)
+
+    def stand_still(self) -> None:
+        """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""
+        for stop in self.stops:
+            try:
+                stop()
+            except Exception:
+                logging.getLogger("pigaming").exception("robots could not be stopped")

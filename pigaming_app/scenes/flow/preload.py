@@ -1,0 +1,98 @@
+"""What takes long and needs no picture, done in a thread while the title is shown: modules, arenas, racing lines.
+
+No frame waits for it. Afterwards the compiler of the Lab is started.
+"""
+
+import logging
+import sys
+import threading
+from collections.abc import Callable
+from importlib import import_module
+
+MODULES = (
+    "numpy",
+    "pigaming_app.scenes.lobby.scene",
+    "pigaming_app.scenes.play.scene",
+    "pigaming_app.scenes.views.race.mud",
+    "pigaming_app.scenes.robots.start_match",
+    "pigaming_app.scenes.options.page",
+    "pigaming_app.scenes.options.controls_test",
+    "pigaming_app.scenes.title.attract",
+    "pigaming_app.scenes.lab.scene",
+    "pigaming_app.scenes.lab.menu",
+    "pigaming_app.scenes.lab.name_page",
+    "pigaming_app.scenes.lab.open_page",
+    "pigaming_app.scenes.lab.compare_page",
+    "pigaming_app.scenes.lab.challenge",
+    "pigaming_app.scenes.robots.menu",
+    "pigaming_app.scenes.calibration.drift_page",
+    "pigaming_app.scenes.calibration.setup_page",
+    "pigaming_app.scenes.calibration.corner_pin_page",
+    "pigaming_app.scenes.robots.fleet_page",
+)
+SWITCH = 0.001  # s for which the thread may keep the interpreter from the frames
+
+log = logging.getLogger("pigaming")
+
+
+class Backstage:
+    """The thread; `then`, set before it starts, is called in it when all else is done."""
+
+    def __init__(self) -> None:
+        self.then: Callable[[], None] = lambda: None
+        self._thread: threading.Thread | None = None
+        self._ended = False
+        self._ready: set[tuple[str, str]] = set()
+
+    def start(self) -> None:
+        """Begin, once."""
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._work, name="backstage", daemon=True)
+            self._thread.start()
+
+    def end(self) -> None:
+        """Stop within a moment; what has been begun is finished first."""
+        self._ended = True
+        if self._thread:
+            self._thread.join(2.0)
+
+    @property
+    def begun(self) -> bool:
+        """Whether it has been started."""
+        return self._thread is not None
+
+    @property
+    def busy(self) -> bool:
+        """Whether it is at work."""
+        return self._thread is not None and self._thread.is_alive()
+
+    def ready(self, game: str, arena: str) -> bool:
+        """Whether a match can begin there at once, as far as that depends on this thread."""
+        return (game, arena) in self._ready or not self.busy
+
+    def _work(self) -> None:
+        before = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH)
+        try:
+            self._do()
+        except Exception:
+            log.exception("what a match needs could not be prepared in the background")
+        finally:
+            sys.setswitchinterval(before)
+
+    def _do(self) -> None:
+        """Piece after piece, in the order in which they may be needed."""
+        arena_jobs = import_module("pigaming_app.scenes.flow.arena_preload")  # the title does not wait for it
+        there = arena_jobs.every_arena()
+        for one in there:
+            if not self._ended:
+                arena_jobs.read(*one)
+        for module in MODULES:
+            if not self._ended:
+                import_module(module)
+        for one in there:
+            if not self._ended:
+                arena_jobs.prepare(*one)
+                self._ready.add(one)
+        if not self._ended:
+            self.then()

@@ -1,0 +1,151 @@
+"""A small league of what the robot knew after 0, 10, 50 and 200 matches, what it knows now, and the hand-made robot.
+
+Everyone plays everyone, a little in every frame; the table sorts itself while the matches come in.
+"""
+
+from dataclasses import dataclass
+from itertools import combinations
+from time import perf_counter
+
+import pygame
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.experiments.evaluation import HANDMADE, Exam
+from pigaming_app.ai.experiments.training import GAME
+from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.lab.layout import GOOD, NOTHING
+from pigaming_app.scenes.lab.menu import IDLE, Bench
+from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.labels import heading, text
+
+MATCHES = {True: 10, False: 2}  # of every two, compiled and plain
+MINUTES = 1.0
+SEED = 3000
+SLICE = 0.005  # seconds of a frame
+TICKS = 60  # between two looks at the clock
+TOP, PITCH, HIGH = 292, 104, 88
+COLUMNS = (("won", 1130), ("tied", 1330), ("lost", 1540), ("points", 1772))  # right edges, px
+WIN, TIE = 3, 1  # points, as in football
+GLIDE = 8.0  # of the way to its new place that a row goes in a second
+
+
+@dataclass
+class Player:
+    """One row of the table."""
+
+    name: str
+    kind: Kind
+    own: bool = True  # a robot of this training
+    won: int = 0
+    tied: int = 0
+    lost: int = 0
+    y: float = 0.0
+
+    @property
+    def points(self) -> int:
+        return WIN * self.won + TIE * self.tied
+
+
+class Compare:
+    """The league of one training."""
+
+    def __init__(self, lab: Bench) -> None:
+        self.lab, self.house = lab, lab.house
+        words, workshop = self.house.words, lab.workshop
+        kept = workshop.checkpoints()
+        self.players = [Player(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
+        now = workshop.moment.matches
+        if now not in kept:
+            self.players.append(Player(words("lab.now", matches=now), workshop.checkpoint("now").kind))
+        self.players.append(Player(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
+        for i, player in enumerate(self.players):
+            player.y = TOP + PITCH * i
+        self.pairs = list(combinations(self.players, 2))
+        self.whole = len(self.pairs)
+        self.exam: Exam | None = None
+        self.prompts = Prompts(self.house, [(Act.BACK, "lab.hint_lab")])
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """Any button leads back."""
+        press = self.prompts.meant(press)
+        if press.act in (Act.BACK, Act.FIRE, Act.START):
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Play on for some milliseconds, and let the rows glide."""
+        if self.house.idle > IDLE:
+            return Pop()
+        end = perf_counter() + SLICE
+        while self.pairs and perf_counter() < end:
+            self._play()
+        for row, player in enumerate(self.order()):
+            away = TOP + PITCH * row - player.y
+            player.y += away * min(1.0, GLIDE * seconds) if abs(away) > 1.0 else away
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the table."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("lab.compare_title")).draw(screen)
+        for key, right in COLUMNS:
+            text(words(f"lab.{key}"), BODY, MIST, "body", "r").draw(screen, right, 244)
+        best = self.order()[0] if not self.pairs else None
+        for player in self.players:
+            row(player.name, player.own, player is best).draw(screen, LEFT, player.y)
+            for (_, right), number in zip(COLUMNS, (player.won, player.tied, player.lost, player.points), strict=True):
+                big = right == COLUMNS[-1][1]
+                color = FOCUS if player is best else ICE if big else MIST
+                text(str(number), SUB if big else LABEL, color, "head", "r").draw(screen, right, player.y + HIGH / 2)
+        if self.pairs:
+            self._bar(screen)
+        self.prompts.draw(screen)
+
+    def order(self) -> list[Player]:
+        """The players, the best first; equals as they were."""
+        return sorted(self.players, key=lambda player: -player.points)
+
+    # ---- inside
+
+    def _play(self) -> None:
+        one, other = self.pairs[0]
+        if self.exam is None:
+            fast, arena = self.lab.workshop.fast, self.lab.workshop.training.arena
+            self.exam = Exam(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
+        self.exam.play(TICKS)
+        if self.exam.over:
+            exam, self.exam = self.exam, None
+            self.pairs.pop(0)
+            one.won, one.tied, one.lost = one.won + exam.wins, one.tied + exam.ties, one.lost + exam.losses
+            other.won, other.tied, other.lost = other.won + exam.losses, other.tied + exam.ties, other.lost + exam.wins
+            if not self.pairs:
+                self.house.sounds.play("win")
+
+    def _bar(self, screen: pygame.Surface) -> None:
+        """How much has been played."""
+        done = (self.whole - len(self.pairs)) / self.whole
+        box = pygame.Rect(LEFT, 926, RIGHT - LEFT, 10)
+        screen.fill(NOTHING, box)
+        screen.fill(GOOD, (box.x, box.y, round(box.w * done), box.h))
+
+
+@cached
+def row(name: str, own: bool, best: bool) -> Lit:
+    """A row without its numbers; upper left at (0, 0)."""
+    w = RIGHT - LEFT
+    pane = Pane(0, 0, w, HIGH)
+    pane.hot.line(cut(0, 0, w, HIGH, 14), FOCUS if best else STEEL, THIN, True)
+    icon(pane.hot, "crown" if best else "ai", 62, HIGH / 2, 26, FOCUS if best else MIST, THIN)
+    color = FOCUS if best else ICE if own else MIST
+    pane.page.body(name, 124, HIGH / 2, color, "l", fitted(name, LABEL, 780, "body"))
+    return pane.done()

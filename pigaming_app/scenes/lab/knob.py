@@ -1,0 +1,40 @@
+"""A knob from -10 to +10: zero at the top, lit from zero to its value, good one way and bad the other."""
+
+import math
+
+from pigaming_app.scenes.lab.layout import BAD, GOOD, NOTHING
+from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
+from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.surface_cache import cached
+
+MOST = 10
+RADIUS = 48  # px
+SWEEP = math.radians(135)  # from zero to either end
+TOP = -math.pi / 2
+ARROW = 88  # px from the middle of a knob that is held to the tip of an arrow
+
+
+@cached
+def dial(value: int, held: bool) -> Lit:
+    """The knob at `value`, round (0, 0); `held`: somebody is turning it."""
+    pane = Pane(-110, -80, 220, 160)
+    ink, end = pane.hot, TOP + SWEEP * value / MOST
+    pane.page.cold.arc(0, 0, RADIUS, TOP - SWEEP, TOP + SWEEP, NOTHING, 12)
+    if value:
+        ink.arc(0, 0, RADIUS, TOP, end, GOOD if value > 0 else BAD, 12)
+    for k in (-1, 0, 1):
+        c, s = math.cos(TOP + SWEEP * k), math.sin(TOP + SWEEP * k)
+        pane.page.cold.line(
+            [((RADIUS + 13) * c, (RADIUS + 13) * s), ((RADIUS + 19) * c, (RADIUS + 19) * s)], STEEL, THIN
+        )
+    pane.page.cold.disc(RADIUS * math.cos(end), RADIUS * math.sin(end), 13, FOCUS if held else WHITE)
+    pane.page.text(signed(value), LABEL - 8, 0, 2, FOCUS if held else ICE, "head", "c")
+    if held:
+        for side in (-1, 1):
+            pane.hot.fill([(side * ARROW, 0), (side * (ARROW - 18), -16), (side * (ARROW - 18), 16)], FOCUS)
+    return pane.done()
+
+
+def signed(value: int) -> str:
+    """A number with its sign; zero has none."""
+    return f"{value:+d}".replace("-", "−") if value else "0"

@@ -1,0 +1,124 @@
+"""The saved robots: choose one to go on with."""
+
+from datetime import datetime
+
+import pygame
+
+from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.lab.menu import IDLE, Bench
+from pigaming_app.scenes.lab.saved_robots import NotKept, fetch, file_of, names
+from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut
+from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, fitted, span
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.labels import blacked, heading, text
+
+COLUMNS, ROWS = 3, 4
+TOP, HIGH, PITCH = 236, 140, 164
+DEAF = 0.3  # seconds in which presses are ignored
+
+
+class Shelf:
+    """Cards of the robots, the last saved first; those of one page at a time."""
+
+    def __init__(self, lab: Bench) -> None:
+        self.lab, self.house = lab, lab.house
+        self.names = names()
+        self.page, self.age = 0, 0.0
+        self.focus = Focus(self._spots())
+        self.prompts = Prompts(self.house, self._hints())
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """FIRE opens, BACK leads to the Lab, ALT shows the next page."""
+        press = self.prompts.meant(press)
+        if press.act is Act.BACK or (not self.names and press.act in (Act.FIRE, Act.START)):
+            self.house.sounds.play("back")
+            return Pop()
+        if press.act is Act.ALT and self.pages > 1:
+            self.page = (self.page + 1) % self.pages
+            self.focus = Focus(self._spots())
+            self.house.sounds.play("move")
+        elif self.names:
+            if self.focus.on(press):
+                self.house.sounds.play("move")
+            chosen = self.focus.chosen(press)
+            return self._open(chosen) if chosen and self.age > DEAF else None
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the focus glide."""
+        self.age += seconds
+        self.focus.update(seconds)
+        return Pop() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the cards."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        count = f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
+        heading(words("lab.open_title"), count).draw(screen)
+        if self.names:
+            blacked(screen, *(spot.rect for spot in self.focus.spots))
+            for spot in self.focus.spots:
+                card(spot.name, saved(spot.name), spot.name == self.focus.name).draw(screen, *spot.rect.topleft)
+            self.focus.draw(screen)
+        else:
+            text(words("lab.none"), LABEL, MIST, "head").draw(screen, 960, 520)
+        self.prompts.draw(screen)
+
+    # ---- inside
+
+    @property
+    def pages(self) -> int:
+        """How many pages there are."""
+        return max(1, -(-len(self.names) // (COLUMNS * ROWS)))
+
+    def _spots(self) -> list[Spot]:
+        first = self.page * COLUMNS * ROWS
+        return [Spot(name, place(i)) for i, name in enumerate(self.names[first : first + COLUMNS * ROWS])] or [
+            Spot("", place(0))
+        ]
+
+    def _hints(self) -> list[tuple[Act, str]]:
+        more = [(Act.ALT, "lab.hint_page")] if self.pages > 1 else []
+        return ([(Act.FIRE, "lab.hint_open")] if self.names else []) + more + [(Act.BACK, "lab.hint_lab")]
+
+    def _open(self, name: str) -> Turn:
+        words, workshop = self.house.words, self.lab.workshop
+        try:
+            workshop.take(fetch(name, workshop.fast))
+            self.lab.name = name
+            self.lab.say(words("lab.opened", name=name))
+        except NotKept as trouble:
+            self.lab.say(words(str(trouble), name=name), wrong=True)
+        return Pop()
+
+
+def place(i: int) -> pygame.Rect:
+    """Where the i-th card of a page lies."""
+    x, w = span(4 * (i % COLUMNS), 4)
+    return pygame.Rect(x, TOP + PITCH * (i // COLUMNS), w, HIGH)
+
+
+def saved(name: str) -> str:
+    """When a robot was saved; nothing if its file has just gone."""
+    try:
+        return f"{datetime.fromtimestamp(file_of(name).stat().st_mtime):%d.%m.  %H:%M}"
+    except OSError:
+        return ""
+
+
+@cached
+def card(name: str, when: str, hot: bool) -> Lit:
+    """A robot's name and when it was saved; upper left at (0, 0)."""
+    w = span(0, 4)[1]
+    pane = Pane(0, 0, w, HIGH)
+    pane.hot.line(cut(0, 0, w, HIGH, 16), STEEL, THIN, True)
+    pane.page.text(name, fitted(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
+    pane.page.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
+    return pane.done()

@@ -1,0 +1,207 @@
+"""The training behind the Lab's page: it goes on while pictures are painted, and never makes one wait.
+
+Compiled, it runs in a thread of its own that holds no lock of the interpreter. Without numba, and while numba still
+compiles (in another process), the page gives it some milliseconds of every frame. The thread ends by itself soon after
+nobody feeds it any more, whatever became of the page.
+"""
+
+import gc
+import logging
+import sys
+import threading
+from collections.abc import Callable
+from time import monotonic, perf_counter, sleep
+
+from pigaming_app.ai.experiments.evaluation import compile_all
+from pigaming_app.ai.experiments.training import Checkpoint, Training
+from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.scenes.lab.compiler import Compiler
+from pigaming_app.scenes.lab.progress import Moment, Progress
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.world import HZ
+from pigaming_app.ui import memory as heap
+
+FASTEST = 2  # the place of "as fast as it can" among the speeds
+FACTORS = (1, 10)  # of real time
+CHUNK = 1500  # ticks in one go when it is as fast as it can; compiled, less than a millisecond
+MOST = 4  # frames' worth of ticks that are made up for; what is more is dropped
+HUNGRY = 0.7  # seconds after which a thread that nobody feeds ends
+SLICE = 0.007  # seconds of a frame for plain training and its exams; a picture takes 2 of the 16 ms
+TRAINING = 0.4  # of a slice, where it is as fast as it can
+SWITCH = 0.001  # seconds for which a thread may keep the interpreter from the others
+
+log = logging.getLogger("pigaming")
+
+
+class Workshop:
+    """A robot that learns. `recipe` and `speed` may be set at any time; `moment` is how it stands, for the page."""
+
+    def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None, compiler: Compiler | None = None) -> None:
+        """`fast`: compiled as soon as `compiler` is done; left out: if numba is there."""
+        self._compiler = compiler or Compiler()
+        self.recipe, self.speed = recipe, 0
+        self.may_compile = can_compile() if fast is None else fast
+        self.training = Training(recipe, seed, fast=False)
+        self.progress = Progress(self.training)
+        self.compiling = False
+        self._lock = threading.Lock()  # whoever holds it may touch the training
+        self._thread: threading.Thread | None = None
+        self._fed = 0.0
+        self._open = False
+        self._owed = 0.0  # ticks
+
+    @property
+    def moment(self) -> Moment:
+        """How it stands."""
+        return self.progress.moment
+
+    @property
+    def fast(self) -> bool:
+        return self.training.fast
+
+    def feed(self, seconds: float) -> None:
+        """Called in every frame, `seconds` after the last one: let it go on."""
+        self._fed, self._open = monotonic(), True
+        if self.may_compile and (self._thread is None or not self._thread.is_alive()):
+            self._thread = threading.Thread(target=self._work, name="lab")
+            self._thread.start()
+        if not self.training.fast and self._lock.acquire(blocking=False):
+            try:
+                if not self.training.fast:
+                    self._slice(seconds)
+            finally:
+                self._lock.release()
+
+    def close(self) -> None:
+        """Rest until it is fed again; the thread ends within a moment."""
+        self._open = False
+
+    def join(self, seconds: float = 1.0) -> bool:
+        """Wait until its thread has ended; true if it has."""
+        if self._thread:
+            self._thread.join(seconds)
+        return self._thread is None or not self._thread.is_alive()
+
+    def checkpoint(self, name: str) -> Checkpoint:
+        """What it has learned so far, as a brain."""
+        with self._lock:
+            return self.training.checkpoint(name)
+
+    def checkpoints(self) -> dict[int, Checkpoint]:
+        """What it knew after 0, 10, 50 and 200 matches, as far as it has come."""
+        with self._lock:
+            return dict(self.progress.checkpoints)
+
+    def hold(self, work: Callable[[Training], None]) -> None:
+        """Do something with the training while it stands still; what `work` raises is raised."""
+        with self._lock:
+            work(self.training)
+
+    def begin(self, seed: int) -> None:
+        """Forget everything and begin anew."""
+        with self._lock:
+            self._train(Training(self.recipe, seed, fast=self.training.fast))
+
+    def take(self, training: Training) -> None:
+        """Go on with this training instead."""
+        with self._lock:
+            self.recipe = training.recipe
+            self._train(training)
+
+    # ---- inside
+
+    def _train(self, training: Training) -> None:
+        self.training, self._owed = training, 0.0
+        self.progress = Progress(training)
+
+    @property
+    def _wanted(self) -> bool:
+        return self._open and monotonic() - self._fed < HUNGRY
+
+    def _due(self, seconds: float) -> int:
+        """The ticks to play now that so much real time has passed, at one of the slow speeds."""
+        factor = FACTORS[self.speed]
+        self._owed = min(self._owed + seconds * HZ * factor, MOST * factor)
+        ticks = int(self._owed)
+        self._owed -= ticks
+        return ticks
+
+    def _slice(self, seconds: float) -> None:
+        """A frame's share of plain training."""
+        end = perf_counter() + SLICE
+        self._follow_recipe()
+        if self.speed < FASTEST:
+            self.progress.practise(self._due(seconds))
+        else:
+            while perf_counter() < end - (1 - TRAINING) * SLICE:
+                self.progress.practise(20)
+        self.progress.look(self.speed == FASTEST)
+        exam = self.progress.exam_due()
+        while exam and not exam.over and perf_counter() < end:
+            exam.play(20)
+        self.progress.note()
+
+    def _follow_recipe(self) -> None:
+        if self.training.recipe != self.recipe:
+            self.training.recipe = self.recipe
+
+    def _work(self) -> None:
+        """The thread: get ready, then train until nobody wants it any more."""
+        before = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH)
+        try:
+            if self.training.fast or self._get_ready():
+                self._run()
+        except Exception:
+            log.exception("the Lab goes on without compiled training")
+            self.may_compile = False
+            self._hand_over(fast=False)
+        finally:
+            sys.setswitchinterval(before)
+
+    def _get_ready(self) -> bool:
+        """Wait for the compiler, then load what it made and take the training over; false: nobody waits any more."""
+        self.compiling = True
+        try:
+            self._compiler.start()
+            while (code := self._compiler.code) is None:
+                if not self._wanted:
+                    return False
+                sleep(0.05)
+            if code:
+                raise RuntimeError(f"compiling ended with exit code {code}")
+            with heap.uncollected():  # looking through numba takes up to 100 ms, in whichever frame it happens
+                compile_all()
+                gc.freeze()  # it stays loaded
+            self._hand_over(fast=True)
+            return True
+        finally:
+            self.compiling = False
+
+    def _hand_over(self, fast: bool) -> None:
+        """Go on with the same table in the other body."""
+        with self._lock:
+            old = self.training
+            if old.fast != fast:
+                self.training = Training(self.recipe, old.seed, old.arena, fast, old.table, old.minutes)
+                self.progress.go_on(self.training)
+
+    def _run(self) -> None:
+        last = perf_counter()
+        while self._wanted:
+            now = perf_counter()
+            with self._lock:
+                self._follow_recipe()
+                ticks = CHUNK if self.speed == FASTEST else self._due(now - last)
+                exam = self.progress.exam_due()
+                if not (exam and self.speed == FASTEST):
+                    self.progress.practise(ticks)
+                self.progress.look(self.speed == FASTEST)
+                progress = self.progress
+            last = now
+            if exam and not exam.over:
+                exam.play(CHUNK * HZ)
+            with self._lock:
+                progress.note()
+            if self.speed < FASTEST:
+                sleep(max(0.0, 1 / HZ - (perf_counter() - now)))

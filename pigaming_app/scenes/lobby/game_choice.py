@@ -1,0 +1,83 @@
+"""Another game for the same people: a tile for each game. Whoever played keeps the seat and the device."""
+
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Setup
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.rule_texts import kept_goal, tagline
+from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.title.scene import TILE_H, tile, tile_rect
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.labels import blacked, heading
+
+IDLE = 60.0  # seconds without a press until the title
+DOWN = (1080 - TILE_H) // 2 - tile_rect(0).y + 20  # px by which the tiles stand lower than on the title
+
+
+class GameChoice:
+    """The page after a match of `setup`, whose seats were driven with `devices`; the next game has the focus."""
+
+    def __init__(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> None:
+        self.house, self.setup, self.devices = house, setup, list(devices)
+        self.access = Access(house, lambda: self.devices)
+        games = list(GAMES)
+        after = games[(games.index(setup.game) + 1) % len(games)]
+        self.focus = Focus([Spot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(games)], after)
+        hints = [(Act.FIRE, "choice.hint_ok"), (Act.BACK, "choice.hint_back")]
+        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """FIRE chooses a game, BACK leads back to the results."""
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None:
+            return None
+        if admitted.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(admitted):
+            self.house.sounds.play("move")
+        game = self.focus.chosen(admitted)
+        return self._open(game) if game else None
+
+    def update(self, seconds: float) -> Turn:
+        """The focus moves; leave when nobody is there."""
+        self.focus.update(seconds)
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("choice.title")).draw(screen)
+        blacked(screen, *(spot.rect for spot in self.focus.spots))
+        for spot in self.focus.spots:
+            game = spot.name
+            line = tagline(words, game, kept_goal(self.house.settings, game))
+            lit = tile(game, words(f"games.{game}"), line, game == self.focus.name)
+            lit.draw(screen, *spot.rect.topleft)
+        self.focus.draw(screen)
+        self.prompts.draw(screen)
+
+    def _open(self, game: str) -> Turn:
+        """The lobby of a game, with everybody seated whose device is there, and the AIs."""
+        from pigaming_app.scenes.lobby.scene import Lobby
+
+        self.house.sounds.play("accept")
+        drivers: list[Device | str | None] = []
+        for device, seat in zip(self.devices, self.setup.seats, strict=True):
+            here = device if device and self.house.controls.connected(device) else None
+            drivers.append(here or (None if seat.brain in ("human", "off") else seat.brain))
+        return Home(Lobby(self.house, game, drivers))

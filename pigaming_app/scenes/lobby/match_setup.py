@@ -1,0 +1,323 @@
+"""Where, how long and by which rules: the last page before a match. Whatever was chosen last is chosen again.
+
+Any seated device may steer it: up and down from row to row, left and right change, fire begins.
+"""
+
+import logging
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+import pygame
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.game import PAIRS, Game, Seat, Setup
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.lobby import match_setup_view as choice
+from pigaming_app.scenes.lobby.seats import EMPTY, Seats
+from pigaming_app.scenes.results.high_score_tables import contest, table_of, told
+from pigaming_app.scenes.views.preview import preview
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.sim.arena import Arena, ArenaError
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import Choice, folders
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, backdrop, span
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.labels import blacked, heading
+
+IDLE = 60.0  # seconds without a press until the title
+DEAF = 0.35  # seconds in which nobody can begin: the press that said "ready" may be hammered
+SLIDE = 0.18  # seconds in which another arena comes in
+FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
+PICTURE = FRAME.inflate(-24, -24)
+MARGIN = 8  # px round the arena in its picture
+ROW_X, ROW_W = span(8, 4)
+HIGH = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px
+GAP = 16  # px between rows
+GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
+log = logging.getLogger(__name__)
+
+
+class SetupPage:
+    """The choice of the match that `seats` are going to play."""
+
+    def __init__(self, house: House, game: str, seats: Seats) -> None:
+        self.house, self.game, self.seats = house, GAMES[game], seats
+        self.arenas = playable(game)
+        self.chosen = chosen(house, game)
+        self.rows = rows(self.game)
+        self.clock, self.slid, self.way = 0.0, SLIDE, 1
+        self.access = Access(house, seats.devices)
+        self.going = False  # a match was asked for
+        hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
+        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
+        self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
+
+    def entered(self) -> None:
+        """Shown, or come back to from the results."""
+        self.clock, self.going = 0.0, False
+        self.house.sounds.music(True)
+
+    def on(self, press: Press) -> Turn:
+        """Change, begin, or go back."""
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None or self.going:
+            return None
+        press = admitted
+        match press.act:
+            case Act.LEFT | Act.RIGHT:
+                self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
+            case Act.FIRE | Act.START:
+                return self._go() if self.clock > DEAF else None
+            case Act.BACK:
+                self.house.sounds.play("back")
+                return Pop()
+            case Act.CLICK:
+                self.focus.on(press)
+                return self._click(press)
+            case _:
+                if self.focus.on(press):
+                    self.house.sounds.play("move")
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the picture slide in; go back when a seat has lost its device, and leave when nobody is there."""
+        self.clock += seconds
+        if any(device and not self.house.controls.connected(device) for device in self.seats.devices()):
+            return Pop()
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
+        self.slid = min(SLIDE, self.slid + seconds)
+        self.focus.update(seconds)
+        if self.going:
+            return self._begin()
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("setup.title")).draw(screen)
+        choice.lineup(self._signs()).draw(screen, RIGHT, 112)
+        blacked(screen, FRAME, *self.rows.values())
+        self._picture(screen)
+        for name, box in self.rows.items():
+            self._row(name).draw(screen, *box.topleft)
+        self._records(screen)
+        choice.meant(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
+        self.focus.draw(screen)
+        self.prompts.draw(screen)
+
+    # ---- inside
+
+    def _go(self) -> Turn:
+        self._keep()
+        self.house.sounds.play("accept")
+        self.going = True
+        return self._begin()
+
+    def _begin(self) -> Turn:
+        """The match, unless what it needs is still being prepared."""
+        from pigaming_app.scenes.play.scene import new_seed
+        from pigaming_app.scenes.robots.start_match import match_of
+
+        if not self.house.backstage.ready(self.game.name, self.chosen.arena):
+            return None
+        setup = replace(self._setup(), seed=new_seed())
+        return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
+
+    def _setup(self) -> Setup:
+        """The match as it is chosen now, without a seed."""
+        now = self.chosen
+        seats, minutes = self.seats.seats(), float(now.minutes)
+        return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
+
+    def _keep(self) -> None:
+        """Remember the choice for the next time, also after a power cut."""
+        try:
+            self.house.settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+
+    def _row(self, name: str) -> Lit:
+        """What a row says."""
+        words, now, game = self.house.words, self.chosen, self.game
+        if name == "arena":
+            place = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
+            where = title(load_kept(game.name, now.arena), words.language)
+            return choice.row(words(f"setup.arena_{game.name}"), where, place)
+        if name == "goal":
+            return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, game.goals)), str(now.goal))
+        if name == "minutes":
+            return choice.chips(words("setup.minutes"), tuple(map(str, game.minutes)), str(now.minutes))
+        if name == "rules":
+            line = words(f"setup.{now.variant}_line")
+            return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
+        return choice.begin(words("setup.go"))
+
+    def _change(self, name: str, by: int) -> None:
+        """The next value of a row, or the one before it."""
+        now, game = self.chosen, self.game
+        before = replace(now)
+        if name == "arena":
+            now.arena = self.arenas[(self.arenas.index(now.arena) + by) % len(self.arenas)]
+            self.slid, self.way = 0.0, by
+        elif name == "goal":
+            now.goal = beside(game.goals, now.goal, by)
+        elif name == "minutes":
+            now.minutes = beside(game.minutes, now.minutes, by)
+        elif name == "rules":
+            now.variant = game.variants[(game.variants.index(now.variant) + by) % len(game.variants)]
+        if now != before:
+            self.house.sounds.play("move")
+        self.house.settings.games[game.name] = now
+
+    def _click(self, press: Press) -> Turn:
+        """The arrows and chips of a row, the picture (the next arena), the button."""
+        name = self.focus.under(press)
+        at = press.at or (0.0, 0.0)
+        if name == "go":
+            return self._go()
+        if name in ("goal", "minutes"):
+            values = self.game.goals if name == "goal" else self.game.minutes
+            now = self.chosen.goal if name == "goal" else self.chosen.minutes
+            chip = choice.chip_at(len(values), at[0] - self.rows[name].left)
+            if chip is not None:
+                self._change(name, chip - values.index(now))
+        elif name:
+            self._change(name, 1 if at[0] > self.rows[name].centerx else -1)
+        elif FRAME.collidepoint(at):
+            self._change("arena", 1)
+        return None
+
+    def _records(self, screen: pygame.Surface) -> None:
+        """The best so far with this choice, where the rows leave room for it."""
+        low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
+        lines = []
+        for feat in self.game.feats:
+            best = self.house.scores.best(table_of(contest(self._setup()), feat))
+            if best:
+                name = self.house.words(f"setup.best_{feat.name}")
+                lines.append((name, self.house.words.decimal(told(best[0].score, feat)), best[0].initials))
+        if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
+            choice.records(tuple(lines)).draw(screen, ROW_X, low)
+
+    def _signs(self) -> tuple[tuple[int, str], ...]:
+        """Who plays: seats and the icons of what drives them."""
+        kinds = ((i, place) for i, place in enumerate(self.seats.places) if place.kind != EMPTY)
+        signs = {"pad": "pad", "keys": "keys"}
+        return tuple((i, signs[place.device.kind] if place.device else "ai") for i, place in kinds)
+
+    def _picture(self, screen: pygame.Surface) -> None:
+        """The arena, coming in from the side, and light where the robots of this match begin."""
+        choice.frame(*FRAME.size).draw(screen, *FRAME.topleft)
+        left = (1.0 - self.slid / SLIDE) ** 2
+        dx = round(self.way * 160 * left)
+        screen.set_clip(FRAME.inflate(-12, -12))
+        picture(self.game.name, self.chosen.arena).draw(screen, dx)
+        k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
+        x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
+        starts = begins(self.game.name, self.chosen.arena, self.seats.seats())
+        for i, _ in self._signs():
+            stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
+            if stage < effects.WAVE_STEPS // 2:
+                wave = effects.wave(PLAYERS[i], stage)
+                screen.blit(
+                    wave.image,
+                    (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
+                    special_flags=pygame.BLEND_RGB_ADD,
+                )
+            if self.game.sides == PAIRS:  # where a robot begins depends on its team
+                choice.mark(i).draw(screen, round(x0 + dx + k * starts[i][0]), round(y0 + k * starts[i][1]))
+        screen.set_clip(None)
+
+
+@cached
+@sliced
+def picture(game: str, name: str) -> Steps[Lit]:
+    """A large picture of an arena, where the page shows it."""
+    image = yield from preview(load_kept(game, name), *PICTURE.size)
+    return Lit(image, PICTURE.topleft)
+
+
+@lru_cache(maxsize=16)
+def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
+    """Where the robots of these seats begin, px."""
+    rules, state = GAMES[game], GAMES[game].state()
+    setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
+    rules.start(state, load_kept(game, name), setup)
+    return [(robot.x, robot.y) for robot in state.robots]
+
+
+@lru_cache(maxsize=32)
+def load_kept(game: str, name: str) -> Arena:
+    """An arena, read once. Raises ArenaError."""
+    return load(game, name)
+
+
+@lru_cache(maxsize=4)
+def playable(game: str) -> tuple[str, ...]:
+    """The arenas of a game whose files are right; what is wrong with the others goes to the log."""
+    names = []
+    for name in arenas(game):
+        try:
+            load_kept(game, name)
+            names.append(name)
+        except ArenaError as trouble:
+            log.warning("%s", trouble)
+    return tuple(names)
+
+
+def title(arena: Arena, language: str) -> str:
+    """What an arena is called."""
+    return arena.title.get(language, arena.name)
+
+
+def rows(game: Game) -> dict[str, pygame.Rect]:
+    """Where the rows of a game stand: those in which there is something to choose, and the button."""
+    there = {"arena": True, "goal": bool(game.goals), "minutes": len(game.minutes) > 1, "rules": len(game.variants) > 1}
+    boxes, y = {}, FRAME.top
+    for name, high in HIGH.items():
+        if there[name]:
+            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, high)
+            y += high + GAP
+    return {**boxes, "go": GO}
+
+
+def beside(values: Sequence[int], value: int, by: int) -> int:
+    """The value so many places after another one; the last and the first stop it."""
+    return values[max(0, min(len(values) - 1, values.index(value) + by))]
+
+
+def chosen(house: House, game: str) -> Choice:
+    """What was chosen last, or the game's own where that is not there (any more)."""
+    rules, last, names = GAMES[game], house.settings.choice(game), playable(game)
+    return Choice(
+        arena=last.arena if last.arena in names else names[0],
+        minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
+        variant=last.variant if last.variant in rules.variants else rules.variants[0],
+        goal=last.goal if last.goal in rules.goals else rules.default_goal,
+    )
+
+
+def summary(house: House, game: str) -> str:
+    """Game, minutes or goal, and arena in one line."""
+    words, now = house.words, chosen(house, game)
+    where = title(load_kept(game, now.arena), words.language)
+    return "  ·  ".join((words(f"games.{game}"), measure(words, GAMES[game], now.minutes, now.goal), where))
+
+
+def measure(words: Words, game: Game, minutes: float, goal: int) -> str:
+    """How long a match is: its laps or pallets, or its minutes."""
+    return words(f"setup.count_{game.goal}", count=goal) if game.goal else words("setup.min", minutes=f"{minutes:g}")

@@ -1,0 +1,287 @@
+"""The lobby: press fire to join, again to be ready. AIs fill the seats that are wished for, teams are one press away.
+
+When all people are ready and at least two robots are there, the choice of the arena follows after a moment in which
+anybody may still join. Every seated device acts for its own seat, a free one can only join (see `access`); the mouse
+acts on what it points at.
+"""
+
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.ai import RIVALS, STRENGTHS
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import FREE, Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.hardware.session.real import unfit
+from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.lobby import seat_card as card
+from pigaming_app.scenes.lobby.match_setup import SetupPage, chosen, summary
+from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES, Seats
+from pigaming_app.scenes.lobby.view import LobbyPage, Moment, problem, spots
+from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.ui.draw.frame_budget import Ahead
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.focus import Focus
+
+IDLE = 60.0  # seconds without a press until the title
+ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
+SAID = 4.0  # seconds for which a message stays
+AHEAD = 3.0  # ms of a frame for pieces that will be needed
+POINTED = 4.0  # seconds after the mouse moved in which its focus shows
+
+
+class Lobby:
+    """Who plays a game. `drivers`: who sits there already, for each seat a device, the strength of an AI, or None."""
+
+    def __init__(self, house: House, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
+        self.house, self.game = house, game
+        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game], mat=house.robots)
+        for seat, place in enumerate(self.seats.places):
+            place.real = seat + 1 in house.settings.real and not unfit(house.settings)
+        for seat, driver in enumerate(drivers):
+            if driver is not None:
+                self.seats.seat(seat, driver)
+        self.now = Moment()
+        self.access = Access(house, self.seats.devices)
+        self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game), self.access)
+        self.focus = Focus(spots(self.seats))
+        self.ahead = Ahead(card.ahead())
+        self.rehearsal: Stage | None = None
+
+    def entered(self) -> None:
+        """Shown, or come back to from the choice of the arena: everyone says again that they are ready."""
+        self.house.sounds.music(True)
+        self.now.starting = None
+        self.seats.unready()
+        for seat in self.seats.like(HUMAN):
+            device = self.seats.places[seat].device
+            if device and not self.house.controls.connected(device):
+                self._unplugged(device)
+
+    def on(self, press: Press) -> Turn:
+        """Join, be ready, leave, call AIs, choose teams, begin."""
+        meant = self.page.prompts.meant(press)
+        admitted = self.access.admit(meant)
+        if admitted is None:
+            self._knock(meant)
+            self._watch()
+            return None
+        press, device = admitted, admitted.device
+        match press.act:
+            case Act.FIRE:
+                self._fire(device)
+            case Act.START:
+                return self._begin(device)
+            case Act.BACK:
+                return self._back(device)
+            case Act.LEAVE:
+                self._leave(device)
+            case Act.ALT:
+                self._ais()
+            case Act.EXTRA if self.seats.sides == FREE:
+                self.seats.teams = not self.seats.teams
+                self.house.sounds.play("move")
+            case Act.LEFT | Act.RIGHT | Act.UP | Act.DOWN:
+                self._steer(device, press.act)
+            case Act.LOST:
+                self._unplugged(device)
+            case Act.POINT | Act.CLICK:
+                self._mouse(press)
+            case _:
+                pass
+        self._watch()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the robots turn; go on when everybody is ready; leave when nobody is there."""
+        self.now.pass_by(seconds)
+        self.focus.update(seconds)
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
+        if self.now.starting is not None:
+            self.now.starting -= seconds
+            if self.now.starting <= 0.0:
+                return self._go()
+        self._make_ahead()
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        self.page.draw(screen)
+        if self.now.pointed > 0.0:
+            self.focus.draw(screen)
+
+    def _make_ahead(self) -> None:
+        """While people think: first what this page will need, then the sprites of the match."""
+        if not self.ahead.work(AHEAD):
+            return
+        now = chosen(self.house, self.game)
+        if self.rehearsal is None and self.house.backstage.ready(self.game, now.arena):
+            one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
+            setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
+            self.rehearsal = Stage(self.house, Match(setup), loud=False)
+        elif self.rehearsal:
+            self.rehearsal.warm(AHEAD)
+
+    # ---- what presses do
+
+    def _knock(self, press: Press) -> None:
+        """A free device while others are seated: it joins, or hears which of its buttons does that."""
+        if press.act in (Act.FIRE, Act.START):
+            self._fire(press.device)
+        elif press.act in (Act.BACK, Act.EXTRA, Act.ALT):
+            words = self.house.words
+            full = len(self.seats.like(HUMAN)) == PLACES
+            self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
+            self.now.label = words.printed(self.house.controls.label(press.device, Act.FIRE))
+            self.now.said = SAID
+
+    def _fire(self, device: Device) -> None:
+        if device.kind == "mouse":  # somebody clicked on the hint
+            for waiting in self.seats.waiting:
+                self.seats.places[waiting].ready = True
+            return
+        seat = self.seats.of(device)
+        if seat is not None:
+            self.seats.places[seat].ready = True
+            self.house.sounds.play("ready", seat)
+            return
+        seat = self.seats.join(device)
+        if seat is None:
+            self._say(self.house.words("lobby.full"), "error")
+        else:
+            self.now.since[seat] = 0.0
+            self.house.sounds.play("join", seat)
+
+    def _begin(self, device: Device) -> Turn:
+        """START: everybody counts as ready. In an empty lobby it joins."""
+        if not self.seats.robots and device.kind != "mouse":
+            self._fire(device)
+            return None
+        self._fill()
+        if trouble := problem(self.seats, self.house.words):
+            self._say(trouble, "error")
+            return None
+        return self._go()
+
+    def _go(self) -> Turn:
+        self.now.starting = None
+        self.house.sounds.play("accept")
+        return Push(SetupPage(self.house, self.game, self.seats))
+
+    def _back(self, device: Device) -> Turn:
+        """Not ready after all; then out of the seat; then back to the title."""
+        self.house.sounds.play("back")
+        seat = self.seats.of(device)
+        if seat is None:
+            return Pop()
+        if self.seats.places[seat].ready:
+            self.seats.places[seat].ready = False
+        else:
+            self.seats.leave(seat)
+        self._watch()
+        return None
+
+    def _leave(self, device: Device) -> None:
+        seat = self.seats.of(device)
+        if seat is not None:
+            self.seats.leave(seat)
+            self.house.sounds.play("back")
+
+    def _ais(self) -> None:
+        """One more AI; when all seats are taken, none."""
+        seat = self.seats.add()
+        if seat is None:
+            self.seats.clear()
+            self.house.sounds.play("back")
+        else:
+            self.now.since[seat] = 0.0
+            self.house.sounds.play("join", seat)
+
+    def _steer(self, device: Device, act: Act) -> None:
+        """Left and right choose one's own team where there are teams, up and down one's own robot where there is a mat;
+        every other direction the strength of the AIs."""
+        seat = self.seats.of(device)
+        if self.seats.mat and seat is not None and act in (Act.UP, Act.DOWN):
+            self._swap(seat)
+            return
+        if self.seats.teams and seat is not None and act in (Act.LEFT, Act.RIGHT):
+            self._change_team(seat)
+        elif self.seats.strengthen(1 if act in (Act.RIGHT, Act.UP) else -1):
+            self._remember()
+            self.house.sounds.play("move")
+
+    def _remember(self) -> None:
+        """The next lobby, of any game, begins with AIs of this strength; one that only one game has is not kept."""
+        if self.seats.strength in STRENGTHS:
+            self.house.settings.strength = self.seats.strength
+
+    def _swap(self, seat: int) -> None:
+        """A real robot for a simulated one, or the other way round; the next lobby begins like this."""
+        if reason := unfit(self.house.settings):
+            self._say(tell(self.house.words, reason), "error")
+            return
+        self.seats.swap(seat)
+        self.house.settings.real = [i + 1 for i, place in enumerate(self.seats.places) if place.real]
+        self.house.sounds.play("move")
+
+    def _change_team(self, seat: int) -> None:
+        self.seats.change_team(seat)
+        self.house.sounds.play("move")
+
+    def _unplugged(self, device: Device) -> None:
+        seat = self.seats.of(device)
+        if seat is not None:
+            self.seats.leave(seat)
+            self._say(self.house.words("lobby.unplugged", player=seat + 1), "back")
+
+    def _mouse(self, press: Press) -> None:
+        self.now.pointed = POINTED
+        self.focus.on(press)
+        name = self.focus.chosen(press)
+        if name is None:
+            return
+        what, seat = name.split()[0], int(name.split()[1])
+        kind = self.seats.places[seat].kind
+        if what == "team":
+            self._change_team(seat)
+        elif what == "real":
+            self._swap(seat)
+        elif what in ("weaker", "stronger"):
+            self.seats.strengthen(1 if what == "stronger" else -1, seat)
+            self._remember()
+            self.house.sounds.play("move")
+        elif kind == AI:
+            self.seats.leave(seat)
+            self.house.sounds.play("back")
+        elif kind == EMPTY:
+            self.seats.add(seat)
+            self.now.since[seat] = 0.0
+            self.house.sounds.play("join", seat)
+        else:
+            self.seats.places[seat].ready = not self.seats.places[seat].ready
+            self.house.sounds.play("ready", seat)
+
+    def _watch(self) -> None:
+        """Begin the last moment when all are ready, and give it up when somebody is not."""
+        self.focus.place(spots(self.seats))
+        alone = len(self.seats.like(HUMAN)) == 1
+        if not self.seats.like(HUMAN) or self.seats.waiting:
+            self.now.starting = None
+        elif self.now.starting is None:
+            self._fill()
+            if not problem(self.seats, self.house.words):
+                self.now.starting = self.now.whole = ALONE if alone else ALL
+
+    def _fill(self) -> None:
+        for seat in self.seats.fill():
+            self.now.since[seat] = 0.0
+
+    def _say(self, message: str, sound: str) -> None:
+        self.now.message, self.now.label, self.now.said = message, "", SAID
+        self.house.sounds.play(sound)

@@ -1,0 +1,238 @@
+"""One seat of the lobby: a card with the player's colour, shape and number, a robot on a turntable, and who drives it.
+
+All of it is made of small pieces that are kept; a card's upper left is at (0, 0) of its own.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from pigaming_app.scenes.title.logo import seat_robot
+from pigaming_app.scenes.views.sprites.factory import TEAMS, emblem
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import (
+    ARROWS,
+    BODY,
+    FOCUS,
+    GREEN,
+    GREY,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    Color,
+    Ink,
+    badge,
+    button,
+    button_width,
+    cut,
+    dim,
+    icon,
+    panel,
+    shape_points,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import Lit, Pane, fitted, span
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.widgets.labels import LEVELS, dimmed
+
+W, H = span(0, 3)[1], 600
+MIDDLE = W / 2
+ROBOT = (268, 2.1, 130)  # middle, scale, radius of the turntable
+ROBOT_IN_TEAM = (236, 1.7, 106)  # with one row below it
+ROBOT_LOW = (204, 1.25, 78)  # with two
+REAL_Y = 316
+TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
+BAR = (24, 500, W - 48, 76)
+PLUS_Y, OUTLINE = 256, 80  # middle and size of the shape on an empty seat
+ASKS_Y, BUTTONS_Y, BUTTON_PITCH, GAP = 398, 502, 66, 12
+SPOKES, TURNS = 5, 8  # arcs of a turntable, and how many positions are kept between two of them
+UP = -math.pi / 2
+UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and how far it looks to either side
+
+
+@cached
+@sliced
+def frame(player: int, said: str, bold: bool) -> Steps[Lit]:
+    """The card of somebody."""
+    pane = Pane(0, 0, W, H)
+    panel(pane.hot, 0, 0, W, H, PLAYERS[player], LINE if bold else THIN)
+    badge(pane.hot, player, 72, 76, 36)
+    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, ICE)
+    yield
+    return (yield from pane.lighting())
+
+
+@cached
+@sliced
+def empty(player: int, said: str) -> Steps[Lit]:
+    """The card of nobody."""
+    pane, color = Pane(0, 0, W, H), PLAYERS[player]
+    pane.hot.dashes(cut(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
+    badge(pane.hot, player, 72, 76, 36, dim(color, 0.75))
+    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, MIST)
+    outline = [(MIDDLE + y * OUTLINE, PLUS_Y - x * OUTLINE) for x, y in shape_points(player, 1)]
+    pane.hot.dashes(outline, dim(color, 0.7), LINE, 24, 18)
+    yield
+    return (yield from pane.lighting())
+
+
+@cached
+def invitation(player: int, said: str, labels: tuple[str, ...], level: int) -> Lit:
+    """What an empty seat asks for: one of the buttons `labels`. A `level` of 0 means: another seat comes first."""
+    if 0 < level < LEVELS:
+        return dimmed(invitation(player, said, labels, LEVELS), level / LEVELS)
+    pane = Pane(0, 230, W, 370)
+    icon(pane.hot, "plus", MIDDLE, PLUS_Y, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
+    pane.page.body(said, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fitted(said, BODY, W - 48, "body"))
+    rows = rows_of(labels)
+    for i, row in enumerate(rows):
+        x = MIDDLE - (sum(map(button_width, row)) + GAP * (len(row) - 1)) / 2
+        y = BUTTONS_Y + BUTTON_PITCH * (i - (len(rows) - 1) / 2)
+        for label in row:
+            x += button(pane.page, x, y, label, FOCUS if level else STEEL) + GAP
+    return pane.done()
+
+
+def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
+    """Buttons in rows not wider than a card, as few as possible: each goes where it still fits, the widest first."""
+    rows: list[list[str]] = []
+    for label in sorted(labels, key=button_width, reverse=True):
+        room = W - 36 - button_width(label) - GAP
+        row = next((row for row in rows if sum(button_width(one) + GAP for one in row) <= room + GAP), None)
+        if row is None:
+            rows.append([label])
+        else:
+            row.append(label)
+    return [sorted(row, key=labels.index) for row in sorted(rows, key=lambda row: min(map(labels.index, row)))]
+
+
+@cached
+def driver(sign: str, name: str) -> Lit:
+    """An icon and who drives: the name of a pad, the keys that steer, or an AI."""
+    pane = Pane(24, DEVICE_Y - 44, W - 48, 88)
+    icon(pane.hot, sign, 78, DEVICE_Y, 36, MIST, THIN)
+    marks = name.split()
+    if marks and all(mark in ARROWS for mark in marks):
+        for i, mark in enumerate(marks):
+            icon(pane.hot, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
+    else:
+        pane.page.body(name, 136, DEVICE_Y, ICE, "l", fitted(name, BODY, W - 160, "body"))
+    return pane.done()
+
+
+@cached
+def ready(player: int, said: str) -> Lit:
+    """The bar of somebody who is ready."""
+    pane, color = Pane(*BAR), PLAYERS[player]
+    pane.hot.fill(cut(*BAR, 14), dim(color, 0.28)).line(cut(*BAR, 14), color, THIN, True)
+    size = fitted(said, LABEL, W - 150)
+    icon(pane.hot, "check", MIDDLE - text_width(said, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
+    pane.page.text(said, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
+    return pane.done()
+
+
+@cached
+def asked(label: str, said: str, level: int) -> Lit:
+    """The bar of somebody who has to press a button to be ready."""
+    if level < LEVELS:
+        return dimmed(asked(label, said, LEVELS), level / LEVELS)
+    wide = button_width(label)
+    size = fitted(said, BODY, W - 40 - wide - 18, "body")
+    x = MIDDLE - (wide + 18 + text_width(said, size, "body")) / 2
+    pane = Pane(*BAR)
+    pane.page.body(said, x, BAR_Y, ICE, "l", size)
+    button(pane.page, x + text_width(said, size, "body") + 18, BAR_Y, label, FOCUS)
+    return pane.done()
+
+
+@cached
+def strength(said: str, upright: bool) -> Lit:
+    """The bar of an AI: how strong it is, between the arrows that change that."""
+    pane = Pane(*BAR)
+    pane.hot.line(cut(*BAR, 14), STEEL, THIN, True)
+    pane.page.text(said, fitted(said, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
+    for name, x in zip(("down", "up") if upright else ("left", "right"), (60, W - 60), strict=True):
+        icon(pane.hot, name, x, BAR_Y, 20, MIST, LINE)
+    return pane.done()
+
+
+@cached
+def team(said: str, number: int) -> Lit:
+    """Which team, with the bars that its robots wear, between the arrows that change it."""
+    pane, x, size = _team(said)
+    for i in range(number + 1):
+        pane.hot.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
+    pane.page.cold.text(said, size, x + 44, TEAM_Y, ICE, "head")
+    return pane.done()
+
+
+@cached
+def side(said: str, number: int) -> Lit:
+    """Which of the two sides of the factory, with its emblem and in its colour, between the arrows that change it."""
+    pane, x, size = _team(said)
+    emblem(pane.hot, number, x + 10, TEAM_Y, 24)
+    pane.page.cold.text(said, size, x + 48, TEAM_Y, TEAMS[number], "head")
+    return pane.done()
+
+
+@cached
+def real(said: str, on: bool, middle: int) -> Lit:
+    """Whether a seat's robot is real, as it is lit on the mat, or a drawn one; between the arrows that change it."""
+    pane = Pane(24, middle - 30, W - 48, 60)
+    size = fitted(said, BODY - 4, W - 250, "body")
+    x = MIDDLE - (text_width(said, size, "body") + 54) / 2
+    color = GREEN if on else MIST
+    pane.hot.ring(x + 18, middle, 18, color, THIN)
+    if on:
+        pane.page.cold.disc(x + 18, middle, 12, GREY)
+    pane.page.body(said, x + 54, middle, ICE if on else MIST, "l", size)
+    for name, cx in (("up", 60), ("down", W - 60)):
+        icon(pane.hot, name, cx, middle, 16, MIST, LINE)
+    return pane.done()
+
+
+def _team(said: str) -> tuple[Pane, float, int]:
+    """A pane with the arrows that change a team; where its sign begins, px, and the size of its name."""
+    pane = Pane(24, TEAM_Y - 34, W - 48, 68)
+    size = fitted(said, BODY, W - 240)
+    for name, cx in (("left", 60), ("right", W - 60)):
+        icon(pane.hot, name, cx, TEAM_Y, 18, MIST, LINE)
+    return pane, MIDDLE - (text_width(said, size) + 44) / 2, size
+
+
+@cached
+def turntable(player: int, turn: int, lit: bool, r: int) -> Lit:
+    """Arcs round a robot at (0, 0), `turn` of TURNS on their way to the next, on a circle of `r` px."""
+    half = r + 30
+    ink = Ink(2 * half, 2 * half)
+    color: Color = dim(PLAYERS[player], 0.8 if lit else 0.35)
+    for i in range(SPOKES):
+        start = 0.25 + (i + turn / TURNS) * math.tau / SPOKES
+        ink.arc(half, half, r, start, start + 0.7, color, THIN)
+    return Lit(ink.lit(1.0), (-half, -half))
+
+
+@cached
+def robot(player: int, turn: int, scale: float) -> Sprite:
+    """A seat's robot at heading `turn` of HEADINGS."""
+    return seat_robot(player, turn * math.tau / HEADINGS, scale)
+
+
+def ahead() -> Iterator[Callable[[], object]]:
+    """The larger pieces that joining and waiting will need, in the order in which they are likely to be wanted."""
+    for player in range(4):
+        yield partial(robot, player, UPRIGHT, ROBOT[1])
+        for turn in range(TURNS):
+            yield partial(turntable, player, turn, False, ROBOT[2])
+    for off in range(1, GLANCE + 1):
+        for player in range(4):
+            yield partial(robot, player, UPRIGHT + off, ROBOT[1])
+            yield partial(robot, player, UPRIGHT - off, ROBOT[1])
+    for player in range(4):
+        for turn in range(TURNS):
+            yield partial(turntable, player, turn, True, ROBOT[2])

@@ -1,0 +1,191 @@
+"""What the lobby shows: four cards, what is being waited for, and which button does what."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import pygame
+
+from pigaming_app.games.game import FREE, PAIRS
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.lobby import seat_card as card
+from pigaming_app.scenes.lobby.seats import AI, EMPTY, PLACES, Seats
+from pigaming_app.ui.draw.ink import FOCUS, LABEL, dim
+from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.draw.sprites import HEADINGS, step
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Spot
+from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse, stamp
+
+TOP, MESSAGE_Y, LINE_Y = 216, 884, 932
+ROLL_IN = 0.35  # seconds in which a robot comes onto its turntable
+
+
+@dataclass
+class Moment:
+    """What moves on the page, in seconds."""
+
+    clock: float = 0.0
+    since: list[float] = field(default_factory=lambda: [9.0] * PLACES)  # for each seat, since it was taken
+    starting: float | None = None  # until the choice of the arena
+    whole: float = 1.0  # how long that was in the beginning
+    message: str = ""  # what has just happened
+    label: str = ""  # of the button in it
+    said: float = 0.0  # how long that will still be shown
+    pointed: float = 0.0  # how long the focus of the mouse will still be shown
+
+    def pass_by(self, seconds: float) -> None:
+        """Let time pass."""
+        self.clock += seconds
+        self.said -= seconds
+        self.pointed -= seconds
+        self.since = [since + seconds for since in self.since]
+
+
+class LobbyPage:
+    """The page of these seats; `now` is what moves on it."""
+
+    def __init__(self, house: House, seats: Seats, now: Moment, fact: Callable[[], str], access: Access) -> None:
+        self.house, self.seats, self.now, self.fact, self.access = house, seats, now, fact, access
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page; `fact` tells what stands beside its title."""
+        screen.blit(backdrop(), (0, 0))
+        heading(self.house.words("lobby.title"), self.fact()).draw(screen)
+        blacked(screen, *map(card_rect, range(PLACES)))
+        for seat in range(PLACES):
+            self._card(screen, seat)
+        self._message(screen)
+        self.prompts.draw(screen)
+
+    @property
+    def prompts(self) -> Prompts:
+        """The hints that are true for the device used last, if it may act."""
+        seat = self.seats.of(self.access.voice)
+        full = not self.seats.like(EMPTY)
+        hints = [
+            (Act.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
+            (Act.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
+            (Act.ALT, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
+        ]
+        if self.seats.sides == FREE:
+            hints.append((Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
+        return Prompts(self.house, [*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
+
+    @property
+    def invited(self) -> tuple[str, ...]:
+        """The button of each device that could join, each once: of the pads, then of the keyboard's clusters."""
+        controls, words = self.house.controls, self.house.words
+        free = [device for device in controls.players() if self.seats.of(device) is None]
+        return tuple(dict.fromkeys(words.printed(controls.label(device, Act.FIRE)) for device in free))
+
+    def _card(self, screen: pygame.Surface, seat: int) -> None:
+        words, place, (x, y) = self.house.words, self.seats.places[seat], card_rect(seat).topleft
+        said = words("lobby.seat", player=seat + 1)
+        if place.kind == EMPTY:
+            card.empty(seat, said).draw(screen, x, y)
+            level = pulse(self.now.clock) if seat == self.seats.like(EMPTY)[0] else 0
+            card.invitation(seat, words("lobby.press_to_join"), self.invited, level).draw(screen, x, y)
+            return
+        card.frame(seat, said, place.ready or place.kind == AI).draw(screen, x, y)
+        self._robot(screen, seat)
+        if self.seats.teams:
+            if self.seats.sides == PAIRS:
+                card.side(words(f"lobby.side_{place.team + 1}"), place.team).draw(screen, x, y)
+            else:
+                card.team(words("lobby.team", team=place.team + 1), place.team).draw(screen, x, y)
+        if place.device:
+            controls = self.house.controls
+            name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")
+            card.driver("pad" if place.device.kind == "pad" else "keys", name).draw(screen, x, y)
+        else:
+            card.driver("ai", words("lobby.ai")).draw(screen, x, y)
+        if self.seats.mat:
+            key = "lobby.real" if place.real else "lobby.simulated"
+            middle = card.REAL_Y if self.seats.teams else card.TEAM_Y
+            card.real(words(key), place.real, middle).draw(screen, x, y)
+        self._bar(screen, seat)
+
+    def _bar(self, screen: pygame.Surface, seat: int) -> None:
+        words, place, (x, y) = self.house.words, self.seats.places[seat], card_rect(seat).topleft
+        if place.kind == AI:
+            card.strength(words(f"lobby.{place.strength}"), self.seats.teams).draw(screen, x, y)
+        elif place.ready:
+            card.ready(seat, words("lobby.ready")).draw(screen, x, y)
+        else:
+            label = words.printed(self.house.controls.label(place.device, Act.FIRE))
+            card.asked(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
+
+    def _robot(self, screen: pygame.Surface, seat: int) -> None:
+        place, (x, y) = self.seats.places[seat], card_rect(seat).topleft
+        rows = int(self.seats.teams) + int(self.seats.mat)
+        middle_y, scale, r = (card.ROBOT, card.ROBOT_IN_TEAM, card.ROBOT_LOW)[rows]
+        speed = 14 if place.ready else 3
+        turn = int(self.now.clock * speed) % card.TURNS
+        card.turntable(seat, turn, place.ready, r).draw(screen, round(x + card.MIDDLE), y + middle_y)
+        coming = max(0.0, 1.0 - self.now.since[seat] / ROLL_IN) ** 2
+        hop = 8 * abs(math.sin(self.now.clock * 7 + seat)) if place.ready else 0.0
+        look = 0.0 if place.ready else glance(self.now.clock, seat)
+        sprite = card.robot(seat, step(card.UP + look, HEADINGS), scale)
+        stamp(screen, sprite, x + card.MIDDLE, y + middle_y + 120 * coming - hop)
+
+    def _message(self, screen: pygame.Surface) -> None:
+        words, waiting = self.house.words, self.seats.waiting
+        if self.now.starting is not None:
+            calling(words("lobby.starting"), "", LABEL).draw(screen, 960, MESSAGE_Y)
+            reach = round(864 * (1.0 - max(0.0, self.now.starting) / self.now.whole))
+            screen.fill(dim(FOCUS, 0.25), (960 - reach, LINE_Y - 5, 2 * reach, 10))
+            screen.fill(FOCUS, (960 - reach, LINE_Y - 2, 2 * reach, 4))
+            return
+        if self.now.said > 0.0:
+            calling(self.now.message, self.now.label, LABEL).draw(screen, 960, MESSAGE_Y)
+            return
+        if waiting:
+            place = self.seats.places[waiting[0]]
+            said = words("lobby.wait", player=waiting[0] + 1, button="{button}")
+            label = words.printed(self.house.controls.label(place.device, Act.FIRE))
+        else:
+            said, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
+        calling(said, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
+
+
+def spots(seats: Seats) -> list[Spot]:
+    """What the mouse can hit: arrows and teams on the cards, then the cards."""
+    found = []
+    for seat, place in enumerate(seats.places):
+        x, y = card_rect(seat).topleft
+        if place.kind == AI:
+            found.append(Spot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
+            found.append(Spot(f"stronger {seat}", pygame.Rect(x + card.W - 124, y + 500, 100, 76)))
+        if seats.teams and place.kind != EMPTY:
+            found.append(Spot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, card.W - 48, 68)))
+        if seats.mat and place.kind != EMPTY:
+            middle = card.REAL_Y if seats.teams else card.TEAM_Y
+            found.append(Spot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, card.W - 48, 60)))
+    return [*found, *(Spot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
+
+
+def problem(seats: Seats, words: Words) -> str:
+    """Why a match cannot begin, or nothing."""
+    if seats.robots < 2:
+        return words("lobby.more")
+    return words("lobby.teams_need") if seats.one_team else ""
+
+
+def card_rect(seat: int) -> pygame.Rect:
+    """Where a seat's card is."""
+    x, w = span(3 * seat, 3)
+    return pygame.Rect(x, TOP, w, card.H)
+
+
+def glance(seconds: float, seat: int) -> float:
+    """Where the robot of a waiting seat looks, rad off straight ahead: it turns quickly and rests."""
+    angles = (0.0, -0.42, 0.3, 0.0, 0.46, -0.2)
+    at = seconds / 1.4 + 0.37 * seat
+    i, into = int(at), at % 1.0
+    now, then = angles[(i + 2 * seat) % len(angles)], angles[(i + 1 + 2 * seat) % len(angles)]
+    share = max(0.0, min(1.0, (into - 0.75) / 0.25))
+    return now + (then - now) * share * share * (3.0 - 2.0 * share)

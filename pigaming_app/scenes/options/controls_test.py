@@ -1,0 +1,148 @@
+"""Test the controls: every pad, every cluster of keys and the mouse, live. What is pressed lights up.
+
+Each keyboard cluster drives a little robot of its own. Escape or the hint leaves the page; on a pad B is held for a
+second, because a short press of it is what one wants to see here.
+"""
+
+import math
+
+import pygame
+
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.options import controls_pictures as gadgets
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.ui.draw.ink import ADD, ICE
+from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
+from pigaming_app.ui.input.events import Act, Device, Drive, Press
+from pigaming_app.ui.input.keyboard import CLUSTERS
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.labels import blacked, heading, stamp
+
+PLACES = 4
+PADS_Y, KEYS_Y = 216, 580
+HOLD = 0.8  # seconds
+LIT = 0.25  # seconds for which a short press stays lit
+IDLE = 120.0  # seconds without a press until the title
+TURN = 3.0  # rad/s
+BUTTONS = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT, Act.START)
+
+
+class PadTest:
+    """The page. `lit`: seconds for which a button of a device still shows that it was pressed."""
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.holding: Device | None = None
+        self.held = 0.0
+        self.lit: dict[tuple[Device, Act], float] = {}
+        self.headings = [-math.pi / 2] * PLACES
+        self.clicks: list[tuple[float, float, float]] = []  # x, y, seconds since
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """Light up; Escape, the hint, and B after a while, leave."""
+        meant = self._prompts().meant(press)
+        if meant.act is Act.BACK and meant.device.kind != "pad":
+            return self._leave()
+        if meant.act is Act.BACK:
+            self.holding, self.held = meant.device, 0.0
+        if press.act is Act.CLICK and press.at:
+            self.clicks = [*self.clicks[-5:], (*press.at, 0.0)]
+        if press.act is Act.LOST:
+            self.lit = {key: left for key, left in self.lit.items() if key[0] != press.device}
+        self.lit[press.device, press.act] = LIT
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Turn the robots, let lights go out, notice that B is held."""
+        controls = self.house.controls
+        self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
+        self.clicks = [(x, y, since + seconds) for x, y, since in self.clicks if since < 0.45]
+        for i in range(PLACES):
+            self.headings[i] += TURN * controls.drive(Device("keys", i)).angular * seconds
+        if self.holding and controls.drive(self.holding).turbo:
+            self.held += seconds
+            if self.held > HOLD:
+                return self._leave()
+        else:
+            self.holding = None
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint every device as it is held now."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("padtest.title"), words("padtest.line")).draw(screen)
+        pads = self.house.controls.pads()[:PLACES]
+        for i in range(PLACES):
+            x = span(3 * i, 3)[0]
+            blacked(screen, *(pygame.Rect(x, y, gadgets.W, gadgets.H) for y in (PADS_Y, KEYS_Y)))
+            if i < len(pads):
+                self._pad(screen, x, PADS_Y, pads[i])
+            else:
+                gadgets.no_pad(words("padtest.none"), words("padtest.plug")).draw(screen, x, PADS_Y)
+            self._cluster(screen, x, KEYS_Y, i)
+        for x_, y_, since in self.clicks:
+            wave = effects.wave(ICE, min(effects.WAVE_STEPS - 1, int(since / 0.45 * effects.WAVE_STEPS)))
+            screen.blit(wave.image, (round(x_ + wave.dx), round(y_ + wave.dy)), special_flags=ADD)
+        self._prompts().draw(screen)
+
+    # ---- inside
+
+    def _prompts(self) -> Prompts:
+        pad = self.house.controls.last.kind == "pad"
+        return Prompts(self.house, [(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
+
+    def _leave(self) -> Turn:
+        self.house.sounds.play("back")
+        return Pop()
+
+    def _pad(self, screen: pygame.Surface, x: int, y: int, device: Device) -> None:
+        controls, words = self.house.controls, self.house.words
+        labels = tuple(controls.label(device, act) for act in BUTTONS)
+        gadgets.pad(words(f"devices.{controls.name(device)}"), labels).draw(screen, x, y)
+        drive = controls.drive(device)
+        sx, sy = gadgets.STICK
+        gadgets.knob().draw(screen, x + sx + gadgets.REACH * drive.angular, y + sy - gadgets.REACH * drive.linear)
+        now = {Act.FIRE: drive.fire, Act.BACK: drive.turbo}
+        for act, label in zip(BUTTONS, labels, strict=True):
+            if now.get(act) or (device, act) in self.lit:
+                gadgets.pad_light(act, label).draw(screen, x, y)
+
+    def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
+        device = Device("keys", number)
+        drive, printed = self.house.controls.drive(device), CLUSTERS[number].printed
+        for act, box in gadgets.KEYS.items():
+            label = self.house.words.printed(printed[act])
+            gadgets.cap(label, *box.size, _down(drive, act)).draw(screen, x + box.x, y + box.y)
+        heading = self.headings[number]
+        ahead = 10 * drive.linear
+        rx = x + gadgets.ROBOT[0] + ahead * math.cos(heading)
+        ry = y + gadgets.ROBOT[1] + ahead * math.sin(heading)
+        if drive.turbo:
+            _add(screen, effects.flame(number, step(heading, effects.TURNS), pygame.time.get_ticks() // 60 % 2), rx, ry)
+        stamp(screen, tank(number, step(heading, HEADINGS)), rx, ry)
+        if drive.fire or (device, Act.FIRE) in self.lit:
+            muzzle = rx + 70 * math.cos(heading), ry + 70 * math.sin(heading)
+            _add(screen, effects.flash(number, step(heading, effects.TURNS)), *muzzle)
+
+
+def _down(drive: Drive, act: Act) -> bool:
+    """Whether the key of a cluster that means `act` is held."""
+    return {
+        Act.UP: drive.linear > 0,
+        Act.DOWN: drive.linear < 0,
+        Act.LEFT: drive.angular < 0,
+        Act.RIGHT: drive.angular > 0,
+        Act.FIRE: drive.fire,
+        Act.LEAVE: drive.turbo,
+    }[act]
+
+
+def _add(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
+    screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=ADD)

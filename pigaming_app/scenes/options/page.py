@@ -1,0 +1,254 @@
+"""The options: what they change is changed at once, and kept on disk at once.
+
+In a kiosk the page offers only what children may touch; the operator's page offers everything.
+"""
+
+import logging
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import pygame
+
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Turn
+from pigaming_app.scenes.views.race.ghost_files import forget
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw.frame_budget import Ahead
+from pigaming_app.ui.draw.ink import LABEL
+from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.i18n import LANGUAGES, NAMES
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.labels import blacked, calling, glow_bar, heading
+
+IDLE = 90.0  # seconds without a press until the title
+SAID = 3.0  # seconds for which a sentence stays
+CLEAR = 2.0  # seconds for which a button is held to empty the tables
+AHEAD = 2.0  # ms of a frame for pieces that a move of the focus will need
+FLASHES = ("off", "soft", "full")
+ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
+FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
+TOP, BOTTOM, HIGH = 240, 908, 64
+log = logging.getLogger("pigaming")
+
+
+@dataclass(frozen=True)
+class Value:
+    """What a row shows: options of which one is lit, a number of ten, a text between arrows, or a thing to do."""
+
+    kind: str  # toggle, meter, arrows, deed
+    options: tuple[str, ...]
+    chosen: int = 0
+
+
+class OptionsPage:
+    """The options; `operator`: everything, also in a kiosk."""
+
+    def __init__(self, house: House, operator: bool = False) -> None:
+        self.house, self.operator = house, operator
+        self.rows: Sequence[str] = ROWS
+        if house.kiosk:
+            self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
+        self.clock, self.said, self.sentence = 0.0, 0.0, ""
+        self.cleared = False
+        self.clearing = Holds(house.controls, CLEAR)
+        self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
+        self.ahead = Ahead(self._ahead())
+        self.prompts = Prompts(
+            house, [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
+        )
+
+    def entered(self) -> None:
+        """Shown, or come back to from the test of the controls."""
+
+    def on(self, press: Press) -> Turn:
+        """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
+        press = self.prompts.meant(press)
+        match press.act:
+            case Act.BACK:
+                self.house.sounds.play("back")
+                return Pop()
+            case Act.LEFT | Act.RIGHT:
+                self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
+            case Act.FIRE | Act.START:
+                return self._do(self.focus.name, press)
+            case Act.CLICK:
+                self.focus.on(press)
+                return self._click(press)
+            case _:
+                if self.focus.on(press):
+                    self.house.sounds.play("move")
+                    self.clearing.clear()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let sentences fade; leave when nobody is there."""
+        self.clock += seconds
+        if self.clearing.update(seconds):
+            self._clear()
+        self.said -= seconds
+        self.focus.update(seconds)
+        self.ahead.work(AHEAD)
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        words, focus = self.house.words, self.focus.name
+        screen.blit(backdrop(), (0, 0))
+        heading(words("options.operator" if self.operator else "options.title")).draw(screen)
+        blacked(screen, dials.PANEL)
+        glow_bar(screen, self.focus.box)
+        for i, name in enumerate(self.rows):
+            self._row(screen, i, name, name == focus)
+        dials.beside().draw(screen, *dials.PANEL.topleft)
+        dials.about(screen, words(f"options.{focus}"), words(f"options.{focus}_line"))
+        dials.sketch(screen, focus, self._value(focus).chosen, self.clock)
+        if self.clearing.share:
+            dials.ring(screen, self.clearing.share)
+        self.focus.draw(screen)
+        if self.said > 0.0:
+            calling(self.sentence, "", LABEL).draw(screen, 960, 926)
+        self.prompts.draw(screen)
+
+    # ---- what is seen
+
+    def _row(self, screen: pygame.Surface, i: int, name: str, hot: bool) -> None:
+        box, value = self._box(i), self._value(name)
+        dials.label(self.house.words(f"options.{name}"), hot).draw(screen, box.x + 40, box.centery)
+        dials.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
+        if i and box.y > self._box(i - 1).bottom:
+            dials.rule(box.w).draw(screen, box.x, (box.y + self._box(i - 1).bottom) // 2)
+
+    def _box(self, i: int) -> pygame.Rect:
+        """Where the i-th row is."""
+        x, w = span(0, 8)
+        pitch = min(96.0, (BOTTOM - TOP - HIGH) / max(1, len(self.rows) - 1))
+        high = min(HIGH, int(pitch))  # rows that overlap could not be told apart by the focus
+        return pygame.Rect(x, round(TOP + pitch * i) - high // 2, w, high)
+
+    def _ahead(self) -> Iterator[Callable[[], object]]:
+        """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
+        words = self.house.words
+        for name in self.rows:
+            yield partial(dials.label, words(f"options.{name}"), True)
+            yield partial(self._piece, name)
+            yield partial(dials.told, words(f"options.{name}"), words(f"options.{name}_line"))
+            yield partial(dials.drawn, name, self._value(name).chosen)
+
+    def _piece(self, name: str) -> object:
+        value = self._value(name)
+        return dials.value(value.kind, value.options, value.chosen, True)
+
+    # ---- what the rows are
+
+    def _value(self, name: str) -> Value:
+        settings, words, canvas = self.house.settings, self.house.words, self.house.canvas
+        off_on = (words("options.off"), words("options.on"))
+        match name:
+            case "language":
+                return Value("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
+            case "music" | "sounds":
+                return Value("meter", (), settings.music if name == "music" else settings.sounds)
+            case "flashes":
+                flashes = tuple(words(f"options.{one}") for one in FLASHES)
+                return Value("toggle", flashes, FLASHES.index(settings.flashes))
+            case "shake":
+                return Value("toggle", off_on, int(settings.shake))
+            case "fullscreen":
+                return Value("toggle", off_on, int(canvas.fullscreen))
+            case "display":
+                return Value("arrows", tuple(canvas.displays()), canvas.display)
+            case "reset":
+                key = "cleared" if self.cleared else "clear"
+                return Value("deed", (words(f"options.{key}"),))
+        return Value("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
+
+    def _change(self, name: str, by: int) -> None:
+        """The next value of a row, or the one before it."""
+        value = self._value(name)
+        most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
+        self._take(name, max(0, min(most, value.chosen + by)))
+
+    def _do(self, name: str, press: Press) -> Turn:
+        """Fire: the next value, round and round; or the deed."""
+        value = self._value(name)
+        if value.kind != "deed":
+            count = 11 if value.kind == "meter" else len(value.options)
+            self._take(name, (value.chosen + 1) % count)
+            return None
+        self.house.sounds.play("move" if name == "reset" else "accept")
+        if name == "close":
+            return Quit()
+        if name == "padtest":
+            from pigaming_app.scenes.options.controls_test import PadTest
+
+            return Push(PadTest(self.house))
+        if name == "robots":
+            from pigaming_app.scenes.robots.menu import RobotsMenu
+
+            return Push(RobotsMenu(self.house))
+        self.cleared = False
+        self.clearing.begin(press)
+        return None
+
+    def _click(self, press: Press) -> Turn:
+        name = self.focus.under(press)
+        if name is None or press.at is None:
+            return None
+        value = self._value(name)
+        if value.kind == "deed":
+            return self._do(name, press)
+        hit = dials.hit(value.kind, value.options, value.chosen, press.at[0] - self.focus.rect(name).x)
+        if hit is not None:
+            self._take(name, hit)
+        return None
+
+    def _take(self, name: str, chosen: int) -> None:
+        """Make a value so, at once."""
+        if chosen == self._value(name).chosen:
+            return
+        house, settings, canvas = self.house, self.house.settings, self.house.canvas
+        match name:
+            case "language":
+                settings.language = LANGUAGES[chosen]
+                house.words.switch(settings.language)
+                self.ahead = Ahead(self._ahead())
+            case "music" | "sounds":
+                setattr(settings, name, chosen)
+                house.sounds.volume(settings.music, settings.sounds)
+            case "flashes":
+                settings.flashes = FLASHES[chosen]
+            case "shake":
+                settings.shake = bool(chosen)
+            case "display" | "fullscreen":
+                canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
+                settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+        house.sounds.play("hit" if name == "sounds" else "move")
+        self._keep()
+
+    def _clear(self) -> None:
+        """Empty the tables of scores."""
+        self.house.scores.reset()
+        self.cleared = True
+        self.house.sounds.play("accept")
+        self._keep(scores=True)
+        try:
+            forget(folders().data)
+        except OSError as trouble:
+            log.warning("%s", trouble)
+
+    def _keep(self, scores: bool = False) -> None:
+        """Save, or say in one sentence that it could not be saved."""
+        try:
+            if scores:
+                self.house.scores.save(folders().data)
+            else:
+                self.house.settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self.sentence, self.said = self.house.words("app.unsaved"), SAID

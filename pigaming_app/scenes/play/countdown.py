@@ -1,0 +1,138 @@
+"""Three, two, one, go: the big signs over an arena, before a match and after every interruption."""
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+from itertools import cycle
+
+import pygame
+
+from pigaming_app.ui.draw.frame_budget import Job, Steps, sliced
+from pigaming_app.ui.draw.ink import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
+from pigaming_app.ui.draw.sprites import Sprite, faded, trim
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.theme import CAPITALS
+
+CENTRE = (960, 590)  # of the arena, on the canvas
+GO = 0.7  # seconds for which GO! is shown
+POP = 0.16  # seconds in which a sign shrinks to its size
+POPS = 5  # sizes kept of each sign
+HUGE = 300
+LEVELS = 8  # brightnesses of a sign that goes
+MOAT = 14  # px
+CLEAR_X, CLEAR_Y = 390, 290  # px by which a number stands away from a robot and what is said about it
+SHIFTS = sorted(((x, y) for x in range(-480, 481, 60) for y in range(-180, 181, 60)), key=lambda at: math.hypot(*at))
+
+
+class Countdown:
+    """Locks motion while it runs. `step`: seconds for each number; `lead`: seconds before the first."""
+
+    def __init__(self, step: float = 1.0, lead: float = 0.0) -> None:
+        self.step, self.left, self.since = step, 3 * step + lead, 0.0
+        self.number = 4
+
+    @property
+    def locked(self) -> bool:
+        """Nothing may move yet."""
+        return self.left > 0.0
+
+    @property
+    def shown(self) -> bool:
+        """There is still a sign to draw."""
+        return self.locked or self.since < GO
+
+    def update(self, seconds: float) -> str | None:
+        """Let time pass; answers the name of the sound that is due."""
+        if not self.locked:
+            self.since += seconds
+            return None
+        self.left -= seconds
+        if not self.locked:
+            self.since = 0.0
+            return "go"
+        number = math.ceil(self.left / self.step)
+        self.since += seconds
+        if number < self.number:
+            self.number, self.since = number, 0.0
+            return "count" if number <= 3 else None
+        return None
+
+    def draw(self, screen: pygame.Surface, go: str, at: tuple[int, int] = CENTRE) -> None:
+        """Paint the number, or `go`, round a place on the canvas."""
+        pop = min(POPS - 1, int(self.since / POP * POPS))
+        if not self.locked:
+            if self.since < GO:
+                level = LEVELS if self.since < GO / 2 else math.ceil(2 * LEVELS * (1 - self.since / GO))
+                show(screen, popped(go, FOCUS, pop, level), at)
+        elif self.number <= 3:
+            show(screen, popped(str(self.number), ICE, pop), at)
+            show(screen, arcs(self.number), at)
+
+
+def signs(go: str, *ends: str) -> Iterator[Job]:
+    """A job for every sign of a match, in the order in which they are shown.
+
+    Those of the end come again and again, which keeps them in the cache until they are needed.
+    """
+    for number in (3, 2, 1):
+        yield partial(arcs, number)
+        yield partial(_word, str(number), ICE)
+    yield partial(_word, go, FOCUS)
+    yield from (partial(_word, end, ALARM) for end in cycle(ends))
+
+
+def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
+    """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
+    sign = _word(text, color)
+    if pop < POPS - 1:
+        scale = 1.0 + 0.7 * (1 - (pop + 1) / POPS) ** 2
+        image = pygame.transform.smoothscale_by(sign.image, scale)  # half a millisecond
+        sign = Sprite(image, round(sign.dx * scale), round(sign.dy * scale))
+    return sign if level == LEVELS else faded(sign, level / LEVELS)
+
+
+@cached
+@sliced
+def _word(text: str, color: Color) -> Steps[Sprite]:
+    edge = font("hero", HUGE).render(text, True, BLACK)
+    w, h = edge.get_width() + 128, HUGE + 128
+    out = pygame.Surface((w, h), pygame.SRCALPHA)
+    top = h / 2 - font("hero", HUGE).get_ascent() + CAPITALS * HUGE / 2
+    for i in range(24):
+        angle = i * math.tau / 24
+        out.blit(edge, (64 + MOAT * math.cos(angle), top + MOAT * math.sin(angle)))
+    yield
+    light = yield from Ink(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
+    out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    yield
+    return trim(out, w / 2, h / 2)
+
+
+def clear_of(robots: Sequence[tuple[float, float]]) -> tuple[int, int]:
+    """The place nearest to the middle of the arena where a number hides no robot; the middle where there is none."""
+    for dx, dy in SHIFTS:
+        x, y = CENTRE[0] + dx, CENTRE[1] + dy
+        if all(abs(x - robot[0]) > CLEAR_X or abs(y - robot[1]) > CLEAR_Y for robot in robots):
+            return x, y
+    return CENTRE
+
+
+def show(screen: pygame.Surface, sign: Sprite, at: tuple[int, int] = CENTRE) -> None:
+    """Paint a sign round a place on the canvas, the middle of the arena if nothing else is said."""
+    screen.blit(sign.image, (at[0] + sign.dx, at[1] + sign.dy), special_flags=pygame.BLEND_PREMULTIPLIED)
+
+
+@cached
+@sliced
+def arcs(count: int) -> Steps[Sprite]:
+    """Three arcs round a number, of which `count` are still lit."""
+    half = 270
+    ink = Ink(2 * half, 2 * half).to(half, half)
+    for i in range(3):
+        start = -math.pi / 2 + i * math.tau / 3 + 0.14
+        lit = i < count
+        ink.arc(0, 0, 215, start, start + math.tau / 3 - 0.28, FOCUS if lit else (58, 54, 16), BOLD if lit else 4)
+    yield
+    image = yield from ink.spriting(1.0)
+    yield
+    return trim(image, half, half)

@@ -1,0 +1,230 @@
+"""The page over a match that stands still: who paused, and what now. The match is one dark picture behind it.
+
+Whoever paused chooses alone for a while (see `access`); a ring shows for how long. To restart or end the match takes a
+second press within a few seconds.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Protocol
+
+import pygame
+
+from pigaming_app.scenes.flow.access import OWNED, Access, Ownership
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Pop, Push, Scene, Turn
+from pigaming_app.scenes.play.device_table import DeviceTable
+from pigaming_app.scenes.views.sprites.effects import timer_ring
+from pigaming_app.ui.draw.ink import (
+    ALARM,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    TITLE,
+    Color,
+    badge,
+    button,
+    button_width,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import Lit, Pane, fitted, word
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay
+from pigaming_app.ui.widgets.focus import Focus, Spot
+
+ITEMS = ("continue", "restart", "controls", "end")
+PITCH, ITEM_H = 74, 66
+ITEM_W = 620
+ASKED = ("restart", "end")  # items that have to be chosen twice
+SURE = 3.0  # seconds in which the second press counts
+WAITS = 2.0  # seconds for which somebody whose press did not count is told why
+RING = X + W - 112, Y + 116
+
+
+class Held(Protocol):
+    """The match below a page."""
+
+    house: House
+    devices: list[Device | None]
+
+    def picture(self) -> pygame.Surface:
+        """The match as it lies behind a page."""
+
+    def think_aloud(self) -> None:
+        """Show what the next AI thinks."""
+
+    def restart(self) -> None:
+        """Begin anew."""
+
+    def stop(self) -> None:
+        """End the match now."""
+
+    @property
+    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+        """What else the pause offers: by its name, a page for those whose presses count there."""
+
+    @property
+    def access(self) -> Access:
+        """Whose presses count in the match."""
+
+    def welcome(self, press: Press) -> bool:
+        """Give its seat back to a device that has walked off."""
+
+    def hold(self, seconds: float) -> None:
+        """Let time pass under a page."""
+
+    def shine(self, screen: pygame.Surface) -> None:
+        """Paint what no page may hide."""
+
+
+class Pause:
+    """A pause that `device` has asked for."""
+
+    def __init__(self, match: Held, device: Device) -> None:
+        self.match, self.house = match, match.house
+        self.player = match.devices.index(device) if device in match.devices else None
+        self.access = Ownership(match.house, lambda: match.devices, device)
+        self.picture: pygame.Surface | None = None
+        self.sure = self.waits = 0.0
+        self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
+        hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+
+    def entered(self) -> None:
+        """Quiet."""
+        self.house.sounds.music(False)
+
+    def on(self, press: Press) -> Turn:
+        """START and BACK go on; so does F4, or ALT of a pad, with a look into an AI; FIRE takes what has the focus."""
+        press = self.prompts.meant(press)
+        if press.act is Act.ALT:
+            press = replace(press, act=Act.BRAIN)
+        admitted = self.access.admit(press)
+        acting = self.access.acting
+        if admitted is None or (press.act is Act.BRAIN and acting and admitted.device not in acting):
+            self.waits = WAITS
+            return None
+        press = admitted
+        if press.act is Act.BRAIN:
+            self.match.think_aloud()
+        if press.act in (Act.START, Act.BACK, Act.BRAIN):
+            return self._do("continue")
+        if self.focus.on(press):
+            self.sure = 0.0
+            self.house.sounds.play("move")
+        chosen = self.focus.chosen(press)
+        if chosen in ASKED and self.sure <= 0.0:
+            self.sure = SURE
+            self.house.sounds.play("move")
+            return None
+        return self._do(chosen) if chosen else None
+
+    def update(self, seconds: float) -> Turn:
+        """The focus moves, questions and the pause's ownership run out."""
+        self.match.hold(seconds)
+        self.access.update(seconds)
+        self.focus.update(seconds)
+        self.sure -= seconds
+        self.waits -= seconds
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page, painted once, and the item in focus."""
+        if self.picture is None:
+            color = ICE if self.player is None else PLAYERS[self.player]
+            self.picture = overlay(self.match.picture(), color, self._paint)
+        screen.blit(self.picture, (0, 0))
+        color, box = (ALARM if self.sure > 0.0 else FOCUS), self.focus.spot.rect
+        self.focus.draw(screen, color)
+        if self.sure > 0.0:
+            pygame.draw.rect(screen, (0, 0, 0), box)
+            sure(self.house.words(f"pause.sure_{self.focus.name}", button="{button}"), self._button()).draw(
+                screen, *box.center
+            )
+        else:
+            word(self.house.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
+        self._draw_owned(screen)
+        if self.waits > 0.0:
+            plate(self._why(), FOCUS).draw(screen, 960, PROMPTS)
+        else:
+            self.prompts.draw(screen)
+        self.match.shine(screen)
+
+    # ---- inside
+
+    def _button(self) -> str:
+        """What is printed on the button that takes what has the focus."""
+        return self.house.words.printed(self.house.controls.label(self.access.voice, Act.FIRE))
+
+    def _draw_owned(self, screen: pygame.Surface) -> None:
+        """For how long the pause belongs to whoever asked for it."""
+        if not self.access.owned or len(self.access.seated) < 2:
+            return
+        image, dx, dy = timer_ring(FOCUS, math.ceil(12 * self.access.left / OWNED) * 4, 46, LINE)
+        screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
+        word(str(math.ceil(self.access.left)), LABEL, FOCUS, "head").draw(screen, *RING)
+
+    def _why(self) -> str:
+        """Why a press did not count."""
+        if self.player is None or not self.access.owned:
+            return self.house.words("pause.wait")
+        return self.house.words("pause.wait_for", player=self.player + 1)
+
+    def _do(self, name: str) -> Turn:
+        self.house.sounds.play("back" if name == "continue" else "accept")
+        match name:
+            case "restart":
+                self.match.restart()
+            case "end":
+                self.match.stop()
+            case "controls":
+                return Push(DeviceTable(self.house, self.match.devices, self.access))
+            case extra if extra in self.match.extras:
+                return Push(self.match.extras[extra](self.access))
+        return Pop()
+
+    def _paint(self, pane: Pane) -> None:
+        words = self.house.words
+        text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
+        title(pane, self.player, text, ICE, RING[0] - 80)
+        for spot in self.focus.spots:
+            pane.page.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+
+
+def items(names: Sequence[str] = ITEMS) -> list[Spot]:
+    """Where the items of a menu are."""
+    pitch = min(PITCH, (FOOT - HEAD - 8) // len(names))
+    high = pitch - PITCH + ITEM_H
+    top = HEAD + (FOOT - HEAD - pitch * len(names)) // 2 + (pitch - high) // 2
+    return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + pitch * i, ITEM_W, high)) for i, name in enumerate(names)]
+
+
+@cached
+def sure(said: str, label: str) -> Lit:
+    """A question that a second press answers, round (0, 0); {button} in it is the button."""
+    before, _, after = said.partition("{button}")
+    wide = button_width(label) + 36
+    size = fitted(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
+    ends = [text_width(part.strip(), size) for part in (before, after)]
+    x = -(sum(ends) + wide) / 2
+    pane = Pane(x, -40, -2 * x, 80)
+    pane.page.text(before.strip(), size, x, 0, ALARM)
+    button(pane.page, x + ends[0] + 18, 0, label, ALARM)
+    pane.page.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
+    return pane.done()
+
+
+def title(pane: Pane, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
+    """The head of a sheet: a badge, if it is about somebody, and one line that ends before `right`."""
+    x = X + 72
+    if player is not None:
+        badge(pane.hot, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
+        x = X + 232
+    pane.page.text(text, fitted(text, TITLE, right - x), x, Y + 116, color)

@@ -1,0 +1,197 @@
+"""Two pages that hold a match up for a while: a pad is gone, or nobody is there. A ring says for how long."""
+
+import math
+from typing import Protocol
+
+import pygame
+
+from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.play.pause import Held, Pause, title
+from pigaming_app.scenes.views.sprites.effects import timer_ring
+from pigaming_app.ui.draw.ink import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
+from pigaming_app.ui.draw.layers import Lit, Pane, fitted, lines_of, word
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
+
+WAIT = 15.0  # seconds
+DEAF = 1.0  # seconds in which presses are ignored: the others are still playing
+RING = X + 398, Y + 468
+PAD = X + 184, Y + 376
+TEXT_X, TEXT_W = X + 352, W - 352 - 56
+
+
+class Open(Held, Protocol):
+    """A match whose seats can change hands."""
+
+    @property
+    def lost(self) -> list[int]:
+        """Seats whose device is gone."""
+
+    def free(self, device: Device) -> bool:
+        """Nobody drives with this device."""
+
+    def hand(self, seat: int, device: Device | None) -> None:
+        """Give a seat to a device, or to an AI."""
+
+
+class Reconnect:
+    """The device of `seat` is gone: a free one takes over with FIRE, or an AI does when the ring has run out."""
+
+    def __init__(self, match: Open, seat: int) -> None:
+        self.match, self.house, self.seat = match, match.house, seat
+        self.age, self.found = 0.0, False
+        self.pictures: dict[bool, pygame.Surface] = {}
+        hints = [(Act.EXTRA, "pause.hint_ai"), (Act.BACK, "pause.hint_menu")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+
+    def entered(self) -> None:
+        """Say that something is wrong."""
+        self.house.sounds.music(False)
+        self.house.sounds.play("error")
+
+    def on(self, press: Press) -> Turn:
+        """FIRE on a free device takes the seat; EXTRA gives it to an AI; BACK opens the menu."""
+        press = self.prompts.meant(press)
+        admitted = self.match.access.admit(press)
+        if press.act is Act.FOUND:
+            self.found = True
+            self.house.sounds.play("move")
+        elif press.act is Act.LOST:
+            self.found = False
+        elif press.act in (Act.FIRE, Act.START) and self.match.free(press.device):
+            return self._hand(press.device)
+        elif admitted is None or self.age < DEAF:
+            return None
+        elif admitted.act is Act.EXTRA:
+            return self._hand(None)
+        elif admitted.act is Act.BACK:
+            return Swap(Pause(self.match, admitted.device))
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """The ring runs out."""
+        self.match.hold(seconds)
+        self.age += seconds
+        if held := self.match.access.update(seconds):
+            return Swap(Pause(self.match, held.device))
+        return self._hand(None) if self.age >= WAIT else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page, the ring, the plug."""
+        if self.found not in self.pictures:
+            self.pictures[self.found] = overlay(self.match.picture(), PLAYERS[self.seat], self._paint, self.found)
+        screen.blit(self.pictures[self.found], (0, 0))
+        gap = 0 if self.found else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
+        plug(MIST if not self.found else GREEN, self.found).draw(screen, PAD[0], PAD[1] - gap)
+        if not self.found and self.age % 1.4 < 0.7:
+            bolt().draw(screen, *PAD)
+        ring(screen, WAIT - self.age, WAIT)
+        self.prompts.draw(screen)
+        self.match.shine(screen)
+
+    def _hand(self, device: Device | None) -> Turn:
+        self.match.hand(self.seat, device)
+        return Pop()
+
+    def _paint(self, pane: Pane) -> None:
+        words, ink = self.house.words, pane.hot
+        title(pane, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
+        x, y = PAD
+        icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
+        ink.line([(x, y - 16), (x, y - 46)], PLAYERS[self.seat], LINE)
+        ink.line([(x - 16, y - 46), (x + 16, y - 46)], PLAYERS[self.seat], LINE)
+        say(pane, words("pause.found" if self.found else "pause.how"), FOCUS if self.found else ICE)
+        after(pane, words("pause.then_ai"))
+
+
+class StillThere:
+    """Nobody has touched anything: any press goes on; when the ring has run out, back to the title."""
+
+    def __init__(self, match: Held) -> None:
+        self.match, self.house = match, match.house
+        self.age = 0.0
+        self.picture: pygame.Surface | None = None
+        self.prompts = Prompts(self.house, [(Act.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
+
+    def entered(self) -> None:
+        """Ask."""
+        self.house.sounds.music(False)
+        self.house.sounds.play("error")
+
+    def on(self, press: Press) -> Turn:
+        """Whatever is pressed, the match goes on, and whoever has walked off has the seat back."""
+        if press.act in (Act.LOST, Act.FOUND, Act.POINT):
+            return None
+        return Pop() if self.match.welcome(press) or self.match.access.admit(press) else None
+
+    def update(self, seconds: float) -> Turn:
+        """The ring runs out."""
+        self.match.hold(seconds)
+        self.age += seconds
+        return Home() if self.age >= WAIT else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page and the ring."""
+        if self.picture is None:
+            self.picture = overlay(self.match.picture(), FOCUS, self._paint)
+        screen.blit(self.picture, (0, 0))
+        ring(screen, WAIT - self.age, WAIT)
+        self.prompts.draw(screen)
+        self.match.shine(screen)
+
+    def _paint(self, pane: Pane) -> None:
+        words = self.house.words
+        title(pane, None, words("pause.still"), ICE)
+        icon(pane.hot, "clock", PAD[0], PAD[1], 84, MIST, LINE)
+        say(pane, words("pause.still_how"), ICE)
+        after(pane, words("pause.then_title"))
+
+
+def say(pane: Pane, text: str, color: Color) -> None:
+    """What to do, in up to three lines beside the picture of a sheet."""
+    lines = lines_of(text, BODY, TEXT_W)
+    top = HEAD + (54 if len(lines) > 2 else 80)
+    for i, line in enumerate(lines):
+        pane.page.body(line, TEXT_X, top + 56 * i, color)
+
+
+def after(pane: Pane, text: str) -> None:
+    """What happens when the ring has run out."""
+    room = TEXT_W - 120
+    pane.page.body(text, X + 472, RING[1], MIST, "l", fitted(text, BODY, room, "body"))
+
+
+def ring(screen: pygame.Surface, left: float, whole: float) -> None:
+    """The ring and the seconds in it."""
+    image, dx, dy = timer_ring(FOCUS, max(0, min(48, math.ceil(48 * left / whole))), 46, LINE)
+    empty().draw(screen, *RING)
+    screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
+    word(str(max(0, math.ceil(left))), LABEL, FOCUS, "head").draw(screen, *RING)
+
+
+@cached
+def empty() -> Lit:
+    """The ground of a ring."""
+    pane = Pane(-50, -50, 100, 100)
+    pane.page.cold.ring(0, 0, 46, (34, 44, 64), LINE)
+    return pane.done()
+
+
+@cached
+def plug(color: Color, joined: bool) -> Lit:
+    """The end of a cable over the pad whose middle is (0, 0)."""
+    pane = Pane(-40, -120, 80, 120)
+    dy = 36 if joined else 0
+    pane.hot.line([(-16, dy - 84), (16, dy - 84)], color, LINE).line([(0, dy - 84), (0, -112)], color, LINE)
+    return pane.done()
+
+
+@cached
+def bolt() -> Lit:
+    """Two dashes where plug and pad should meet."""
+    pane = Pane(-60, -80, 120, 30)
+    for side in (-1, 1):
+        pane.hot.line([(26 * side, -65), (52 * side, -65)], FOCUS, LINE)
+    return pane.done()

@@ -1,0 +1,104 @@
+"""Watching a replay: pause, three speeds, from the start again, and who sits where."""
+
+import pygame
+
+from pigaming_app.games.replay import BYTES, Replay, play
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.side_hints import Column, note
+from pigaming_app.sim.world import DT
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LABEL, STEEL
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.caption import plate
+
+SPEEDS = (1, 2, 4)
+SHOWN = 4.0  # seconds for which the hints stay after a press
+LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # of the time line, px
+
+
+class ReplayScene:
+    """A replay on the screen."""
+
+    def __init__(self, house: House, replay: Replay) -> None:
+        self.house, self.replay = house, replay
+        self.length = len(replay.ticks) // BYTES * DT
+        self.speed, self.shown, self.playing = 0, SHOWN, True
+        self.stage, self.warm = Stage(house, play(replay)), False
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """FIRE holds and goes on, LEFT and RIGHT change the speed, EXTRA begins again, BACK leaves."""
+        press = self.hints.meant(press)
+        self.shown = SHOWN
+        match press.act:
+            case Act.FIRE | Act.START:
+                if self.ended:
+                    self._begin()
+                else:
+                    self.playing = not self.playing
+            case Act.LEFT:
+                self.speed = max(0, self.speed - 1)
+            case Act.RIGHT:
+                self.speed = min(len(SPEEDS) - 1, self.speed + 1)
+            case Act.EXTRA:
+                self._begin()
+            case Act.BACK:
+                return Pop()
+            case _:
+                pass
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the match run as fast as it is wished."""
+        self.shown -= seconds
+        self.warm = self.warm or self.stage.warm(4.0)
+        if self.playing and not self.ended:
+            self.stage.advance(seconds, SPEEDS[self.speed])
+        else:
+            self.stage.wait(seconds)
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The match; in the margins its time line, how fast it runs, and what can be pressed."""
+        self.stage.draw(screen)
+        words, seconds = self.house.words, self.stage.match.seconds
+        if seconds < SHOWN or not self.playing:
+            self.stage.captions(screen, [None] * len(self.replay.setup.seats))
+        x = LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, seconds / max(DT, self.length))
+        pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
+        pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (x, LINE_Y), 6)
+        pygame.draw.circle(screen, FOCUS, (x, LINE_Y), 9)
+        if self.ended:
+            plate(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
+        elif not self.playing or self.speed or seconds < SHOWN:
+            said = words("replay.title") if self.playing else words("replay.hint_pause")
+            note(said, f"{SPEEDS[self.speed]}×").draw(screen)
+        if self.shown > 0.0 or not self.playing or self.ended:
+            self.hints.draw(screen)
+
+    @property
+    def hints(self) -> Column:
+        """The hints, where they hide nothing."""
+        return Column(self.prompts)
+
+    @property
+    def prompts(self) -> Prompts:
+        """What the buttons do now; at the end there is nothing to hold and nothing to hurry."""
+        hints = [(Act.FIRE, "replay.hint_again"), (Act.BACK, "replay.hint_back")]
+        if not self.ended:
+            fire = "replay.hint_pause" if self.playing else "replay.hint_play"
+            hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
+        return Prompts(self.house, hints)
+
+    @property
+    def ended(self) -> bool:
+        """Nothing more was recorded."""
+        match = self.stage.match
+        return match.over or match.seconds >= self.length
+
+    def _begin(self) -> None:
+        self.stage, self.warm, self.playing = Stage(self.house, play(self.replay)), False, True

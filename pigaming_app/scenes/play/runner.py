@@ -1,0 +1,122 @@
+"""A running match on the screen: real time goes in, ticks, pictures and sounds come out.
+
+What a match, a demonstration and a replay have in common; who drives and what may be pressed is up to the scene.
+"""
+
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+
+import pygame
+
+from pigaming_app.ai import RIVALS
+from pigaming_app.games.match import Match
+from pigaming_app.scenes.brain.overlay import BrainOverlay
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.views import VIEWS
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw.surface_cache import surfaces
+from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.widgets.caption import Plate, plate
+
+BEHIND = 72  # of 255: how bright a match is behind a page
+LAST = 10  # seconds before the end in which each second is heard
+LEFT, TOP = 160, 140  # of the arena on the canvas
+BESIDE = 104  # px from a robot to what is said about it
+
+
+class Stage:
+    """A match and its view. `loud`: its sounds are heard."""
+
+    def __init__(self, house: House, match: Match, loud: bool = True) -> None:
+        self.house, self.match, self.loud = house, match, loud
+        self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
+        kind = VIEWS[match.setup.game]
+        with self._making():
+            self.view = kind(match.arena, match.state, self.players, house.settings, house.words)
+        self.brain = BrainOverlay(match, self.view, house.words)
+        self.pace = Pace()
+        self.unseen = 0.0  # seconds of real time since the last picture
+        self.second = LAST + 1
+
+    def warm(self, milliseconds: float) -> bool:
+        """Build sprites for so long; true when all are there."""
+        with self._making():
+            return bool(self.view.warm(milliseconds))
+
+    def advance(self, seconds: float, speed: float = 1.0) -> None:
+        """Let the match run on for `seconds` of real time."""
+        self.unseen += seconds
+        for _ in range(self.pace.due(seconds, speed)):
+            if self.match.over:
+                break
+            self.match.tick()
+            with self._making():
+                heard = self.view.watch(self.match.state)
+            for name, player, x in heard:
+                if self.loud:
+                    self.house.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
+        self._count_down()
+
+    def wait(self, seconds: float) -> None:
+        """Let real time pass in which the match stands still; its sparks and lights move on."""
+        self.unseen += seconds
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the match, between its last two ticks."""
+        blend = 1.0 if self.match.over else self.pace.blend
+        unseen, self.unseen = self.unseen, 0.0
+        with self._making():
+            self.view.draw(screen, self.match.state, blend, unseen)
+            self.brain.draw(screen, blend, unseen)
+
+    def picture(self) -> pygame.Surface:
+        """The match as it stands, as dark as it lies behind a page."""
+        canvas = pygame.Surface((1920, 1080))
+        self.draw(canvas)
+        canvas.fill((BEHIND, BEHIND, BEHIND), special_flags=pygame.BLEND_RGB_MULT)
+        return canvas
+
+    def robots(self) -> list[tuple[float, float]]:
+        """Where the robots stand on the canvas."""
+        return [(LEFT + robot.x, TOP + robot.y) for robot in self.match.state.robots if robot.present]
+
+    def captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
+        """Who drives with what, beside each robot."""
+        for seat, robot in enumerate(self.match.state.robots):
+            if robot.present:
+                name, sign = self.driver(seat, devices[seat])
+                self.beside(screen, seat, plate(name, PLAYERS[seat], sign=sign))
+
+    def beside(self, screen: pygame.Surface, seat: int, sheet: Plate) -> None:
+        """Paint something beside a robot, on the side where the arena has more room."""
+        robot = self.match.state.robots[seat]
+        margin = LEFT + 24 + sheet.width / 2
+        x = min(max(LEFT + robot.x, margin), 1920 - margin)
+        beside = self.view.reach(seat, BESIDE)
+        sheet.draw(screen, x, TOP + robot.y + (beside if robot.y < HEIGHT / 2 else -beside))
+
+    def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
+        """What drives a seat, in words, and the icon for it."""
+        words = self.house.words
+        if device and device.kind == "pad":
+            return words(f"devices.{self.house.controls.name(device)}"), "pad"
+        if device:
+            moves = self.house.controls.moves(device)
+            steer = words("match.arrows") if "←" in moves else moves
+            return f"{steer} + {words.printed(self.house.controls.label(device, Act.FIRE))}", "keys"
+        brain = self.players[seat]
+        if brain == "human":
+            return words("match.player", player=seat + 1), "pad"
+        return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
+
+    def _making(self) -> AbstractContextManager[None]:
+        """Sprites that are made within are released once the game is over and the title is back."""
+        return surfaces.made_for(self.match.setup.game)
+
+    def _count_down(self) -> None:
+        second = int(self.match.seconds_left) + 1
+        if second < self.second and second <= LAST and not self.match.over and self.loud:
+            self.house.sounds.play("tick")
+        self.second = second

@@ -1,0 +1,343 @@
+"""A match: three, two, one, go; people and AIs drive; time is up; the results.
+
+Only here devices meet seats. A seat whose device is gone asks for it, and when nobody comes an AI drives on until
+somebody presses FIRE for it; so does a seat at which nothing moves (see `walkoff`). Any free device takes the seat of
+an AI by holding FIRE (see `access`).
+"""
+
+import math
+import secrets
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import pygame
+
+from pigaming_app.ai import make, seated
+from pigaming_app.ai.brain.kind import Hands
+from pigaming_app.games.game import Setup
+from pigaming_app.scenes.flow.access import TAKE, Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.rule_texts import tagline
+from pigaming_app.scenes.flow.stack import Push, Scene, Swap, Turn
+from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
+from pigaming_app.scenes.play.idle_seats import WalkOff
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
+from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.results.scene import Results
+from pigaming_app.sim.plant import Plant, SimPlant
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw.frame_budget import Ahead
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, LABEL, PLAYERS
+from pigaming_app.ui.draw.layers import lines_of
+from pigaming_app.ui.input.events import Act, Device, Drive, Press
+from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.widgets.caption import RING_STEPS, Plate, filling, plate
+from pigaming_app.ui.widgets.labels import text
+
+LEAD = 0.8  # seconds in which one looks round before the countdown
+RESUME = 0.5  # seconds for each number after an interruption
+FREEZE = 1.5  # seconds between the last tick and the results
+STILL = 60.0  # seconds without a hand on anything
+NOTICE = 3.0  # seconds for which a line over the match stays
+WARM = 7.0  # ms of a frame for sprites while nobody moves
+STAND_IN = "normal"  # the brain that drives on for somebody
+
+
+class MatchScene:
+    """One match, from its countdown to its results. `devices`: who drives each seat; None: an AI, or nobody yet.
+
+    `humans`: the seats of people, of whom some may be away; `helped`: those for whom an AI has driven for a while;
+    `open`: whether a free device may take the seat of an AI.
+    """
+
+    def __init__(
+        self,
+        house: House,
+        setup: Setup,
+        devices: Sequence[Device | None] = (),
+        speed: float = 1.0,
+        plant: Callable[[Any], Plant] = SimPlant,
+    ) -> None:
+        self.house, self.setup, self.speed = house, setup, speed
+        self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
+        self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
+        self.match = seated(setup, plant)
+        self.stage = Stage(house, self.match)
+        self.count = Countdown(lead=LEAD)
+        self.spot = CENTRE
+        self.signs = Ahead(signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish"))))
+        self.begun = self.warm = self.stopped = self.repeated = False
+        self.idle = self.frozen = self.noticed = 0.0
+        self.notice: Plate | None = None
+        self.results: Results | None = None
+        self.access = Access(house, lambda: self.devices)
+        self.joining = Holds(house.controls, TAKE)
+        self.walkoff = WalkOff()
+        self.helped: set[int] = set()
+        self.open = True
+        for seat in self.humans:
+            self._sit(seat, self.devices[seat])
+        if self.humans:
+            self.stage.view.for_real(folders().data)
+
+    # ---- what happens to it
+
+    def entered(self) -> None:
+        """Begin, or go on after an interruption."""
+        self.house.sounds.music(True)
+        self.house.controls.forget_taps()
+        self.joining.clear()
+        if self.begun and not self.match.over:
+            self.count = Countdown(RESUME) if not self.count.locked else Countdown()
+        self.begun = True
+        self.idle = 0.0
+
+    def on(self, press: Press) -> Turn:
+        """START or Escape of a seated device pauses; a free one takes a seat that an AI holds."""
+        if self.match.over:
+            return None
+        if press.act is Act.LOST:
+            self.walkoff.forget(press.device)
+        if self.welcome(press):
+            return None
+        admitted = self.access.admit(press)
+        if press.act is Act.FIRE and self.free(press.device):
+            self._knock(press)
+        if admitted is None:
+            return None
+        self.idle = 0.0
+        if admitted.device in self.devices:
+            self.walkoff.alive(self.devices.index(admitted.device))
+        if press.act is Act.BRAIN:
+            self.think_aloud()
+        if press.act is Act.START or (press.act is Act.BACK and self._escapes(admitted.device)):
+            return Push(Pause(self, admitted.device))
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the match run on."""
+        self.noticed -= seconds
+        if self.repeated:
+            return Swap(self.again(self.house, self.setup, self.devices))
+        if self.match.over or self.stopped:
+            return self._end(seconds)
+        if held := self.access.update(seconds):
+            return Push(Pause(self, held.device))
+        if lost := self.lost:
+            return Push(Reconnect(self, lost[0]))
+        for press in self.joining.update(seconds):
+            self._join(press.device)
+        self.signs.work(0.0)
+        self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
+        if self.count.shown and (sound := self.count.update(seconds)):
+            self.house.sounds.play(sound)
+        if self.count.locked:
+            self.house.controls.forget_taps()
+            self.stage.wait(seconds)
+            return None
+        self.idle += seconds
+        self._miss(seconds)
+        self.stage.advance(seconds, self.speed)
+        if self.humans and self.idle > STILL:
+            return Push(StillThere(self))
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The arena, and over it what has to be said."""
+        self.stage.draw(screen)
+        words = self.house.words
+        if self.match.over and not self.stopped:
+            pop = min(4, int(self.frozen / 0.04))
+            ending = "time" if self.match.seconds_left <= 0.0 else "finish"
+            show(screen, popped(words(f"match.{ending}"), ALARM, pop))
+        elif self.count.shown:
+            if self.match.setup.game == "race" and self.match.seconds < 1.0:
+                self._draw_laps(screen)
+            if self.count.locked:
+                self.stage.captions(screen, self.devices)
+                self.spot = clear_of(self.stage.robots())
+            self.count.draw(screen, words("match.go"), self.spot)
+        for seat, left in self.walkoff.asked().items():
+            said = words("match.still", seconds=max(1, math.ceil(left)))
+            self.stage.beside(screen, seat, plate(said, PLAYERS[seat], player=seat))
+        self._draw_joining(screen)
+        if self.notice and self.noticed > 0.0:
+            self.notice.draw(screen, 960, 206)
+
+    def _draw_laps(self, screen: pygame.Surface) -> None:
+        """How many laps the race has, in the place of its clock, which stands still."""
+        box = self.stage.view.clock
+        screen.fill("black", box)
+        lines = lines_of(tagline(self.house.words, "race", self.match.setup.goal), LABEL, box.w, "head")
+        for i, line in enumerate(lines):
+            text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
+
+    # ---- what the pages above it may do
+
+    @property
+    def lost(self) -> list[int]:
+        """Seats whose device is gone and for whom nobody drives."""
+        gone = [(i, device) for i, device in enumerate(self.devices) if device]
+        return [i for i, device in gone if not self.house.controls.connected(device)]
+
+    @property
+    def stood_in(self) -> list[int]:
+        """Seats of people for whom an AI drives."""
+        return [i for i in self.humans if self.devices[i] is None]
+
+    def free(self, device: Device) -> bool:
+        """Nobody drives with this device."""
+        return device.kind != "mouse" and device not in self.devices
+
+    def hand(self, seat: int, device: Device | None) -> None:
+        """Give a seat to a device, or to an AI that drives until somebody comes."""
+        self._sit(seat, device)
+        self.walkoff.settle(seat, device)
+        name, sign = self.stage.driver(seat, device)
+        name = name if device else self.house.words("match.back_in")
+        self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
+        self.house.sounds.play("join", seat)
+
+    def welcome(self, press: Press) -> bool:
+        """Give its seat back to a device that has walked off and now presses something; true if it did."""
+        if press.device not in self.walkoff.away or press.act in (Act.STOP, Act.BRAIN):
+            return False
+        self.idle = 0.0
+        self.hand(self.walkoff.away[press.device], press.device)
+        return True
+
+    def think_aloud(self) -> None:
+        """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
+        if not self.stage.brain.seats:
+            self.notice, self.noticed = plate(self.house.words("brain.nobody"), sign="ai"), NOTICE
+        self.stage.brain.next()
+
+    def picture(self) -> pygame.Surface:
+        """The match as it lies behind a page."""
+        return self.stage.picture()
+
+    def stop(self) -> None:
+        """End the match now; the results are what they are."""
+        self.stopped = True
+
+    def restart(self) -> None:
+        """Begin anew, with another seed."""
+        self.repeated = True
+
+    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+        """The same match with other luck."""
+        return MatchScene(house, anew(setup, devices), devices)
+
+    @property
+    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+        """What else the pause offers: by its name, a page for those whose presses count there."""
+        return {}
+
+    @property
+    def stuck(self) -> bool:
+        """Whether it waits for something that may never come."""
+        return False
+
+    def hold(self, seconds: float) -> None:
+        """Let time pass under a page."""
+
+    def shine(self, screen: pygame.Surface) -> None:
+        """Paint what no page may hide."""
+
+    # ---- inside
+
+    @property
+    def takeable(self) -> list[int]:
+        """The seats that AIs drive, in the order in which a free device gets them: first those of absent people."""
+        if not self.open:
+            return self.stood_in
+        robots = self.match.state.robots
+        ais = [i for i, robot in enumerate(robots) if robot.present and i not in self.humans]
+        return [*self.stood_in, *reversed(ais)]
+
+    def _escapes(self, device: Device) -> bool:
+        """Whether BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
+        return device.kind != "pad" or not self.access.seated
+
+    def _knock(self, press: Press) -> None:
+        """FIRE on a free device: a seat that nobody has a claim to is taken at once, any other one after a while."""
+        claimed = self.walkoff.away.values()
+        if vacant := [seat for seat in self.stood_in if seat not in claimed]:
+            self.hand(vacant[0], press.device)
+        elif self.takeable:
+            self.joining.begin(press)
+            self.notice, self.noticed = plate(self.house.words("match.hold"), sign="ai"), NOTICE
+
+    def _join(self, device: Device) -> None:
+        """Give a device the seat of an AI."""
+        if self.takeable and self.free(device):
+            seat = self.takeable[0]
+            if seat not in self.humans:
+                self.humans.append(seat)
+                self.helped.add(seat)
+            self.idle = 0.0
+            self.hand(seat, device)
+
+    def _draw_joining(self, screen: pygame.Surface) -> None:
+        """A ring that fills beside each robot that is about to be taken."""
+        for (device, share), seat in zip(self.joining.shares.items(), self.takeable, strict=False):
+            if self.free(device):
+                self.stage.beside(screen, seat, filling(seat, math.ceil(share * RING_STEPS)))
+
+    def _miss(self, seconds: float) -> None:
+        """Let an AI drive on for everybody who has walked off."""
+        controls = self.house.controls
+        driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
+        for seat, device in driven.items():
+            if controls.touched(device):
+                self.walkoff.alive(seat)
+        for seat in self.walkoff.update(seconds, driven):
+            self.hand(seat, None)
+            self.walkoff.leave(driven[seat], seat)
+
+    def _sit(self, seat: int, device: Device | None) -> None:
+        self.devices[seat] = device
+        if device is None:
+            self.helped.add(seat)
+        brain = Hands(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        self.match.sit(seat, brain)
+        self.stage.players[seat] = "human" if device else STAND_IN
+
+    def _held(self, seat: int, device: Device) -> Drive:
+        """How a device is held on the tick that acts on it."""
+        drive = self.house.controls.drive(device)
+        if drive.fire or drive.turbo or drive.linear or drive.angular:
+            self.idle = 0.0
+            self.walkoff.alive(seat)
+        return drive
+
+    def _end(self, seconds: float) -> Turn:
+        """The last picture stands while the results are made."""
+        if self.results is None:
+            finished = self.match.over and not self.stopped
+            helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
+            self.results = Results(
+                self.house, self.match.outcome(), self.setup, self.devices, self.again, finished, helped
+            )
+            if finished:
+                self.house.sounds.play("go")
+        ready = self.results.warm(WARM)
+        self.frozen += seconds
+        self.stage.wait(seconds)
+        if ready and (self.stopped or self.frozen >= FREEZE):
+            return Swap(self.results)
+        return None
+
+
+def anew(setup: Setup, devices: Sequence[Device | None]) -> Setup:
+    """The same match with other luck, and people on all seats that now have a device."""
+    drivers = [*devices, None, None, None, None]
+    one, two, three, four = (replace(seat, brain="human") if drivers[i] else seat for i, seat in enumerate(setup.seats))
+    return replace(setup, seats=(one, two, three, four), seed=new_seed())
+
+
+def new_seed() -> int:
+    """A seed that nobody can foresee."""
+    return secrets.randbelow(2**31 - 1) + 1

@@ -1,0 +1,79 @@
+"""Hints in the margins beside an arena, one below the other, where they hide nothing of a match."""
+
+from dataclasses import replace
+
+import pygame
+
+from pigaming_app.scenes.play.runner import LEFT
+from pigaming_app.sim.world import WIDTH
+from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, MIST, button, button_width, text_width
+from pigaming_app.ui.draw.layers import Lit, Pane, lines_of
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+
+ROOM = 136  # px of the 160 px between the arena and the edge of the picture
+X = LEFT + WIDTH + (1920 - LEFT - WIDTH) // 2  # middle of the right margin; that of the left one is 1920 - X
+TOP, LINE, APART = 170, 50, 44  # px: of the column; from line to line and from hint to hint, before they are shrunk
+LONGEST = 230  # px of a line, before it is shrunk
+LARGEST = 0.8  # of the size that hints have elsewhere
+
+
+class Column:
+    """The hints of `prompts` in the right margin."""
+
+    def __init__(self, prompts: Prompts) -> None:
+        self.prompts = prompts
+
+    def meant(self, press: Press) -> Press:
+        """A click on one of the hints as the press that it stands for; any other press as it is."""
+        if press.act is not Act.CLICK or press.at is None:
+            return press
+        for act, box in zip(self.prompts.acts, boxes(self.prompts.said), strict=True):
+            if box.collidepoint(press.at):
+                return replace(press, act=act)
+        return press
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Add the column to the screen."""
+        column(self.prompts.said).draw(screen)
+
+
+def boxes(said: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
+    """Where each hint stands."""
+    k, y, found = shrunk(said), float(TOP), []
+    for _, text in said:
+        high = k * (60 + LINE * len(lines_of(text, BODY, LONGEST)))
+        found.append(pygame.Rect(X - ROOM // 2, round(y), ROOM, round(high)))
+        y += high + k * APART
+    return found
+
+
+def shrunk(said: tuple[tuple[str, str], ...]) -> float:
+    """How much smaller hints are drawn here so that the widest fits."""
+    lines = [text_width(line, BODY, "body") for _, text in said for line in lines_of(text, BODY, LONGEST)]
+    return min(LARGEST, ROOM / max(*lines, *(button_width(label) for label, _ in said)))
+
+
+@cached
+def column(said: tuple[tuple[str, str], ...]) -> Lit:
+    """Each button over its text."""
+    k, places = shrunk(said), boxes(said)
+    pane = Pane(X - ROOM / 2, TOP, ROOM, places[-1].bottom - TOP)
+    for (label, text), box in zip(said, places, strict=True):
+        for ink in (pane.page.hot, pane.page.warm, pane.page.cold):
+            ink.to(box.centerx - pane.at[0], box.top - pane.at[1], 0.0, k)
+        button(pane.page, -button_width(label) / 2, 30, label)
+        for i, line in enumerate(lines_of(text, BODY, LONGEST)):
+            pane.page.body(line, 0, 60 + LINE * (i + 0.5), MIST, "c")
+    return pane.done()
+
+
+@cached
+def note(said: str, figure: str) -> Lit:
+    """A word over a figure, in the left margin."""
+    size = min(BODY, round(BODY * ROOM / text_width(said, BODY)))
+    pane = Pane(1920 - X - ROOM / 2, TOP, ROOM, 140)
+    pane.page.text(said, size, 1920 - X, TOP + 24, ICE, "head", "c")
+    pane.page.text(figure, LABEL, 1920 - X, TOP + 84, FOCUS, "head", "c")
+    return pane.done()

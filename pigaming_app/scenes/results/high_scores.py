@@ -1,0 +1,199 @@
+"""The page of the best scores: two tables, today's beside that of all time, or of two feats such as lap and race.
+
+Left and right show other rules, lengths and numbers of people in the same arena, up and down another arena or game.
+"""
+
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.games import GAMES
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.lobby.match_setup import load_kept, measure, playable, title
+from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, older_boards, told
+from pigaming_app.storage.scores import Score, Table
+from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
+from pigaming_app.ui.draw.layers import RIGHT, Lit, backdrop, span
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.labels import heading, sign, text
+
+ROWS = 8
+WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px
+HIGH = 24 + PITCH * ROWS  # px of a table
+STAY = 12.0  # seconds without a press
+DEAF = 0.4  # seconds in which presses are ignored
+APART, WIPE = 0.05, 0.25  # seconds from row to row, for one row
+ARROW = 20  # px from the middle of an arrow to its tip
+ROOM, WHERE_ROOM = 1360, 800  # px for the conditions, and for game and arena
+STEPS = {Act.LEFT: -1, Act.RIGHT: 1, Act.UP: -1, Act.DOWN: 1}
+
+
+class Best:
+    """The tables of a contest; if they are empty, of the first one that has rows. `fresh`: rows shown in yellow."""
+
+    def __init__(self, house: House, contest: Table, fresh: Sequence[Score] = ()) -> None:
+        self.house, self.fresh = house, list(fresh)
+        self.shelf = [one for one in contests(house.scores) if one.arena in playable(one.game)]
+        self._show(nearest(contest, self.shelf))
+        self.age = self.idle = 0.0
+        self.prompts = Prompts(house, [(Act.FIRE, "results.on")])
+
+    @property
+    def game(self) -> str:
+        """The game whose tables are shown."""
+        return self.contest.game
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """Directions and arrows show other tables; any button leads on."""
+        press = self.prompts.meant(press)
+        self.idle = 0.0
+        if press.act is Act.CLICK and press.at:
+            near = (act for act, at in self.arrows.items() if hit(at, press.at))
+            press = Press(next(near, Act.CLICK), press.device)
+        if press.act in STEPS:
+            self._step(press.act)
+        elif self.age > DEAF and press.act in (Act.FIRE, Act.START, Act.BACK, Act.ALT, Act.CLICK):
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Stay a while."""
+        self.age += seconds
+        self.turned += seconds
+        self.idle += seconds
+        return Pop() if self.idle > STAY else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the tables and what leads on."""
+        self.paint(screen)
+        for act, (x, y) in self.arrows.items():
+            sign(act.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
+        self.prompts.draw(screen)
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Paint the tables alone; their rows come in one after the other."""
+        words, contest = self.house.words, self.contest
+        screen.blit(backdrop(), (0, 0))
+        heading(words("results.scores")).draw(screen)
+        text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
+        text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
+        shown = older_boards(contest, self.house.scores) if contest.older else boards(contest)
+        for column, board in zip((0, 6) if len(shown) > 1 else (3,), shown, strict=False):
+            self._board(screen, board, *span(column, 6))
+
+    # ---- inside
+
+    def _step(self, act: Act) -> None:
+        """Show the next table that way, round and round."""
+        ring = self._ring(act)
+        if len(ring) > 1:
+            self._show(ring[(ring.index(self.contest) + STEPS[act]) % len(ring)])
+            self.house.sounds.play("move")
+
+    def _show(self, contest: Table) -> None:
+        """Show the tables of a contest, and arrows wherever there are others."""
+        self.contest, self.turned = contest, 0.0
+        where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
+        line = min(ROOM, text_width(conditions(self.house.words, contest), LABEL, "head")) / 2
+        self.arrows: dict[Act, tuple[float, float]] = {}
+        if len(self._ring(Act.UP)) > 1:
+            self.arrows[Act.UP] = RIGHT - where - 52, WHERE_Y - 24
+            self.arrows[Act.DOWN] = RIGHT - where - 52, WHERE_Y + 24
+        if len(self._ring(Act.LEFT)) > 1:
+            self.arrows[Act.LEFT] = 960 - line - 60, LINE_Y
+            self.arrows[Act.RIGHT] = 960 + line + 60, LINE_Y
+
+    def _ring(self, act: Act) -> list[Table]:
+        """The contests left and right of the one shown, or above and below: one in each arena."""
+        here = place_of(self.contest)
+        if act in (Act.LEFT, Act.RIGHT):
+            return [one for one in self.shelf if place_of(one) == here]
+        firsts: dict[tuple[str, str], Table] = {}
+        for one in self.shelf:
+            firsts.setdefault(place_of(one), self.contest if place_of(one) == here else one)
+        return list(firsts.values())
+
+    def _where(self) -> str:
+        """Game and arena."""
+        words, contest = self.house.words, self.contest
+        there = contest.arena in playable(contest.game)
+        arena = title(load_kept(contest.game, contest.arena), words.language) if there else contest.arena
+        return f"{words('games.' + contest.game)}  ·  {arena}"
+
+    def _board(self, screen: pygame.Surface, board: Board, x: int, w: int) -> None:
+        """A table under its heading."""
+        said = self.house.words(board.heading, goal=f"{board.table.length:g}")
+        text(said, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
+        frame(w).draw(screen, x, TOP)
+        rows = self.house.scores.best(board.table, board.days)[:ROWS]
+        if not rows:
+            text(self.house.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
+                screen, x + w / 2, TOP + HIGH / 2
+            )
+        for i, row in enumerate(rows):
+            share = (self.turned - APART * i) / WIPE
+            if share > 0.0:
+                self._row(screen, row, board, i, x, w, 1 - (1 - min(1.0, share)) ** 2)
+
+    def _row(self, screen: pygame.Surface, row: Score, board: Board, i: int, x: int, w: int, share: float) -> None:
+        """Place, initials and value, of whose width only `share` is shown."""
+        y = TOP + 12 + PITCH * i + PITCH / 2
+        color = FOCUS if row in self.fresh else ICE if i == 0 else MIST
+        before = screen.get_clip()
+        screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
+        text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
+        text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
+        value = self.house.words.decimal(told(row.score, board.table))
+        text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
+        if row in self.fresh:
+            sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
+        screen.set_clip(before)
+
+
+def nearest(contest: Table, shelf: Sequence[Table]) -> Table:
+    """The contest itself if it has rows or nothing has; else one of its arena, of its game, or any other."""
+    near = [one for one in shelf if place_of(one) == place_of(contest)] or [
+        one for one in shelf if one.game == contest.game
+    ]
+    return contest if contest in shelf or not shelf else next(iter(near or shelf))
+
+
+def hit(arrow: tuple[float, float], at: tuple[float, float]) -> bool:
+    """Whether a click at a point means an arrow."""
+    return abs(at[0] - arrow[0]) <= 48 and abs(at[1] - arrow[1]) <= ARROW + 4
+
+
+def place_of(contest: Table) -> tuple[str, str]:
+    """Game and arena."""
+    return contest.game, contest.arena
+
+
+def conditions(words: Words, contest: Table) -> str:
+    """The rules, the length and the people of a contest in one line."""
+    game = GAMES[contest.game]
+    parts = [words("best.older")] if contest.older else []
+    if len(game.variants) > 1 and contest.rules:
+        parts.append(words(f"setup.{contest.rules}"))
+    if contest.length:
+        parts.append(measure(words, game, contest.length, round(contest.length)))
+    if contest.people:
+        parts.append(words("best.person") if contest.people == 1 else words("best.people", count=contest.people))
+    if contest.side == contest.people and contest.side:
+        parts.append(words("best.team"))
+    elif contest.side:
+        parts.append(words("best.against", side=contest.side, others=contest.people - contest.side))
+    return "  ·  ".join(parts)
+
+
+@cached
+def frame(w: int) -> Lit:
+    """The outline of a table, its upper left at (0, 0)."""
+    return Lit(Ink(w + 8, HIGH + 8).to(4, 4).line(cut(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4))

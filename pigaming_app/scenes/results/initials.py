@@ -1,0 +1,201 @@
+"""Three letters for the tables of the best: everybody who is in the top eight chooses at once, each on the own device.
+
+After ten seconds the letters are taken as they are; of somebody who has not chosen any, none.
+"""
+
+import logging
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import pygame
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Outcome, Setup
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
+from pigaming_app.scenes.results import initials_view as page
+from pigaming_app.scenes.results.high_score_tables import contest, counts, table_of, told
+from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.scores import Score, Table
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw.frame_budget import Ahead
+from pigaming_app.ui.draw.ink import FOCUS, LABEL
+from pigaming_app.ui.draw.layers import Lit, backdrop
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse
+from pigaming_app.ui.widgets.letter_picker import Spelling
+
+TOP = 8  # places of today's best, and of the best ever, for which letters are asked
+SECONDS = 10.0  # for all players together
+DEAF = 0.5  # seconds in which presses are ignored
+SPANS = {"results.today": 1, "results.ever": None}  # headings, and of how many days
+
+_log = logging.getLogger(__name__)
+
+
+Feats = tuple[tuple[Table, int], ...]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What somebody did that belongs into tables: each table with the value.
+
+    `places`: for each of them the places that the value has, with the headings of the spans.
+    """
+
+    seat: int
+    device: Device
+    feats: Feats
+    places: tuple[tuple[tuple[str, int], ...], ...]
+
+
+def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
+    """What people did that is among the best, those of this very match included. `devices`: who played each seat."""
+    done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
+    out = []
+    for seat, feats in done.items():
+        rivals = [feat for other, theirs in done.items() if other != seat for feat in theirs]
+        found = [(feat, places(house, *feat, rivals)) for feat in feats]
+        kept = [(feat, here) for feat, here in found if here]
+        device = devices[seat]
+        if kept and device:
+            out.append(Claim(seat, device, tuple(feat for feat, _ in kept), tuple(here for _, here in kept)))
+    return out
+
+
+def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Feats]:
+    """By seat, what people did above zero in a match that counts for them."""
+    feats = GAMES[setup.game].feats
+    done = {}
+    for row in outcome.rows:
+        if row.seat in seats and setup.seats[row.seat].brain == "human" and counts(setup, row.seat):
+            conditions = contest(setup, row.seat)
+            values = [(table_of(conditions, feat), row.feats.get(feat.name, 0)) for feat in feats]
+            done[row.seat] = tuple((table, value) for table, value in values if value > 0)
+    return done
+
+
+def places(house: House, table: Table, value: int, rivals: Sequence[tuple[Table, int]]) -> tuple[tuple[str, int], ...]:
+    """The places of a value among today's best and the best ever, by heading, as far as they are in the top eight.
+
+    `rivals`: what the other people of the match did; those who did better stand ahead.
+    """
+    others = [other for there, other in rivals if there == table]
+    ahead = sum(other < value if table.timed else other > value for other in others)
+    found = []
+    for title, days in SPANS.items():
+        place = house.scores.place(table, value, days)
+        if place and place + ahead <= TOP:
+            found.append((title, place + ahead))
+    return tuple(found)
+
+
+class Initials:
+    """Asks everyone in `claims` at once, and shows the tables."""
+
+    def __init__(self, house: House, setup: Setup, claims: Sequence[Claim]) -> None:
+        self.house, self.setup, self.claims = house, setup, sorted(claims, key=lambda claim: claim.seat)
+        self.spellings = {claim.device: Spelling() for claim in self.claims}
+        self.age = 0.0
+        self.ahead = Ahead(self._ahead())
+
+    def warm(self) -> None:
+        """Make one piece of the page, so that it does not come in one long frame."""
+        self.ahead.work(0.0)
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """Each player's presses change the own letters alone."""
+        device = self._meant(press)
+        if self.age < DEAF or device is None:
+            return None
+        if sound := self.spellings[device].on(press.act):
+            self.house.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
+        return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
+
+    def update(self, seconds: float) -> Turn:
+        """Let time run out."""
+        self.age += seconds
+        for spelling in self.spellings.values():
+            spelling.update(seconds)
+        return self._end() if self.age >= SECONDS else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint a panel for every player, and the time that is left."""
+        words = self.house.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("results.high_score"), color=FOCUS).draw(screen)
+        page.clock(screen, max(0.0, SECONDS - self.age), SECONDS)
+        corners = page.corners(len(self.claims))
+        blacked(screen, *(page.panel_at(x) for x in corners))
+        for x, claim in zip(corners, self.claims, strict=True):
+            self._panel(screen, x, claim)
+        calling(words("results.three"), "", LABEL).draw(screen, 960, page.FOOT_Y)
+
+    # ---- inside
+
+    def _meant(self, press: Press) -> Device | None:
+        """Whose letters a press is about; nobody's, if it is of a key that two players on one keyboard share."""
+        if not press.among:
+            return press.device if press.device in self.spellings else None
+        clusters = [device for device in press.among if device in self.spellings]
+        return clusters[0] if len(clusters) == 1 else None
+
+    def _panel(self, screen: pygame.Surface, x: int, claim: Claim) -> None:
+        words, spelling = self.house.words, self.spellings[claim.device]
+        self._frame(claim, spelling.done).draw(screen, x, page.TOP_Y)
+        page.letters(screen, x, claim.seat, spelling)
+        if spelling.done:
+            page.ready(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
+            return
+        if spelling.refused:
+            page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
+            return
+        key = "done" if spelling.slot == 2 else "next_letter"
+        label = words.printed(self.house.controls.label(claim.device, Act.FIRE))
+        page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
+
+    def _frame(self, claim: Claim, done: bool) -> Lit:
+        return page.frame(claim.seat, self.house.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
+
+    def _ahead(self) -> Iterator[Callable[[], object]]:
+        words = self.house.words
+        yield partial(heading, words("results.high_score"), color=FOCUS)
+        for done in (False, True):
+            for claim in self.claims:
+                yield partial(self._frame, claim, done)
+        for claim in self.claims:
+            yield partial(page.ready, claim.seat, words("results.done"))
+
+    def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
+        """What the panel says about a claim: each feat with its value, and the places that it has."""
+        words = self.house.words
+        lines = []
+        for (table, value), found in zip(claim.feats, claim.places, strict=True):
+            shown = found if len(claim.feats) == 1 else found[-1:]
+            lines.append((words(f"setup.best_{table.feat}"), words.decimal(told(value, table))))
+            lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
+        return tuple(lines)
+
+    def _end(self) -> Turn:
+        """Enter what was chosen, and show the tables; nothing new in them, nothing to show."""
+        fresh = list(self._entered())
+        if not fresh:
+            return Pop()
+        try:
+            self.house.scores.save(folders().data)
+        except NotSaved as reason:
+            _log.warning("%s", reason)
+        return Swap(Best(self.house, contest(self.setup, self.claims[0].seat), fresh))
+
+    def _entered(self) -> list[Score]:
+        return [
+            self.house.scores.add(table, initials, value)
+            for claim in self.claims
+            if (initials := self.spellings[claim.device].taken)
+            for table, value in claim.feats
+        ]

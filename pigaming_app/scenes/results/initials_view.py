@@ -1,0 +1,119 @@
+"""The panels on which players choose their letters; a panel is W x H px, its upper left at (0, 0)."""
+
+import math
+
+import pygame
+
+from pigaming_app.scenes.lobby.seat_card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
+from pigaming_app.scenes.views.sprites.effects import timer_ring
+from pigaming_app.storage.scores import LETTERS
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import (
+    ADD,
+    ALARM,
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    TITLE,
+    badge,
+    brackets,
+    cut,
+    icon,
+    panel,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import RIGHT, Lit, Pane, fitted, word
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.widgets.letter_picker import ROLL, Spelling
+
+__all__ = ["asked", "clock", "corners", "frame", "letters", "panel_at", "ready", "refused"]
+
+TOP_Y, FOOT_Y = 226, 916
+PITCH = W + 24
+LETTERS_Y = 416  # the middle of the letters
+SLOT_W, SLOT_H, SLOT_GAP = 104, 112, 16
+ARROW_Y = 78  # px from there to the arrows
+LINES_Y, LINE_PITCH = 148, 50
+RING = RIGHT - 56, 110
+
+
+def corners(count: int) -> list[int]:
+    """The left edges of so many panels, side by side in the middle of the page."""
+    left = 960 - (PITCH * count - 24) // 2
+    return [left + PITCH * i for i in range(count)]
+
+
+def panel_at(x: int) -> pygame.Rect:
+    """Where a panel is."""
+    return pygame.Rect(x, TOP_Y, W, H)
+
+
+@cached
+@sliced
+def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[Lit]:
+    """A panel without its letters: who is asked, for what; and the boxes in which the letters stand."""
+    pane = Pane(0, 0, W, H)
+    panel(pane.hot, 0, 0, W, H, PLAYERS[seat], LINE if done else THIN)
+    badge(pane.hot, seat, 72, 76, 36)
+    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, ICE)
+    for i, (name, value) in enumerate(lines):
+        y = LINES_Y + LINE_PITCH * i
+        room = W - 48
+        if value:
+            pane.page.text(value, LABEL, W - 24, y, FOCUS, "hero", "r")
+            room -= round(text_width(value, LABEL, "hero")) + 20
+        pane.page.body(name, 24, y, ICE if value else MIST, "l", fitted(name, BODY, room, "body"))
+    for i in range(3):
+        box = cut(slot_x(i) - SLOT_W / 2, LETTERS_Y - SLOT_H / 2, SLOT_W, SLOT_H, 14)
+        pane.hot.line(box, STEEL, THIN, True)
+    yield
+    return (yield from pane.lighting())
+
+
+def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> None:
+    """The three letters of a player, whose panel begins at x, and the corners round the one that is chosen."""
+    shake = 10 * math.sin(spelling.shaking * 50) if spelling.refused else 0.0
+    for i, letter in enumerate(spelling.letters):
+        here = i == spelling.slot and not spelling.done
+        roll = spelling.rolled * 40 * max(0.0, 1 - spelling.rolling / ROLL) if here else 0.0
+        color = FOCUS if here else PLAYERS[seat]
+        at = x + slot_x(i) + shake, TOP_Y + LETTERS_Y + roll
+        word(LETTERS[letter], TITLE, color).draw(screen, *at)
+    if not spelling.done:
+        chosen().draw(screen, x + slot_x(spelling.slot), TOP_Y + LETTERS_Y)
+
+
+@cached
+def refused(said: str) -> Lit:
+    """What stands in the place of the button while refused letters shake."""
+    pane = Pane(*BAR)
+    pane.page.body(said, MIDDLE, BAR_Y, ALARM, "c", fitted(said, BODY, W - 48, "body"))
+    return pane.done()
+
+
+def slot_x(slot: int) -> float:
+    """The middle of a letter, px from the left edge of its panel."""
+    return MIDDLE + (slot - 1) * (SLOT_W + SLOT_GAP)
+
+
+def clock(screen: pygame.Surface, left: float, whole: float) -> None:
+    """The seconds that are left, in a ring."""
+    image, dx, dy = timer_ring(FOCUS, 4 * math.ceil(12 * left / whole), 46, LINE)
+    screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=ADD)
+    word(str(math.ceil(left)), LABEL, FOCUS, "head").draw(screen, *RING)
+
+
+@cached
+def chosen() -> Lit:
+    """The corners round the letter that is chosen, and what changes it; round (0, 0)."""
+    pane = Pane(-SLOT_W / 2 - 20, -ARROW_Y - 30, SLOT_W + 40, 2 * ARROW_Y + 60)
+    brackets(pane.hot, -SLOT_W / 2, -SLOT_H / 2, SLOT_W, SLOT_H, FOCUS, 20, 14, LINE)
+    for side, name in ((-1, "up"), (1, "down")):
+        icon(pane.hot, name, 0, side * ARROW_Y, 18, FOCUS, LINE)
+    return pane.done()

@@ -1,0 +1,207 @@
+"""Score over time, as a picture that draws itself from left to right: a line for every robot, or for every team."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import pygame
+
+from pigaming_app.ui.draw.ink import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix, text_width
+from pigaming_app.ui.draw.layers import Lit, Pane
+
+Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
+Point = tuple[float, float]
+APART = 4  # px between lines that lie on each other
+ROOM = 54  # px between the badges at the ends
+STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)  # between the lines of an axis
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A line of the plot: whose it is (the first gives the colour) and how the score went."""
+
+    players: tuple[int, ...]
+    series: tuple[tuple[float, float], ...]
+
+    @property
+    def last(self) -> float:
+        return self.series[-1][1] if self.series else 0
+
+
+class Plot:
+    """The plot in the area x, y, w, h (px, canvas) of a match that took `seconds`."""
+
+    def __init__(self, x: int, y: int, w: int, h: int, curves: Sequence[Curve], seconds: float) -> None:
+        badges = max((len(curve.players) for curve in curves), default=1)
+        self.low, self.high, self.step = self.scale([value for curve in curves for _, value in curve.series])
+        left = 20 + max(64.0, *(text_width(said, BODY) for _, said in self.numbers()))
+        self.x, self.y, self.w, self.h = round(x + left), y + 8, round(w - left) - 30 - 50 * badges, h - 76
+        self.foot = y + h - 20
+        self.seconds = max(1.0, seconds)
+        self.curves = curves
+        self.box = x, y, w, h
+
+    def scale(self, values: Sequence[float]) -> tuple[int, int, int]:
+        """The lowest and the highest number of the axis, and the step between its lines."""
+        return scale(math.floor(min(0, *values, 0)), math.ceil(max(0, *values, 0)))
+
+    def to(self, seconds: float, score: float) -> Point:
+        """Where a moment's score lies on the canvas."""
+        share = (score - self.low) / (self.high - self.low)
+        return self.x + self.w * min(1.0, seconds / self.seconds), self.y + self.h * (1.0 - share)
+
+    def grid(self) -> Lit:
+        """Lines and numbers below the curves."""
+        pane = Pane(*self.box)
+        ink = pane.page.cold
+        faint = dim(STEEL, 0.55)
+        for value, said in self.numbers():
+            a, b = self.to(0, value), self.to(self.seconds, value)
+            ink.line([a, b], STEEL if value == 0 else faint, THIN if value == 0 else HAIR)
+            ink.text(said, BODY, self.x - 20, a[1], MIST, "head", "r")
+        for at, said in self.marks():
+            ink.line([self.to(at, self.low), self.to(at, self.high)], faint, HAIR)
+            ink.text(said, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
+        return pane.done()
+
+    def numbers(self) -> list[tuple[int, str]]:
+        """What stands beside the axis, and at which height."""
+        return [(value, str(value).replace("-", "−")) for value in range(self.low, self.high + 1, self.step)]
+
+    def marks(self) -> list[tuple[float, str]]:
+        """What stands under the axis, and where."""
+        return [(second, f"{second // 60}:{second % 60:02}") for second in moments(self.seconds)]
+
+    def lines(self) -> Lit:
+        """The curves alone."""
+        pane = Pane(self.x, self.y, self.w, self.h)
+        middle = (len(self.curves) - 1) / 2
+        for i, curve in reversed(list(enumerate(self.curves))):
+            points = [(x, y + APART * (i - middle)) for x, y in self.corners(curve.series)]
+            if points:
+                pane.hot.line(points, PLAYERS[curve.players[0]], 5)
+        for x, y in self.marked():
+            pane.hot.ring(x, y, 16, FOCUS, THIN)
+        return pane.done()
+
+    def marked(self) -> list[Point]:
+        """What stands out."""
+        return []
+
+    def ends(self) -> Lit:
+        """The badges where the curves end, none over another."""
+        x = self.x + self.w
+        pane = Pane(x, self.y, 1840 - x, self.h)
+        drawn = [curve for curve in self.curves if curve.series]
+        heights = spread([self.to(0, curve.last)[1] for curve in drawn], ROOM, self.y + self.h)
+        for curve, y in zip(drawn, heights, strict=True):
+            for i, player in enumerate(curve.players):
+                badge(pane.hot, player, x + 44 + 52 * i, y, 22)
+        return pane.done()
+
+    def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
+        """Where each curve has come to when `share` of the time is drawn, with its colour."""
+        now, middle, out = share * self.seconds, (len(self.curves) - 1) / 2, []
+        for i, curve in enumerate(self.curves):
+            score = next((s for t, s in reversed(curve.series) if t <= now), 0)
+            x, y = self.to(now, score)
+            out.append(((x, y + APART * (i - middle)), mix(PLAYERS[curve.players[0]], (255, 255, 255), 0.6)))
+        return out
+
+    def corners(self, series: Series) -> list[Point]:
+        """The steps of a curve on the canvas."""
+        points, score = [self.to(0, 0)], 0.0
+        for seconds, after in series:
+            points += [self.to(seconds, score), self.to(seconds, after)]
+            score = after
+        return [*points, self.to(self.seconds, score)]
+
+
+class LapPlot(Plot):
+    """The times of laps: s over the number of the lap, for so many laps."""
+
+    def __init__(self, x: int, y: int, w: int, h: int, curves: Sequence[Curve], laps: int) -> None:
+        super().__init__(x, y, w, h, curves, laps)
+
+    def scale(self, values: Sequence[float]) -> tuple[int, int, int]:
+        """From just below the best lap on: nobody drives one in no time."""
+        low, high = math.floor(min(values, default=0)), math.ceil(max(values, default=2))
+        step = next(step for step in STEPS if math.ceil((high - low) / step) <= 4)
+        bottom = low // step * step
+        return bottom, max(-(-high // step) * step, bottom + 2 * step), step
+
+    def to(self, seconds: float, score: float) -> Point:
+        """Where a lap and its time lie on the canvas: laps stand in the middle of their share of the axis."""
+        share = (score - self.low) / (self.high - self.low)
+        return self.x + self.w * min(1.0, max(0.0, (seconds - 0.5) / self.seconds)), self.y + self.h * (1.0 - share)
+
+    def marked(self) -> list[Point]:
+        """The best lap of all."""
+        laps = [(time, lap, i) for i, curve in enumerate(self.curves) for lap, time in curve.series]
+        if not laps:
+            return []
+        time, lap, i = min(laps)
+        x, y = self.to(lap, time)
+        return [(x, y + APART * (i - (len(self.curves) - 1) / 2))]
+
+    def marks(self) -> list[tuple[float, str]]:
+        """The numbers of the laps."""
+        return [(lap, str(lap)) for lap in range(1, round(self.seconds) + 1)]
+
+    def corners(self, series: Series) -> list[Point]:
+        """From lap to lap; a driver's only lap is a short stroke."""
+        points = [self.to(lap, time) for lap, time in series]
+        return [(points[0][0] - 20, points[0][1]), (points[0][0] + 20, points[0][1])] if len(points) == 1 else points
+
+    def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
+        """The last lap of each driver that is drawn already."""
+        now, out = 0.5 + share * self.seconds, []
+        for curve in self.curves:
+            seen = [(lap, time) for lap, time in curve.series if lap <= now]
+            if seen:
+                out.append((self.to(*seen[-1]), mix(PLAYERS[curve.players[0]], (255, 255, 255), 0.6)))
+        return out
+
+
+def scale(low: int, high: int) -> tuple[int, int, int]:
+    """The lowest and the highest number of an axis that holds both and 0, and the step between its lines."""
+    step = next(step for step in STEPS if math.ceil(high / step) - low // step <= 5)
+    bottom, top = low // step * step, -(-high // step) * step
+    return bottom, max(top, bottom + 2 * step), step
+
+
+def moments(seconds: float) -> list[int]:
+    """The times under an axis that is `seconds` long: five at most, the last not past the end."""
+    step = next(step for step in (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 36000) if seconds / step <= 5)
+    return list(range(0, int(seconds) + 1, step))
+
+
+def spread(wanted: Sequence[float], room: float, bottom: float) -> list[float]:
+    """The positions nearest to the wanted ones that are `room` apart and end at `bottom`; in the same order."""
+    order = sorted(range(len(wanted)), key=lambda i: wanted[i])
+    places: list[float] = []
+    for i in order:
+        places.append(max(wanted[i], places[-1] + room if places else -math.inf))
+    limit = bottom
+    for k in reversed(range(len(places))):
+        places[k] = min(places[k], limit)
+        limit = places[k] - room
+    out = [0.0] * len(wanted)
+    for i, place in zip(order, places, strict=True):
+        out[i] = place
+    return out
+
+
+def team_curve(players: Sequence[int], series: Sequence[Series]) -> Curve:
+    """One curve for several robots: the sum of their scores."""
+    changes = sorted((seconds, k, score) for k, one in enumerate(series) for seconds, score in one)
+    now, out = [0.0] * len(series), []
+    for seconds, k, score in changes:
+        now[k] = score
+        out.append((seconds, sum(now)))
+    return Curve(tuple(players), tuple(out))
+
+
+def dot(screen: pygame.Surface, at: Point, color: tuple[int, int, int]) -> None:
+    """The bright head of a curve that is still being drawn."""
+    pygame.draw.circle(screen, color, at, 7)

@@ -1,0 +1,164 @@
+"""The results: rows and plot, and one button for a rematch.
+
+The rows come in from the last to the first, then the winner's name. Nothing is heard until that is over, so that nobody
+who is still firing leaves it unseen; B, the turbo, counts even later and has to be held. Everyone who played votes with
+FIRE; START begins at once; a free device holds FIRE to play instead of an AI.
+"""
+
+from collections.abc import Callable, Collection, Sequence
+
+import pygame
+
+from pigaming_app.games.game import Outcome, Setup
+from pigaming_app.scenes.flow.access import TAKE, Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Push, Scene, Swap, Turn
+from pigaming_app.scenes.lobby.game_choice import GameChoice
+from pigaming_app.scenes.results.high_score_tables import contest
+from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.initials import Initials, claims
+from pigaming_app.scenes.results.rematch_vote import Ballot
+from pigaming_app.scenes.results.view import ResultsPage
+from pigaming_app.ui.draw.ink import FOCUS
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.caption import plate
+
+DEAF = 2.5  # seconds in which presses are ignored
+LATE, LEAVE = 5.0, 0.5  # seconds in which BACK is ignored, and for which it then has to be held
+SAID = 3.0  # seconds for which a sentence stays
+CLAIMS = 2.6  # seconds before initials are asked for
+IDLE = 60.0  # seconds without a press until the title
+
+Again = Callable[[House, Setup, Sequence[Device | None]], Scene]
+
+
+class Results:
+    """How a match ended. `devices`: who drove each seat; `finished`: it was played to its end.
+
+    `helped`: the seats that were not driven by the same person all the time; what they scored is no record.
+    """
+
+    def __init__(
+        self,
+        house: House,
+        outcome: Outcome,
+        setup: Setup,
+        devices: Sequence[Device | None],
+        again: Again,
+        finished: bool = True,
+        helped: Collection[int] = (),
+    ) -> None:
+        self.house, self.setup, self.again = house, setup, again
+        seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
+        humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
+        self.ballot = Ballot(house, seats, humans, devices)
+        absent = [seat for seat in humans if devices[seat] is None]
+        self.page = ResultsPage(house, outcome, setup, finished, absent)
+        own = [None if seat in helped else device for seat, device in enumerate(devices)]
+        self.claims = claims(house, outcome, setup, own) if finished else []
+        self.initials = Initials(house, setup, self.claims)
+        self.sounds = self.page.sounds(humans)
+        self.age = self.idle = self.told = 0.0
+        self.access = Access(house, lambda: self.ballot.devices)
+        self.leaving, self.joining = Holds(house.controls, LEAVE), Holds(house.controls, TAKE)
+        hints = [
+            (Act.FIRE, "results.again"),
+            (Act.EXTRA, "results.change"),
+            (Act.ALT, "results.scores"),
+            (Act.BACK, "results.menu"),
+        ]
+        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
+
+    def warm(self, milliseconds: float) -> bool:
+        """Make the page for so long; true when all of it is there."""
+        return self.page.warm(milliseconds)
+
+    def entered(self) -> None:
+        """Shown, or shown again after initials or tables."""
+        self.idle = 0.0
+
+    def on(self, press: Press) -> Turn:
+        """FIRE votes, START begins, EXTRA leads to another game, BACK, held, to the title."""
+        press = self.prompts.meant(press)
+        admitted = self.access.admit(press)
+        if admitted is None and press.act is not Act.FIRE:
+            return None
+        self.idle = 0.0
+        if self.age < DEAF or self.claims:
+            return None
+        if admitted is None or (press.act is Act.FIRE and press.device.kind != "mouse"):
+            self._fire(press)
+            return None
+        match admitted.act:
+            case Act.START | Act.FIRE:
+                return self._rematch(everyone=True)
+            case Act.EXTRA:
+                self.house.sounds.play("accept")
+                return Push(GameChoice(self.house, self.setup, self.ballot.devices))
+            case Act.ALT:
+                return Push(Best(self.house, contest(self.setup)))
+            case Act.BACK if admitted.device.kind == "mouse":
+                return self._leave()
+            case Act.BACK if self.age >= LATE:
+                self.leaving.begin(admitted)
+            case _:
+                pass
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the page come, ask for initials, count the votes, leave when nobody is there."""
+        self.age += seconds
+        self.idle += seconds
+        self.told -= seconds
+        self.page.update(seconds, self.age)
+        while self.sounds and self.sounds[0][0] <= self.age:
+            _, name, player = self.sounds.pop(0)
+            self.house.sounds.play(name, player)
+        if self.claims:
+            self.initials.warm()
+            if self.age >= CLAIMS:
+                self.claims = []
+                return Push(self.initials)
+        if self.leaving.update(seconds) or self.access.update(seconds):
+            return self._leave()
+        for press in self.joining.update(seconds):
+            if self.ballot.take(press.device):
+                self.house.sounds.play("join", self.ballot.devices.index(press.device))
+        if self.ballot.update(seconds):
+            return self._rematch(everyone=False)
+        return Home() if self.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page, the votes and what the buttons do."""
+        self.page.draw(screen, self.age)
+        if self.age >= self.page.ready_at:
+            self.ballot.draw(screen, self.joining.shares.values())
+            if self.told > 0.0:
+                plate(self.house.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
+            else:
+                self.prompts.draw(screen)
+            if self.leaving.share:
+                filled(screen, self.leaving.share)
+
+    def _fire(self, press: Press) -> None:
+        """A vote; of a free device a seat, for which FIRE is held where it is an AI's."""
+        if self.ballot.vote(press.device):
+            self.house.sounds.play("ready", None)
+        elif press.device not in self.ballot.devices and self.ballot.takeable:
+            self.joining.begin(press)
+            self.told = SAID
+
+    def _leave(self) -> Turn:
+        self.house.sounds.play("back")
+        return Home()
+
+    def _rematch(self, everyone: bool) -> Turn:
+        self.house.sounds.play("accept")
+        return Swap(self.again(self.house, self.setup, self.ballot.drivers(everyone)))
+
+
+def filled(screen: pygame.Surface, share: float) -> None:
+    """A line at the foot of a page that fills while BACK is held, `share` 0..1."""
+    pygame.draw.line(screen, FOCUS, (960 - 400 * share, 1034), (960 + 400 * share, 1034), 6)

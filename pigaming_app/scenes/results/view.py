@@ -1,0 +1,335 @@
+"""The page of results as pieces of light: title, rows, plot. Each is made once; they come in one after the other."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import pygame
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import load
+from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.lobby.match_setup import measure
+from pigaming_app.scenes.results.celebration import Finale
+from pigaming_app.scenes.results.headline import headline, winning_color
+from pigaming_app.scenes.results.high_score_tables import boards, clock, contest, told
+from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
+from pigaming_app.ui.draw.frame_budget import Unfinished, budget
+from pigaming_app.ui.draw.frame_budget import clock as frame_clock
+from pigaming_app.ui.draw.ink import (
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    SUB,
+    THIN,
+    TITLE,
+    WHITE,
+    Color,
+    Ink,
+    badge,
+    icon,
+    mix,
+    panel,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
+
+TOP, ROW, PITCH = 280, 120, 136
+SCORED = ("pitanks",)  # games in which the score itself is a column
+TIMES = ("best", "total")  # columns that are s
+PLACE_X, BADGE_X, AI_X = 68, 172, 236  # px from a row's left edge: the middle of place, badge and sign of an AI
+FIGURES = (226, 828)  # px from a row's left edge: where columns may begin, and where the last one ends
+APART_X = 22  # px between two columns, at least
+SHORT = 218  # px of the line under a title without a winner
+FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
+
+
+@dataclass(frozen=True)
+class Part:
+    """A piece of the page and when it comes: it is wiped in from the left within `takes` seconds."""
+
+    lit: Lit
+    begins: float
+    takes: float = WIPE
+
+
+class ResultsPage:
+    """Everything of the results but the votes."""
+
+    def __init__(
+        self, house: House, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int] = ()
+    ) -> None:
+        self.house, self.outcome, self.setup, self.finished = house, outcome, setup, finished
+        self.absent = absent  # seats of people for whom an AI has driven
+        self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
+        self.by_team = len(self.teams) < len(outcome.rows)
+        game = GAMES[setup.game]
+        self.columns = ("score", *game.columns) if setup.game in SCORED else game.columns
+        self.winners = outcome.winners if finished else ()
+        self.title_at = FIRST + APART * len(self.teams) + 0.15
+        self.ready_at = self.title_at + 0.4
+        self.parts: list[Part] = []
+        self.plot: Plot
+        self.finale: Finale | None = None
+        self._making = self._make()
+
+    def warm(self, milliseconds: float) -> bool:
+        """Make pieces for so long; true when all are there."""
+        if budget.behind:
+            return False
+        with budget.until(frame_clock() + milliseconds / 1000):
+            try:
+                self._finish()
+            except Unfinished:
+                return False
+        return True
+
+    def sounds(self, humans: Sequence[int]) -> list[tuple[float, str, int | None]]:
+        """What is heard while the page comes: (seconds, name, player)."""
+        rows = [(FIRST + APART * i, "move", team[0].seat) for i, team in enumerate(reversed(self.teams))]
+        if not self.finished:
+            return [*rows]
+        cheer = "tie" if not self.winners else "win" if not humans or set(self.winners) & set(humans) else "lose"
+        return [*rows, (self.title_at, cheer, self.winners[0] if self.winners else None)]
+
+    def update(self, seconds: float, age: float) -> None:
+        """Let the celebration go on."""
+        if self.finale and age >= self.title_at:
+            self.finale.update(seconds)
+
+    def draw(self, screen: pygame.Surface, age: float) -> None:
+        """Paint the page `age` seconds after it was opened."""
+        self._finish()
+        screen.blit(backdrop(), (0, 0))
+        for part in self.parts:
+            share = (age - part.begins) / part.takes
+            if share > 0.0:
+                part.lit.draw(screen, share=1 - (1 - min(1.0, share)) ** 2)
+        drawn = (age - FIRST) / (self.ready_at - FIRST)
+        if 0.0 < drawn < 1.0:
+            for at, color in self.plot.heads(drawn):
+                dot(screen, at, color)
+            now, _ = self.plot.to(drawn * self.plot.seconds, 0)
+            self.lines.draw(screen, share=share_of(self.lines, now))
+        elif drawn >= 1.0:
+            self.lines.draw(screen)
+            self.ends.draw(screen)
+        if age < self.title_at:
+            self.steel.draw(screen)
+        else:
+            reach = self._reach(age)
+            self.steel.draw(screen, begin=share_of(self.steel, LEFT + reach))
+            drawn_whole = not self.finale and reach >= SHORT
+            self.colored.draw(screen, share=1.0 if drawn_whole else share_of(self.colored, LEFT + reach))
+            if self.finale:
+                self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
+                self.finale.draw(screen)
+
+    # ---- the pieces
+
+    def _finish(self) -> None:
+        """Make what is missing. Raises Unfinished where the budget of the frame is spent."""
+        for _ in self._making:
+            budget.pause()
+
+    def _make(self) -> Iterator[bool]:
+        """Make one piece at a time."""
+        self.colored = line(self._color(), RIGHT - LEFT if self.winners else SHORT)
+        self.steel = line(STEEL, RIGHT - LEFT, THIN)
+        yield True
+        self.parts.append(Part(self._where(), 0.1))
+        yield True
+        self.parts.append(Part(self._title(), self.title_at))
+        yield True
+        self.parts.append(Part(self._columns(), 0.1))
+        yield True
+        y = TOP
+        for i, team in enumerate(self.teams):
+            begins = FIRST + APART * (len(self.teams) - 1 - i)
+            self.parts.append(Part(self._team(team, y), begins))
+            y += PITCH * len(team)
+            yield True
+        if len(self.outcome.rows) < 4 and (records := self._records()):
+            self.parts.append(Part(records, self.ready_at))
+            yield True
+        x, w = span(6, 6)
+        self.plot = self._plot(x, w)
+        self.parts.append(Part(self.plot.grid(), 0.1))
+        yield True
+        self.lines = self.plot.lines()
+        yield True
+        self.ends = self.plot.ends()
+        yield True
+
+    def _color(self) -> Color:
+        return winning_color(self.outcome, self.setup) if self.winners else ICE
+
+    def _title(self) -> Lit:
+        """Who won, in the winner's colour, and its crown."""
+        words = self.house.words
+        pane = Pane(LEFT, 54, RIGHT - LEFT, 116)
+        x = LEFT
+        for seat in self.winners:
+            badge(pane.hot, seat, x + 52, 110, 50)
+            x += 128
+        x += 14 if self.winners else 0
+        ended = headline(words, self.outcome, self.setup, self.absent)
+        text = ended if self.finished else words("results.ended")
+        size = fitted(text, TITLE, self.room - x - (130 if self.winners else 0))
+        pane.page.text(text, size, x, 112, self._color())
+        if self.winners:
+            at = x + text_width(text, size) + 70
+            ink = Ink(160, 140).to(80, 70)
+            icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
+            self.crown = Lit(ink.lit(), (round(at) - 80, 108 - 70))
+            self.finale = Finale(self.winners[0], at, 108, self.house.settings.flashes != "off")
+        return pane.done()
+
+    def _where(self) -> Lit:
+        """Game, time, arena."""
+        words, setup = self.house.words, self.setup
+        minutes = measure(words, GAMES[setup.game], setup.minutes, setup.goal)
+        arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
+        where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
+        size = fitted(where, BODY, 720, "body")
+        self.room = RIGHT - text_width(where, size, "body") - 40  # px, where the title must end
+        pane = Pane(self.room, 60, RIGHT - self.room, 100)
+        pane.page.body(where, RIGHT, 112, MIST, "r", size)
+        return pane.done()
+
+    def _columns(self) -> Lit:
+        """What the numbers are."""
+        words = self.house.words
+        x, w = span(0, 6)
+        plot_x, _ = span(6, 6)
+        pane = Pane(x, 206, 2 * w, 60)
+        heads = [words(f"results.{name}") for name in self.columns]
+        ends = self._ends()
+        if self.by_team:
+            pane.page.body(words("results.team"), x + 24, 236, MIST)
+        begins = [24 + text_width(words("results.team"), BODY, "body") if self.by_team else 0, *ends]
+        rooms = [end - begin - APART_X for begin, end in zip(begins, ends, strict=False)]
+        size = min(fitted(head, BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
+        for head, end in zip(heads, ends, strict=True):
+            pane.page.body(head, x + end, 236, MIST, "r", size)
+        pane.page.body(words(f"results.plot_{self.setup.game}"), plot_x, 236, MIST)
+        return pane.done()
+
+    def _team(self, rows: Sequence[Row], y: int) -> Lit:
+        """A panel with the rows of one robot, or of all robots of a team."""
+        x, w = span(0, 6)
+        h = PITCH * len(rows) - (PITCH - ROW)
+        wins = rows[0].seat in self.winners
+        pane = Pane(x, y, w, h)
+        panel(pane.hot, x, y, w, h, PLAYERS[min(row.seat for row in rows)] if wins else STEEL, LINE if wins else THIN)
+        number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
+        color = ICE if wins else MIST
+        pane.page.text(number, fitted(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
+        for i, row in enumerate(rows):
+            self._row(pane, row, x, y + ROW / 2 + PITCH * i, color)
+        return pane.done()
+
+    def _row(self, pane: Pane, row: Row, x: int, y: float, color: Color) -> None:
+        """One robot: badge, score, what the game counts."""
+        badge(pane.hot, row.seat, x + BADGE_X, y, 38)
+        brain = self.setup.seats[row.seat].brain
+        if brain != "human":
+            icon(pane.hot, "ai", x + AI_X, y, 15, MIST, 3)
+        ends = self._ends()
+        for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
+            text, room = self.house.words.decimal(cell(name, row)), right - before - APART_X
+            if name == self.columns[0]:
+                size = fitted(text, SUB, room - (32 if brain != "human" else 0), "hero")
+                pane.page.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
+            else:
+                pane.page.cold.text(text, fitted(text, LABEL, room), x + right, y, color, "head", "r")
+
+    def _ends(self) -> list[float]:
+        """Where each column ends, px from a row's left edge: as wide as what stands in it."""
+        words, wanted = self.house.words, []
+        for name in self.columns:
+            size, face = (SUB, "hero") if name == self.columns[0] else (LABEL, "head")
+            cells = [text_width(cell(name, row), size, face) for row in self.outcome.rows]
+            wanted.append(max(*cells, text_width(words(f"results.{name}"), BODY, "body")))
+        return ends(wanted, *FIGURES, APART_X)
+
+    def _records(self) -> Lit | None:
+        """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
+        scores, setup, words = self.house.scores, self.setup, self.house.words
+        tables = [(board, scores.best(board.table, board.days)) for board in boards(contest(setup))]
+        if not any(rows for _, rows in tables):
+            return None
+        x, w = span(0, 6)
+        y = TOP + 3 * PITCH + ROW // 2
+        pane = Pane(x, y - ROW // 2, w, ROW)
+        for left, (board, rows) in zip((x + 24, x + w // 2 + 24), tables, strict=True):
+            icon(pane.hot, "crown", left + 24, y - 34, 20, FOCUS, 3)
+            heading = words(board.heading, goal=setup.goal)
+            pane.page.body(heading, left + 64, y - 32, MIST, "l", fitted(heading, BODY, 330, "body"))
+            if rows:
+                pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
+                best = words.decimal(told(rows[0].score, board.table))
+                pane.page.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
+        return pane.done()
+
+    def _plot(self, x: int, w: int) -> Plot:
+        """How the score went, or the laps."""
+        if self.setup.game == "race":
+            rows = sorted(self.outcome.rows, key=lambda row: row.seat)
+            laps = [Curve((row.seat,), tuple((i + 1.0, lap) for i, lap in enumerate(row.times))) for row in rows]
+            return LapPlot(x, TOP, w, 528, laps, self.setup.goal)
+        return Plot(x, TOP, w, 528, self._curves(), self.outcome.seconds)
+
+    def _curves(self) -> list[Curve]:
+        series = self.outcome.series
+        if not self.by_team:
+            return sorted(
+                (Curve((row.seat,), tuple(series[row.seat])) for row in self.outcome.rows), key=lambda c: c.players
+            )
+        seats = [sorted(row.seat for row in team) for team in self.teams]
+        return [team_curve(team, [series[seat] for seat in team]) for team in seats]
+
+    def _reach(self, age: float) -> float:
+        """How far the line under the title is coloured, px."""
+        return self.finale.reach if self.finale else SHORT * min(1.0, (age - self.title_at) / WIPE)
+
+
+def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> list[float]:
+    """Where columns end that want to be so wide; what is left over, or missing, is shared among them."""
+    room = right - left - apart * (len(wanted) - 1)
+    spare = (room - sum(wanted)) / len(wanted)
+    widths = [width + spare if spare >= 0.0 else width * room / sum(wanted) for width in wanted]
+    return [left + sum(widths[: i + 1]) + apart * i for i in range(len(widths))]
+
+
+def share_of(lit: Lit, x: float) -> float:
+    """Which share of a piece of light lies left of x on the canvas."""
+    return (x - lit.at[0]) / lit.image.get_width()
+
+
+def line(color: Color, length: float, width: int = LINE) -> Lit:
+    """The line under a title."""
+    pane = Pane(LEFT, 170, length, 12)
+    pane.hot.line([(LEFT, 176), (LEFT + length, 176)], color, width)
+    return pane.done()
+
+
+def signed(number: int) -> str:
+    """A number with a proper minus sign."""
+    return str(number).replace("-", "−")
+
+
+def cell(name: str, row: Row) -> str:
+    """What a row says in a column."""
+    if name == "score":
+        return signed(row.score)
+    value = row.facts[name]
+    if name in TIMES:
+        return clock(value)
+    return f"{round(100 * value)}%" if name == "aim" else signed(round(value))

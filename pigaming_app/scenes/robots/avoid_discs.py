@@ -1,0 +1,117 @@
+"""A page on a mat with robots makes way for them: its blocks move, and shrink where they must, off the lit discs.
+
+Discs are light that robots need and stand wherever robots do; text below them could not be read.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pygame
+
+from pigaming_app.ui.draw.ink import ADD, Point
+
+Circle = tuple[float, float, float]  # x, y, radius, px on the canvas
+ROOM = pygame.Rect(40, 190, 1840, 850)  # where blocks may stand: below the heading
+SCALES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
+GRID = 20  # px between the places that are tried
+EVERY = 0.5  # s between two looks at where the discs are
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A block of the page: where it is drawn (`home`) and where it is shown."""
+
+    home: pygame.Rect
+    at: tuple[int, int]
+    scale: float
+
+    @property
+    def box(self) -> pygame.Rect:
+        """The area it takes on the canvas."""
+        return pygame.Rect(*self.at, round(self.home.w * self.scale), round(self.home.h * self.scale))
+
+
+class Aside:
+    """Keeps the blocks of a page off the discs. A block stays where it is until a disc reaches it."""
+
+    def __init__(self) -> None:
+        self.placed: list[Placed] = []
+        self.age = 0.0
+
+    def update(self, seconds: float, homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> None:
+        """Let time pass; `homes` are the blocks as the page draws them."""
+        self.age += seconds
+        if [one.home for one in self.placed] == list(homes) and self.age < EVERY:
+            return
+        self.age = 0.0
+        better = arrange(homes, discs)
+        same = [one.home for one in self.placed] == list(homes)
+        if not same or hit(self.placed, discs) or better[0].scale > self.placed[0].scale or not discs:
+            self.placed = better
+
+    def draw(self, screen: pygame.Surface, sheet: pygame.Surface) -> None:
+        """Add the blocks, drawn on `sheet` where they are at home, to the screen."""
+        for one in self.placed:
+            block = sheet.subsurface(one.home.clip(sheet.get_rect()))
+            if one.scale < 1.0:
+                block = pygame.transform.smoothscale(block, one.box.size)
+            screen.blit(block, one.at, special_flags=ADD)
+
+    def back(self, at: Point) -> Point:
+        """What a place on the canvas is on the sheet; a place beside all blocks is nowhere."""
+        for one in self.placed:
+            if one.box.collidepoint(at):
+                return tuple(one.home.topleft[i] + (at[i] - one.at[i]) / one.scale for i in (0, 1))  # type: ignore[return-value]
+        return -1.0, -1.0
+
+
+def arrange(homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> list[Placed]:
+    """The blocks off the discs and off each other, as large as possible, near their homes; if nothing fits, there."""
+    for scale in SCALES:
+        placed: list[Placed] = []
+        for home in homes:
+            at = nearest(home, scale, discs, [one.box for one in placed])
+            if at is None:
+                break
+            placed.append(Placed(home, at, scale))
+        if len(placed) == len(homes):
+            return placed
+    return [Placed(home, home.topleft, 1.0) for home in homes]
+
+
+def nearest(
+    home: pygame.Rect, scale: float, discs: Sequence[Circle], taken: Sequence[pygame.Rect]
+) -> tuple[int, int] | None:
+    """The free place for a block that is nearest to its home; None: there is none."""
+    w, h = round(home.w * scale), round(home.h * scale)
+    if w > ROOM.w or h > ROOM.h:
+        return None
+    dx, dy = round(home.w - w) // 2, round(home.h - h) // 2
+    left = np.append(np.arange(ROOM.left, ROOM.right - w + 1, GRID), min(max(home.x + dx, ROOM.left), ROOM.right - w))
+    top = np.append(np.arange(ROOM.top, ROOM.bottom - h + 1, GRID), min(max(home.y + dy, ROOM.top), ROOM.bottom - h))
+    x, y = np.meshgrid(left, top)
+    free = np.ones(x.shape, bool)
+    for cx, cy, r in discs:
+        across = np.maximum(0.0, np.maximum(x - cx, cx - x - w))
+        down = np.maximum(0.0, np.maximum(y - cy, cy - y - h))
+        free &= np.hypot(across, down) > r
+    for box in taken:
+        free &= (x >= box.right) | (x + w <= box.left) | (y >= box.bottom) | (y + h <= box.top)
+    if not free.any():
+        return None
+    away = np.where(free, np.hypot(x - home.x - dx, y - home.y - dy), np.inf)
+    best = np.unravel_index(away.argmin(), away.shape)
+    return int(x[best]), int(y[best])
+
+
+def hit(placed: Sequence[Placed], discs: Sequence[Circle]) -> bool:
+    """Whether a disc reaches a block."""
+    return any(near(one.box, disc) for one in placed for disc in discs)
+
+
+def near(box: pygame.Rect, disc: Circle) -> bool:
+    """Whether a disc reaches a box."""
+    x, y, r = disc
+    across, down = max(0.0, box.left - x, x - box.right), max(0.0, box.top - y, y - box.bottom)
+    return bool(across * across + down * down <= r * r)

@@ -1,0 +1,169 @@
+"""Something is wrong with a real robot, and the match waits: what it is, in one plain sentence, and what can be done.
+
+The page goes by itself as soon as all is well again. Whoever has pressed the all-stop holds FIRE to let go of it.
+"""
+
+from typing import TYPE_CHECKING
+
+import pygame
+
+from pigaming_app.hardware.control.safety import Fault
+from pigaming_app.hardware.session.real import exact
+from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Swap, Turn
+from pigaming_app.scenes.play.pause import Pause, title
+from pigaming_app.scenes.robots.fault_icons import sign
+from pigaming_app.scenes.robots.pair_again import PairAgain
+from pigaming_app.scenes.views.sprites.effects import timer_ring
+from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
+from pigaming_app.ui.draw.layers import Pane, fitted, lines_of
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.caption import Plate, plate
+from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, overlay
+
+if TYPE_CHECKING:
+    from pigaming_app.scenes.robots.match_scene import RealMatch
+
+IDLE = 600.0  # seconds without a press until the title
+HOLD = 1.0  # s for which FIRE is held to let go of the all-stop
+ICON = X + 150, HEAD + 112
+TEXT_X, ROOM = X + 280, W - 280 - 64
+RING = X + 150, FOOT - 96
+
+
+class Trouble:
+    """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
+
+    def __init__(self, match: "RealMatch", stopper: Device | None = None) -> None:
+        self.match, self.house, self.stopper = match, match.house, stopper
+        self.faults: list[Fault] = []
+        self.picture: pygame.Surface | None = None
+        self.held = 0.0
+        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        mending = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry")]
+        self.mending = Prompts(self.house, mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
+
+    def entered(self) -> None:
+        """Say that something is wrong."""
+        self.house.sounds.music(False)
+        self.house.sounds.play("error")
+        self.held, self.picture = 0.0, None
+
+    def on(self, press: Press) -> Turn:
+        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
+        robot did not do as it was told, FIRE pairs robots and radios again, and ALT lets it try again.
+        """
+        admitted = self.match.access.admit(press)
+        if admitted is None:
+            return None
+        press = admitted
+        lasting = self.match.plant.safety.lasting
+        press = self.prompts.meant(self.mending.meant(press) if lasting else press)
+        if press.act is Act.EXTRA:
+            self._simulate()
+        elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
+            return Push(PairAgain(self.match))
+        elif lasting and press.act is Act.ALT:
+            for robot in lasting:
+                self.match.plant.forgive(robot)
+            self.house.sounds.play("accept")
+        elif press.act is Act.STOP:
+            self.match.plant.safety.all_stop()
+            self.stopper = press.device
+        elif press.act in (Act.START, Act.BACK):
+            return Swap(Pause(self.match, press.device))
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Go on once all is well."""
+        self.match.hold(seconds)
+        safety = self.match.plant.safety
+        if held := self.match.access.update(seconds):
+            return Swap(Pause(self.match, held.device))
+        controls = self.house.controls
+        firing = safety.stopped and any(controls.drive(device).fire for device in self._releasing())
+        self.held = self.held + seconds if firing else 0.0
+        if self.held >= HOLD:
+            safety.release()
+        now = [fault for fault in self.match.plant.faults if fault.pauses]
+        if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
+            self.faults, self.picture = now, None
+        if self.house.idle > IDLE:
+            return Home()
+        return None if now or safety.stopped else Pop()
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page; the discs on top of it, so that the markers stay in sight."""
+        if self.picture is None:
+            robot = self.faults[0].robot if self.faults else None
+            color = ALARM if robot is None else PLAYERS[robot]
+            shown = tuple((one.name, one.robot) for one in self.faults)
+            self.picture = overlay(self.match.picture(), color, self._paint, shown)
+        screen.blit(self.picture, (0, 0))
+        if self.match.plant.safety.stopped:
+            image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
+            screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
+        self.prompts.draw(screen)
+        if self.match.plant.safety.lasting:
+            self.mending.draw(screen)
+        self.match.shine(screen)
+
+    # ---- inside
+
+    def _releasing(self) -> list[Device]:
+        """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
+        players, stopper = self.house.controls.players(), self.stopper
+        asked = [one for one in players if one == stopper or (stopper and one.kind == stopper.kind == "keys")]
+        return [*self.match.access.seated, *asked] or players
+
+    def _simulate(self) -> None:
+        """Simulated robots in the place of those that something is wrong with."""
+        self.match.plant.safety.release()
+        for fault in self.faults:
+            for seat in [*self.match.real] if fault.robot is None else [fault.robot]:
+                self.match.swap(seat, False)
+        self.house.sounds.play("accept")
+
+    def _paint(self, pane: Pane) -> None:
+        """The first fault, what camera or radio say themselves, and how many others there are."""
+        words = self.house.words
+        if not self.faults:
+            title(pane, None, words("mat.stand"), ICE)
+            return
+        first = self.faults[0]
+        about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
+        title(pane, first.robot, about, ICE)
+        sign(pane.hot, first.name, *ICON, 76, ALARM)
+        if not self.match.plant.safety.lasting:
+            ending = words("mat.goes_on")
+            pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
+        fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
+        y = write(pane, named(first, words, fire), HEAD + 56, ICE)
+        detail = exact(self.match.plant.rig, first.name)
+        if detail:
+            y = write(pane, tell(words, detail), y + 8, MIST)
+        others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
+        if others and y < FOOT - 130:
+            write(pane, words("mat.also", other=named(others[0], words, "")), y + 8, MIST)
+
+
+def write(pane: Pane, sentence: str, y: float, color: Color) -> float:
+    """A sentence in lines beside the picture, smaller where it is long; where the next may begin, px."""
+    size = next((one for one in (BODY, 36, 32) if len(lines_of(sentence, one, ROOM)) <= 3), 28)
+    for line in lines_of(sentence, size, ROOM):
+        pane.page.body(line, TEXT_X, y, color, "l", size)
+        y += 1.35 * size
+    return y
+
+
+def named(fault: Fault, words: Words, button: str) -> str:
+    """A fault in one plain sentence."""
+    return words(f"faults.{fault.name}", robot=1 if fault.robot is None else fault.robot + 1, button=button)
+
+
+def shown(sentence: str, color: Color) -> Plate:
+    """A sentence on a plate, not wider than the arena."""
+    return plate(sentence, color, ICE, fitted(sentence, BODY, 1480, "body"))

@@ -1,0 +1,276 @@
+"""The page of the robots: which camera and radio, who is there and how well, who is who, and how late it all is."""
+
+import logging
+from dataclasses import replace
+
+import pygame
+
+from pigaming_app.hardware.radio.serial_line import ports
+from pigaming_app.hardware.session.real import unfit
+from pigaming_app.hardware.vision.discovery import cameras
+from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.lobby.match_setup_view import frame
+from pigaming_app.scenes.options.page import Value
+from pigaming_app.scenes.robots.avoid_discs import Aside
+from pigaming_app.scenes.robots.fleet_state import Checkup, worst
+from pigaming_app.scenes.robots.flood_light import Flood
+from pigaming_app.scenes.robots.marker_discs import Discs, tag
+from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, GREEN, ICE, MIST, Color
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets import rows
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.button_prompts import Prompts, places
+from pigaming_app.ui.widgets.focus import Focus
+from pigaming_app.ui.widgets.labels import heading, stamp, text
+
+BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
+RADIOS = ("api2", "api1", "transparent", "stock")
+EMULATED = ("pair", "latency")
+ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
+WEAK, LOW = 0.7, 4.4  # share of reports, V
+IDLE = 600.0  # seconds without a press until the title
+SAID = 8.0  # seconds for which a sentence stays
+ANEW = 0.8  # seconds after a change until everything is opened anew
+EVERY = 0.4  # seconds between two readings
+EVERYBODY = set(range(ROBOTS))
+ROBOTS_H = 486  # px of the frame round the robots
+LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: the sentence about a row
+
+log = logging.getLogger("pigaming")
+
+
+class RobotsPage:
+    """The page of a house whose mat may be used."""
+
+    def __init__(self, house: House) -> None:
+        assert house.mat is not None
+        self.house = house
+        self.check = Checkup(house.mat, house.settings)
+        self.flood = Flood()
+        self.flood.level = 0.0
+        self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
+        self.focus = Focus(rows.spots(self.names), "pair")
+        self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
+        self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
+        self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
+        self.prompts = Prompts(
+            house, [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        )
+
+    def entered(self) -> None:
+        """Look and listen."""
+        self.check.begin()
+
+    def left(self) -> None:
+        """Stop the robots; let go of camera and radio."""
+        self.check.end()
+
+    def on(self, press: Press) -> Turn:
+        """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
+        press = self.prompts.meant(self._on_sheet(press))
+        if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
+            self.check.stop()
+            self._say(self.house.words("fleet.stopped"))
+            return None
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(press):
+            self.house.sounds.play("move")
+        name = self.focus.name
+        if by := rows.pushed(press, self.focus, self._value(name)):
+            self._change(name, by, False)
+        elif self.focus.chosen(press) and (press.act is not Act.CLICK or self._value(name).kind == "deed"):
+            self._do(name)
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Read what there is to read."""
+        words = self.house.words
+        self.focus.update(seconds)
+        self.said -= seconds
+        self.age += seconds
+        if self.anew > 0.0:
+            self.anew -= seconds
+            if self.anew <= 0.0:
+                self.check.end()
+                self.entered()
+        pairing = self.check.pairing is not None
+        self.flood.update(seconds, self.check.looking)
+        if self.check.update(seconds):
+            self._found() if pairing else self._say(words("fleet.measured" if self.check.late else "fleet.nobody"))
+            self.house.sounds.play("accept")
+        if self.age >= EVERY:
+            self.age = 0.0
+            self.lines = [self._read(robot) for robot in range(ROBOTS)]
+        self.aside.update(seconds, self._blocks(), self.discs.circles(EVERYBODY) if self.discs else ())
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page in blocks that keep off the discs, and these."""
+        words = self.house.words
+        if self.flood.whole:
+            self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
+            return
+        screen.blit(backdrop(), (0, 0))
+        heading(words("fleet.title"), self._state()).draw(screen)
+        self._draw_blocks(self.sheet)
+        self.aside.draw(screen, self.sheet)
+        self.flood.draw(screen, "")
+        if self.discs:
+            self.discs.draw(screen, EVERYBODY)
+
+    # ---- what is painted
+
+    @property
+    def discs(self) -> Discs | None:
+        """The light that robots need, once there is a rig."""
+        return Discs(self.check.rig) if self.check.rig is not None else None
+
+    def _blocks(self) -> list[pygame.Rect]:
+        """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""
+        low = self.focus.spots[-1].rect.bottom
+        ends = places(self.prompts.said, self.prompts.room)
+        left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
+        found = [
+            pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
+            pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
+            pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
+            pygame.Rect(left, self.prompts.y - 40, right - left, 80),
+        ]
+        return [*found, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else found
+
+    def _sentence(self) -> str:
+        """What is wrong, or was just found."""
+        return self._trouble() or (self.sentence if self.said > 0.0 else "")
+
+    def _on_sheet(self, press: Press) -> Press:
+        """A press of the mouse where the block is drawn that it hits."""
+        return replace(press, at=self.aside.back(press.at)) if press.at else press
+
+    def _draw_blocks(self, screen: pygame.Surface) -> None:
+        """Everything below the heading."""
+        words = self.house.words
+        screen.fill("black")
+        rows.draw(screen, self.house, self.focus, "fleet", {name: self._value(name) for name in self.names})
+        frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
+        for robot, (heard, bright, seen, dim) in enumerate(self.lines):
+            x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
+            stamp(screen, tag(robot), x, y)
+            text(heard, 40, bright, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y - 26)
+            text(seen, 34, dim, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y + 26)
+        moving = self.check.moving
+        told = words("fleet.moving", robot=moving + 1) if moving is not None else self._line()
+        for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
+            line.draw(screen, dials.PANEL.x + 30, LINE_Y + LINE_PITCH * i)
+        sentence = self._sentence()
+        for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
+            line.draw(screen, 960, 896 + 44 * i)
+        self.prompts.draw(screen)
+
+    # ---- what is read
+
+    def _line(self) -> str:
+        """A sentence about the row in focus, or why its value is refused for matches."""
+        reason = unfit(self.house.settings) if self.focus.name == "radio" else None
+        return tell(self.house.words, reason) if reason else self.house.words(f"fleet.{self.focus.name}_line")
+
+    def _state(self) -> str:
+        """What the camera does."""
+        words, check = self.house.words, self.check
+        if check.rig is None:
+            return tell(words, check.refusal or words("fleet.no_camera"))
+        return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
+
+    def _trouble(self) -> str | None:
+        """What camera or radio say is wrong."""
+        told = self.check.mat.trouble
+        return tell(self.house.words, told) if told else None
+
+    def _read(self, robot: int) -> tuple[str, Color, str, Color]:
+        words, health = self.house.words, self.check.health(robot)
+        late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
+        seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
+        if health.battery is None:
+            return words("fleet.silent"), MIST, seen, MIST
+        heard = words("fleet.heard", volts=f"{health.battery:.1f}", share=round(100 * health.share))
+        weak = health.battery < LOW or health.share < WEAK
+        return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST
+
+    # ---- what the rows are
+
+    def _value(self, name: str) -> Value:
+        words, settings = self.house.words, self.house.settings
+        match name:
+            case "mat":
+                return Value("toggle", (words("options.off"), words("options.on")), int(settings.mat))
+            case "pair" | "latency":
+                return Value("deed", (words("fleet.begin"),))
+        values, now = self._choices(name)
+        return Value("arrows", tuple(values.values()), list(values).index(now))
+
+    def _choices(self, name: str) -> tuple[dict[object, str], object]:
+        """What can be chosen, by what is kept, and what is now."""
+        words, settings = self.house.words, self.house.settings
+        if name == "camera":
+            known: dict[object, str] = {one.number: f"{one.number}: {one.name}" for one in cameras()}
+            return {settings.camera: str(settings.camera), **known}, settings.camera
+        if name == "port":
+            there: dict[object, str] = {one.device: one.device for one in ports()}
+            first = words("fleet.first", port=next(iter(there), "-"))
+            return {"": first, settings.port or "": settings.port or first, **there}, settings.port
+        if name == "baud":
+            return {one: str(one) for one in sorted({*BAUDS, settings.baud})}, settings.baud
+        return {one: words(f"fleet.{one}") for one in RADIOS}, settings.radio
+
+    def _change(self, name: str, by: int, around: bool) -> None:
+        """The next value of a row, or the one before it."""
+        settings = self.house.settings
+        if name in EMULATED:
+            return
+        if name == "mat":
+            settings.mat = not settings.mat
+        else:
+            values, now = self._choices(name)
+            keys = list(values)
+            at = keys.index(now) + by
+            settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
+            self.anew = ANEW
+        self.house.sounds.play("move")
+        try:
+            settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self._say(self.house.words("app.unsaved"))
+
+    def _do(self, name: str) -> None:
+        """Begin what the row is for, or take its next value."""
+        if name not in EMULATED:
+            self._change(name, 1, True)
+            return
+        begun = self.check.pair() if name == "pair" else self.check.measure()
+        self.house.sounds.play("accept" if begun else "error")
+        if not begun:
+            self._say(self.house.words("fleet.nobody"))
+
+    def _found(self) -> None:
+        """Say what came of the pairing."""
+        words, told = self.house.words, worst(self.check.findings)
+        if told is None:
+            self._say(words("fleet.paired"))
+        else:
+            marker = 0 if told.marker is None else told.marker + 1
+            self._say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
+        try:
+            self.house.settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+
+    def _say(self, sentence: str) -> None:
+        self.sentence, self.said = sentence, SAID

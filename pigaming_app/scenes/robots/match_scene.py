@@ -1,0 +1,238 @@
+"""A match with real robots: they take their places, the match waits for whatever goes wrong with them, and any of them
+can be handed to a simulated one and back.
+"""
+
+import logging
+from collections.abc import Callable, Collection, Mapping, Sequence
+
+import pygame
+
+from pigaming_app.games.game import Setup
+from pigaming_app.hardware.control.mixed_plant import MixedPlant
+from pigaming_app.hardware.control.safety import Does, Fault
+from pigaming_app.hardware.session.real import Mat, NoMat, exact, refused, unfit
+from pigaming_app.scenes.calibration.corner_markers import DriftWatch
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, Turn
+from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.play.countdown import Countdown
+from pigaming_app.scenes.play.reconnect import Reconnect
+from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, anew
+from pigaming_app.scenes.robots.fault_page import Trouble, named
+from pigaming_app.scenes.robots.marker_discs import Discs
+from pigaming_app.scenes.robots.swap_page import SwapPage
+from pigaming_app.scenes.robots.take_places import Gathering
+from pigaming_app.ui.draw.ink import ALARM
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.caption import plate
+
+IDLE = 180.0  # seconds without a press while robots take their places, until the title
+TOLD = ("low", "drifts", "deadman")  # what is only said
+
+log = logging.getLogger("pigaming")
+
+
+class RealMatch(MatchScene):
+    """A match in which the robots of the seats `real` are real ones. Raises NoMat where they cannot be used."""
+
+    def __init__(
+        self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: Mat
+    ) -> None:
+        if reason := unfit(house.settings):
+            raise refused(NoMat(reason))
+        rig = mat.open()
+        chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
+        self.mat = mat
+        super().__init__(house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen))
+        plant = self.match.plant
+        assert isinstance(plant, MixedPlant)
+        self.plant = plant
+        self.discs = Discs(rig)
+        self.watch = DriftWatch(rig)
+        self.gathering: Gathering | None = Gathering(house, plant, lambda: self.access.voice)
+        self.gone = False  # it has let go of the mat
+        self.waiting = Pace()  # ticks in which all wait
+        self.logged: set[tuple[str, int | None]] = set()
+        self._dressed()
+
+    @property
+    def real(self) -> set[int]:
+        """The seats whose robots are real, or will be once they have taken their places."""
+        return self.plant.real | self.plant.arriving
+
+    def entered(self) -> None:
+        """Begin, or go on after an interruption."""
+        if self.gathering is None:
+            super().entered()
+        else:
+            self.house.sounds.music(True)
+            self.begun = True
+
+    def left(self) -> None:
+        """Stop the robots; let go of camera and radio, unless the next match has them already."""
+        if not self.gone:
+            self.gone = True
+            self.mat.close()
+
+    def on(self, press: Press) -> Turn:
+        """As in every match. STOP stops all robots. While places are taken, START begins as they stand, EXTRA
+        lets simulated robots begin where real ones are missing, and BACK leaves.
+        """
+        if press.act is Act.STOP and not self.match.over:
+            self.plant.safety.all_stop()
+            self.plant.watch()
+            return Push(Trouble(self, press.device))
+        if self.gathering is None:
+            return super().on(press)
+        admitted = self.access.admit(self.gathering.prompts.meant(press))
+        if admitted is None:
+            return None
+        press = admitted
+        if press.act is Act.START and self.gathering.clock > self.gathering.DEAF:
+            self.plant.accept_places()
+            self._begin()
+        elif press.act is Act.EXTRA:
+            for seat in self._missing():
+                self.swap(seat, False)
+            self.house.sounds.play("accept")
+        elif press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the match run on, unless something is wrong with a robot in it."""
+        if self.repeated or self.stopped:
+            return super().update(seconds)
+        seconds = self.mat.advance(seconds)
+        if self.gathering is not None:
+            return self._gather(self.gathering, seconds)
+        if self.plant.safety.pauses and not self.match.over:
+            return Push(Trouble(self))
+        if self.count.locked or self.match.over:
+            self._rest(seconds)
+        turn = super().update(seconds)
+        self._tell()
+        return turn
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The match or the places; the discs last of all."""
+        if self.gathering is None:
+            super().draw(screen)
+        else:
+            self.gathering.draw(screen)
+            if self.gathering.flood.whole:
+                self.watch.draw(screen)
+                return
+        self.shine(screen)
+
+    # ---- what the pages above it may do
+
+    @property
+    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+        """Which robots are real can be changed in a pause."""
+        return {"robots": lambda access: SwapPage(self, access)}
+
+    @property
+    def stuck(self) -> bool:
+        """Whether something is wrong with a robot."""
+        return self.plant.safety.pauses
+
+    def hold(self, seconds: float) -> None:
+        """Let time pass under a page: all robots stand, and faults come and go."""
+        self._rest(self.mat.advance(seconds))
+
+    def shine(self, screen: pygame.Surface) -> None:
+        """The corner markers and the discs, over everything."""
+        if self.real:
+            self.watch.draw(screen)
+        self.discs.draw(screen, self.real)
+
+    def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
+        """Which radio drives which robot has been found anew; the robots `well` turned as they should."""
+        self.plant.rig.channels = channels
+        self.house.settings.radios = [channel + 1 for channel in channels]
+        for robot in well:
+            self.plant.forgive(robot)
+
+    def swap(self, seat: int, real: bool) -> None:
+        """Hand a seat to its simulated or its real robot; that one takes its place first."""
+        if real == (seat in self.real):
+            return
+        self.plant.swap(seat, real)
+        if self.plant.arriving:
+            self.gathering = Gathering(self.house, self.plant, lambda: self.access.voice)
+        self._dressed()
+
+    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+        """The same match with other luck and the same robots."""
+        from pigaming_app.scenes.robots.start_match import match_of
+
+        self.left()
+        return match_of(house, anew(setup, devices), devices, self.real)
+
+    # ---- inside
+
+    def _gather(self, gathering: Gathering, seconds: float) -> Turn:
+        """Drive the robots to their places."""
+        if lost := self.lost:
+            return Push(Reconnect(self, lost[0]))
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
+        gathering.update(seconds)
+        self.signs.work(0.0)
+        self.stage.warm(4.0)
+        for _ in range(self.waiting.due(seconds)):
+            if self.plant.take_places():
+                self._begin()
+                break
+        self._tell()
+        if self.plant.safety.stopped or self.plant.safety.lasting:
+            return Push(Trouble(self))
+        return Home() if self.house.idle > IDLE else None
+
+    def _missing(self) -> list[int]:
+        """The robots that will not get to their places by themselves."""
+        troubled = {fault.robot for fault in self.plant.faults if fault.pauses}
+        late = [place for place in self.plant.places if not place.there]
+        return [place.robot for place in late if not place.moving or {None, place.robot} & troubled]
+
+    def _begin(self) -> None:
+        """All are where they begin, or may begin where they are."""
+        self.gathering = None
+        self.count = Countdown(lead=LEAD)
+        self.idle = 0.0
+        self.house.sounds.play("ready", 0)
+        self._dressed()
+
+    def _rest(self, seconds: float) -> None:
+        """All robots stand."""
+        for _ in range(self.waiting.due(seconds)):
+            self.plant.watch()
+        self._tell()
+
+    def _dressed(self) -> None:
+        """The view and the tracker know which robots are real."""
+        self.stage.view.real = frozenset(self.real)
+        self.plant.rig.tracker.expected = self.real
+
+    def _tell(self) -> None:
+        """Write what is newly wrong into the log; what is only said, over the match."""
+        now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
+        for key in now.keys() - self.logged:
+            detail = exact(self.plant.rig, now[key].name)
+            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), detail))))
+            if now[key].name in TOLD:
+                said = named(now[key], self.house.words, "")
+                self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE
+        self.logged = set(now)
+
+    def _worth(self, fault: Fault) -> bool:
+        """A robot that is hard to see for a moment is not worth a line."""
+        return fault.does is not Does.HALF and (fault.pauses or fault.name in TOLD)
+
+
+ENGLISH = Words("en")

@@ -1,0 +1,154 @@
+"""Everything that robots on a mat need, for the operator: camera, corners, markers."""
+
+import logging
+
+import pygame
+
+from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.options.page import Value
+from pigaming_app.storage.safe_files import NotSaved, write
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
+from pigaming_app.ui.draw.layers import Lit, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets import rows
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.focus import Focus
+from pigaming_app.ui.widgets.labels import blacked, heading, text
+
+ROWS = ("robots", "calibrate", "check", "pin", "sheet")
+SHEET = "markers.pdf"
+SAID = 8.0  # seconds for which a sentence stays
+IDLE = 300.0  # seconds without a press until the title
+
+log = logging.getLogger("pigaming")
+
+
+class RobotsMenu:
+    """The menu."""
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.focus = Focus(rows.spots(ROWS))
+        self.sentence, self.said = "", 0.0
+        self.prompts = Prompts(house, [(Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")])
+
+    def entered(self) -> None:
+        """Shown, or come back to."""
+
+    def on(self, press: Press) -> Turn:
+        """Up and down choose, FIRE opens."""
+        press = self.prompts.meant(press)
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(press):
+            self.house.sounds.play("move")
+        chosen = self.focus.chosen(press)
+        return self._do(chosen) if chosen else None
+
+    def update(self, seconds: float) -> Turn:
+        """Let a sentence fade; leave when nobody is there."""
+        self.focus.update(seconds)
+        self.said -= seconds
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        words, name = self.house.words, self.focus.name
+        screen.blit(backdrop(), (0, 0))
+        heading(words("robots.title")).draw(screen)
+        blacked(screen, dials.PANEL)
+        values = {one: Value("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS}
+        rows.draw(screen, self.house, self.focus, "robots", values)
+        dials.beside().draw(screen, *dials.PANEL.topleft)
+        sketch(name).draw(screen, *dials.CENTRE)
+        room = dials.PANEL.w - 80
+        text(words(f"robots.{name}"), LABEL, ICE, "head", "l", room).draw(
+            screen, dials.PANEL.x + 40, dials.PANEL.y + 400
+        )
+        for i, line in enumerate(paragraph(words(f"robots.{name}_line"), room, 3, MIST)):
+            line.draw(screen, dials.PANEL.x + 40, dials.PANEL.y + 472 + 58 * i)
+        if self.said > 0.0:
+            for i, line in enumerate(paragraph(self.sentence, 1600, 2, FOCUS, "c")):
+                line.draw(screen, 960, 900 + 44 * i)
+        self.prompts.draw(screen)
+
+    def _do(self, name: str) -> Turn:
+        from pigaming_app.scenes.calibration.corner_pin_page import PinPage
+        from pigaming_app.scenes.calibration.drift_page import CheckPage
+        from pigaming_app.scenes.calibration.setup_page import CalibrationPage
+
+        self.house.sounds.play("accept")
+        match name:
+            case "robots":
+                from pigaming_app.scenes.robots.fleet_page import RobotsPage
+
+                return Push(RobotsPage(self.house))
+            case "calibrate":
+                return Push(CalibrationPage(self.house))
+            case "check":
+                return Push(CheckPage(self.house))
+            case "pin":
+                return Push(PinPage(self.house))
+        self._write()
+        return None
+
+    def _write(self) -> None:
+        """Write the page with the markers where the user's files are, and say where."""
+        from pigaming_app.hardware.calibration.marker_sheet import sheet
+        from pigaming_app.hardware.messages import said
+        from pigaming_app.hardware.vision.markers import NoVision
+
+        path, words = folders().data / SHEET, self.house.words
+        try:
+            write(path, sheet())
+            self.sentence = words("robots.written", path=path)
+        except NoVision as missing:
+            log.warning("%s", missing)
+            self.sentence = tell(words, said(missing))
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self.sentence = words("app.unsaved")
+        self.said = SAID
+
+
+@cached
+def sketch(name: str) -> Lit:
+    """The picture of a row, round (0, 0)."""
+    ink = Ink(480, 340).to(240, 170)
+    if name == "robots":
+        for x, y, player in ((-120, -70, 0), (120, -70, 1), (-120, 80, 2), (120, 80, 3)):
+            ink.ring(x, y, 46, PLAYERS[player], LINE).disc(x, y, 34, GREY)
+            ink.arc(x, y, 68, -0.5, 1.1, FOCUS, THIN).arc(x, y, 68, 2.6, 4.2, FOCUS, THIN)
+    elif name == "calibrate":
+        ink.line(cut(-46, -146, 92, 60, 12), ICE, LINE, True).ring(0, -84, 16, ICE, LINE)
+        for x in (-150, 150):
+            ink.dashes([(x * 0.16, -62), (x, 60)], FOCUS, THIN, 14, 10, False)
+        ink.line([(-150, 60), (150, 60), (196, 146), (-196, 146)], ICE, LINE, True)
+        for x, y in ((-90, 102), (0, 102), (90, 102)):
+            ink.line(cut(x - 16, y - 14, 32, 28, 4), FOCUS, THIN, True)
+    elif name == "check":
+        ink.line(cut(-176, -110, 352, 220, 12), STEEL, THIN, True)
+        for x, y in ((-140, -76), (140, -76), (140, 76), (-140, 76)):
+            ink.line(cut(x - 22, y - 22, 44, 44, 4), FOCUS, LINE, True)
+        ink.line([(-50, 4), (-14, 38), (56, -36)], ICE, 12)
+    elif name == "pin":
+        ink.line(cut(-170, -110, 340, 220, 12), STEEL, THIN, True)
+        points = [(-150, -120), (176, -92), (150, 118), (-182, 96)]
+        ink.line(points, FOCUS, LINE, True)
+        for x, y in points:
+            ink.solid(cut(x - 15, y - 15, 30, 30, 4)).line(cut(x - 15, y - 15, 30, 30, 4), ICE, LINE, True)
+    else:
+        ink.line(cut(-108, -150, 216, 300, 14), ICE, LINE, True)
+        for x, y in ((-50, -84), (50, -84), (-50, 20), (50, 20)):
+            ink.line(cut(x - 36, y - 36, 72, 72, 4), FOCUS, THIN, True)
+            ink.fill([(x - 20, y - 20), (x + 4, y - 20), (x + 4, y + 4), (x - 20, y + 4)], FOCUS)
+            ink.fill([(x + 4, y + 4), (x + 20, y + 4), (x + 20, y + 20), (x + 4, y + 20)], FOCUS)
+        ink.line([(-80, 112), (80, 112)], ICE, LINE).line([(-80, 98), (-80, 126)], ICE, LINE)
+        ink.line([(80, 98), (80, 126)], ICE, LINE)
+    return Lit(ink.lit(0.9), (-240, -170))

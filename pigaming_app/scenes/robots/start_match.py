@@ -1,0 +1,29 @@
+"""How a match begins: with simulated robots, with real ones, or with one sentence about why not with real ones."""
+
+from collections.abc import Collection, Sequence
+
+from pigaming_app.games.game import Setup
+from pigaming_app.hardware.session.real import NoMat
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.ui.input.events import Device
+
+
+def match_of(
+    house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], speed: float = 1.0
+) -> Scene:
+    """The match, or the page that says why the robots of the seats `real` cannot be real.
+
+    `speed`: times real time, for a match without real robots.
+    """
+    real = [seat for seat in real if setup.seats[seat].brain != "off"]
+    if not real or house.mat is None:
+        return MatchScene(house, setup, devices, speed)
+    from pigaming_app.scenes.robots.match_scene import RealMatch
+    from pigaming_app.scenes.robots.unavailable import Refused
+
+    try:
+        return RealMatch(house, setup, devices, real, house.mat)
+    except NoMat as trouble:
+        return Refused(house, setup, devices, real, trouble.args[0])

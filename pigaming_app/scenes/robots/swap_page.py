@@ -1,0 +1,82 @@
+"""Which robots of a running match are real: each can be handed to a simulated one, and back."""
+
+from typing import TYPE_CHECKING
+
+import pygame
+
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.play.pause import items, title
+from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
+from pigaming_app.ui.draw.layers import Pane, fitted, word
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
+from pigaming_app.ui.widgets.focus import Focus
+
+if TYPE_CHECKING:
+    from pigaming_app.scenes.robots.match_scene import RealMatch
+
+
+class SwapPage:
+    """The page; what is chosen is done when it is left. `access`: whose presses count."""
+
+    def __init__(self, match: "RealMatch", access: Access) -> None:
+        self.match, self.house, self.access = match, match.house, access
+        self.seats = [i for i, robot in enumerate(match.match.state.robots) if robot.present]
+        self.wanted = {seat: seat in match.real for seat in self.seats}
+        self.focus = Focus(items([str(seat) for seat in self.seats]))
+        self.picture: pygame.Surface | None = None
+        hints = [(Act.FIRE, "mat.hint_change"), (Act.BACK, "mat.hint_done")]
+        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: access.voice)
+
+    def entered(self) -> None:
+        """Nothing has been chosen yet."""
+
+    def on(self, press: Press) -> Turn:
+        """FIRE, LEFT and RIGHT change the robot in focus; BACK and START do what was chosen."""
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None:
+            return None
+        press = admitted
+        if press.act in (Act.BACK, Act.START):
+            for seat, real in self.wanted.items():
+                self.match.swap(seat, real)
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(press):
+            self.house.sounds.play("move")
+        chosen = self.focus.name if press.act in (Act.LEFT, Act.RIGHT) else self.focus.chosen(press)
+        if chosen:
+            self.wanted[int(chosen)] = not self.wanted[int(chosen)]
+            self.house.sounds.play("move")
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """All robots stand meanwhile."""
+        self.match.hold(seconds)
+        self.access.update(seconds)
+        self.focus.update(seconds)
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page, painted once, and what is chosen."""
+        if self.picture is None:
+            self.picture = overlay(self.match.picture(), ICE, self._paint)
+        screen.blit(self.picture, (0, 0))
+        self.focus.draw(screen)
+        for spot in self.focus.spots:
+            said = self.house.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
+            color = FOCUS if spot.name == self.focus.name else MIST
+            size = fitted(said, LABEL, spot.rect.w - 150)
+            word(said, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
+        self.prompts.draw(screen)
+        self.match.shine(screen)
+
+    def _paint(self, pane: Pane) -> None:
+        title(pane, None, self.house.words("mat.which"), ICE)
+        for spot in self.focus.spots:
+            seat = int(spot.name)
+            badge(pane.hot, seat, spot.rect.left + 60, spot.rect.centery - (4 if seat == 1 else 0), 26)
+            pane.hot.line([(spot.rect.left + 110, spot.rect.centery), (spot.rect.left + 122, spot.rect.centery)],
+                          PLAYERS[seat], LINE)  # fmt: skip

@@ -1,0 +1,164 @@
+"""Take your places: where real robots shall stand, how they get there, and what has to be done by hand.
+
+Until every robot has been seen the mat is lit evenly; then it is dark but for outlines, arrows and discs.
+"""
+
+import math
+from collections.abc import Callable
+
+import pygame
+
+from pigaming_app.hardware.control.homing import Place
+from pigaming_app.hardware.control.mixed_plant import MixedPlant
+from pigaming_app.hardware.control.safety import Fault
+from pigaming_app.hardware.session.real import exact
+from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.robots.fault_page import named, shown
+from pigaming_app.scenes.robots.flood_light import UNSEEN as UNSEEN_AFTER
+from pigaming_app.scenes.robots.flood_light import Flood, looking
+from pigaming_app.scenes.robots.marker_discs import MOAT, RING, pointer, tag
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
+from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.labels import stamp, text
+
+UNSEEN = 1e6  # px: so far away is a robot that nobody sees
+DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
+TITLE_Y, HINTS_Y = 42, 102  # px
+BESIDE = 150  # px from an outline to what is said about it
+CARRIED = ("lost", "held", "outside")  # what happens to robots that are carried to their places
+MISSING = 1.5  # s until it is said that a robot is not seen
+
+
+class Gathering:
+    """What is shown while the robots of a plant take their places."""
+
+    DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
+
+    def __init__(self, house: House, plant: MixedPlant, voice: Callable[[], Device]) -> None:
+        self.house, self.plant = house, plant
+        self.clock = 0.0
+        self.flood = Flood()
+        self.prompts = Prompts(
+            house, [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
+            HINTS_Y, 1560, voice=voice,
+        )  # fmt: skip
+
+    def update(self, seconds: float) -> None:
+        """Let the arrows march, or look for robots."""
+        self.clock += seconds
+        self.flood.update(seconds, bool(self.missing))
+
+    @property
+    def missing(self) -> list[int]:
+        """The robots that must take part and are not seen."""
+        seen = self.plant.rig.sense()
+        return [robot for robot in sorted(self.plant.real | self.plant.arriving) if seen[robot].age > UNSEEN_AFTER]
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint outlines, ways and what has to be done; the discs come on top of it."""
+        words, places = self.house.words, self.plant.places
+        if self.flood.whole:
+            hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
+            faults = [named(fault, words, "") for fault in self._faults()]
+            self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
+            return
+        screen.fill((0, 0, 0))
+        frame().draw(screen)
+        seen = self.plant.rig.sense()
+        for place in places:
+            self._outline(screen, place)
+            if not place.there and place.distance < UNSEEN:
+                self._way(screen, place, (LEFT + seen[place.robot].x, TOP + seen[place.robot].y))
+        for place in places:
+            self._said(screen, place)
+        there = sum(place.there for place in places)
+        text(words("mat.places"), LABEL, ICE, "head", "l", 900).draw(screen, 176, TITLE_Y)
+        if places:
+            told = words("mat.there", there=there, all=len(places))
+            text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
+        self.prompts.draw(screen)
+        text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
+        for i, fault in enumerate(self._faults()[:2]):
+            detail = exact(self.plant.rig, fault.name)
+            sentence = tell(words, detail) if detail else named(fault, words, "")
+            shown(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
+        self.flood.draw(screen, "")
+
+    def _faults(self) -> list[Fault]:
+        """What is wrong, but for what happens to robots that are carried to their places."""
+        return [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
+
+    def _outline(self, screen: pygame.Surface, place: Place) -> None:
+        x, y, heading = place.pose
+        color = place.robot
+        level = 8 if place.there else round(6 + 2 * math.cos(math.tau * self.clock))
+        outline(color, place.there).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
+        stamp(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
+        if place.distance > 2 * MOAT:
+            stamp(screen, tag(color), LEFT + x, TOP + y)
+
+    def _way(self, screen: pygame.Surface, place: Place, at: tuple[float, float]) -> None:
+        """Dashes that march from a robot to its place."""
+        goal = LEFT + place.pose[0], TOP + place.pose[1]
+        turn = math.atan2(goal[1] - at[1], goal[0] - at[0])
+        along, end = RING + 20.0 + self.clock * MARCH % DASH, math.dist(at, goal) - RING - 16.0
+        while along < end:
+            stamp(
+                screen,
+                dash(place.robot, step(turn, HEADINGS), place.moving),
+                at[0] + along * math.cos(turn),
+                at[1] + along * math.sin(turn),
+            )
+            along += DASH
+
+    def _said(self, screen: pygame.Surface, place: Place) -> None:
+        """What has to be done with a robot that does not get there by itself."""
+        words, robot = self.house.words, place.robot
+        if place.there or place.moving or self.clock < MISSING:
+            return
+        key = "mat.carry" if place.distance > UNSEEN else "mat.waits"
+        sheet = plate(words(key, robot=robot + 1), PLAYERS[robot], size=BODY, player=robot)
+        margin = LEFT + 12 + sheet.width / 2
+        x = min(max(LEFT + place.pose[0], margin), 1920 - margin)
+        y = TOP + place.pose[1]
+        sheet.draw(screen, x, y + (BESIDE if y < TOP + HEIGHT / 2 else -BESIDE))
+
+
+@cached
+def frame() -> Lit:
+    """The rim of the arena, dim."""
+    pane = Pane(LEFT, TOP, WIDTH, HEIGHT)
+    pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
+    return pane.done()
+
+
+@cached
+def outline(player: int, there: bool) -> Lit:
+    """Where a robot shall stand, round (0, 0): dashed, and whole once it is there."""
+    half = RING + 24
+    ink = Ink(2 * half, 2 * half).to(half, half)
+    if there:
+        ink.ring(0, 0, RING, PLAYERS[player], LINE)
+    else:
+        points = [(RING * math.cos(i * math.tau / 64), RING * math.sin(i * math.tau / 64)) for i in range(64)]
+        ink.dashes(points, PLAYERS[player], LINE, 24, 16)
+    return Lit(ink.lit(0.8), (-half, -half))
+
+
+@cached
+def dash(player: int, turn: int, moving: bool) -> Sprite:
+    """A tip of an arrow at heading `turn` of HEADINGS."""
+    return turned(painted(_dash, (player, moving)), turn, HEADINGS)
+
+
+def _dash(player: int, moving: bool) -> pygame.Surface:
+    color = PLAYERS[player] if moving else dim(MIST, 0.7)
+    return master(24).line([(-8, -12), (6, 0), (-8, 12)], color, LINE).sprite(0.5)

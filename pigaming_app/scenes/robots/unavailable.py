@@ -1,0 +1,85 @@
+"""Why a match cannot have real robots, in one sentence; try again, or play with simulated ones."""
+
+from collections.abc import Collection, Sequence
+
+import pygame
+
+from pigaming_app.games.game import Setup
+from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.play.pause import title
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.robots.fault_icons import sign
+from pigaming_app.scenes.robots.fault_page import ICON, write
+from pigaming_app.ui.draw.ink import ALARM, ICE, MIST
+from pigaming_app.ui.draw.layers import Pane, backdrop
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
+
+UNCALIBRATED = ("none", "damaged", "version", "other_display")  # sentences after which one must calibrate
+IDLE = 90.0  # seconds without a press until the title
+
+
+class Refused:
+    """The page. `sentence`: why."""
+
+    def __init__(
+        self,
+        house: House,
+        setup: Setup,
+        devices: Sequence[Device | None],
+        real: Collection[int],
+        sentence: str,
+    ) -> None:
+        self.house, self.setup, self.devices, self.real, self.sentence = house, setup, devices, real, sentence
+        self.picture: pygame.Surface | None = None
+        self.access = Access(house, lambda: self.devices)
+        hints = [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")]
+        self.prompts = Prompts(house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+
+    def entered(self) -> None:
+        """Let it be heard."""
+        self.house.sounds.play("error")
+
+    def on(self, press: Press) -> Turn:
+        """FIRE plays with simulated robots, EXTRA tries again, BACK leaves."""
+        admitted = self.access.admit(self.prompts.meant(press))
+        if admitted is None:
+            return None
+        press = admitted
+        if press.act in (Act.FIRE, Act.START):
+            self.house.sounds.play("accept")
+            return Swap(MatchScene(self.house, self.setup, self.devices))
+        if press.act is Act.EXTRA:
+            from pigaming_app.scenes.robots.start_match import match_of
+
+            return Swap(match_of(self.house, self.setup, self.devices, self.real))
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Leave when nobody is there."""
+        if self.access.update(seconds):
+            self.house.sounds.play("back")
+            return Pop()
+        return Home() if self.house.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page."""
+        if self.picture is None:
+            self.picture = overlay(backdrop(), ALARM, self._paint)
+        screen.blit(self.picture, (0, 0))
+        self.prompts.draw(screen)
+
+    def _paint(self, pane: Pane) -> None:
+        words = self.house.words
+        title(pane, None, words("mat.refused"), ICE)
+        sign(pane.hot, "robot", *ICON, 76, ALARM)
+        y = write(pane, tell(words, self.sentence), HEAD + 56, ICE)
+        lost = getattr(self.sentence, "key", "") in UNCALIBRATED
+        write(pane, words("mat.calibrate" if lost else "mat.anyway"), y + 16, MIST)

@@ -1,0 +1,151 @@
+"""Attract mode: for one game after the other an AI match, how to play, the best scores. Any input ends it, and does
+nothing else."""
+
+import secrets
+from collections.abc import Callable
+from functools import partial
+from itertools import cycle
+
+import pygame
+
+from pigaming_app.ai import STRENGTHS, seated
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import FREE, Seat, Setup
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Scene, Turn
+from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.scene import new_seed
+from pigaming_app.scenes.results.high_score_tables import contests
+from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.ui.draw.ink import BODY, FOCUS, LABEL, dim
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.caption import plate
+
+MINUTES = 1.0  # of a match
+AFTER = 2.5  # seconds for which its end is shown
+PAGE = 12.0  # seconds for a page
+PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; a page's own row ends above
+LEVELS = 6  # brightnesses of the prompt
+
+
+class Attract:
+    """Three shows for each game, round and round, from a random game on. `house.idle` has brought it up; the title lies
+    below.
+    """
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.age = 0.0
+        games, first = list(GAMES), secrets.randbelow(len(GAMES))
+        self.shows = (
+            partial(make, game)
+            for game in cycle(games[first:] + games[:first])
+            for make in (self._match, self._howto, self._best)
+        )
+        self.show: Scene | None = None
+        self._next()
+
+    def entered(self) -> None:
+        """Quiet: nobody is listening."""
+        self.house.sounds.music(False)
+
+    def on(self, press: Press) -> Turn:
+        """Whatever is pressed, back to the title, where it counts for nothing; F4 shows what the AIs think."""
+        if press.act is Act.BRAIN and isinstance(self.show, Demonstration):
+            self.show.stage.brain.next()
+            return None
+        return None if press.act is Act.LOST else Home()
+
+    def update(self, seconds: float) -> Turn:
+        """Let the show go on, or begin the next one."""
+        self.age += seconds
+        if self.show is None or self.show.update(seconds) is not None:
+            self._next()
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The show, and what to press."""
+        if self.show:
+            self.show.draw(screen)
+        level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
+        color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
+        text = self.house.words("attract.press")
+        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, Demonstration) else (BODY, PAGE_PROMPT_Y)
+        plate(text, color, color, size, face="head").draw(screen, 960, y)
+
+    def _next(self) -> None:
+        self.show = next(show for show in (make() for make in self.shows) if show)
+        self.show.entered()
+
+    def _match(self, game: str) -> Scene:
+        return Demonstration(self.house, game)
+
+    def _howto(self, game: str) -> Scene:
+        from pigaming_app.scenes.howto.scene import HowTo
+
+        page = HowTo(self.house, game)
+        return Page(page, page.draw)
+
+    def _best(self, game: str) -> Scene | None:
+        """Tables of the game in which somebody has scored."""
+        there = [one for one in contests(self.house.scores) if one.game == game]
+        if not there:
+            return None
+        best = Best(self.house, secrets.choice(there))
+        return Page(best, best.paint)
+
+
+class Demonstration:
+    """AIs play for a minute."""
+
+    def __init__(self, house: House, game: str) -> None:
+        rules = GAMES[game]
+        teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.sides == FREE else rules.teams
+        one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
+        arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
+        setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.variants[0], rules.default_goal)
+        self.stage = Stage(house, seated(setup), loud=False)
+        self.warm = False
+        self.over = 0.0
+
+    def entered(self) -> None:
+        """Nothing to begin."""
+
+    def on(self, press: Press) -> Turn:
+        """Nobody is asked."""
+
+    def update(self, seconds: float) -> Turn:
+        """Play; then stand for a moment."""
+        self.warm = self.warm or self.stage.warm(3.0)
+        self.stage.advance(seconds)
+        self.over += seconds * self.stage.match.over
+        return Home() if self.over > AFTER else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The match."""
+        self.stage.draw(screen)
+
+
+class Page:
+    """A page that is only looked at."""
+
+    def __init__(self, page: Scene, paint: Callable[[pygame.Surface], None]) -> None:
+        self.page, self.paint, self.age = page, paint, 0.0
+
+    def entered(self) -> None:
+        """Begin it."""
+        self.page.entered()
+
+    def on(self, press: Press) -> Turn:
+        """Nobody is asked."""
+
+    def update(self, seconds: float) -> Turn:
+        """Stay a while."""
+        self.age += seconds
+        self.page.update(seconds)
+        return Home() if self.age > PAGE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """The page, as `paint` shows it."""
+        self.paint(screen)

@@ -1,0 +1,37 @@
+"""How an operator comes to the operator's page of a kiosk: by holding what no child holds for so long.
+
+On the title, one device is held straight ahead with its turbo button down (a shoulder button of a pad; a cluster's
+turbo key), and without fire, for five seconds. Nothing on the screen tells of it.
+"""
+
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.ui.input.events import Device
+from pigaming_app.ui.input.keyboard import CLUSTERS
+
+HOLD = 5.0  # seconds
+AHEAD = 0.9
+
+
+class Combination:
+    """Watches every device; outside a kiosk it never opens anything."""
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.since = 0.0
+
+    def held(self, seconds: float) -> bool:
+        """Let time pass; true at the moment in which the combination has been held long enough."""
+        if not self.house.kiosk:
+            return False
+        self.since = self.since + seconds if any(map(self._holds, self._devices())) else 0.0
+        if self.since < HOLD:
+            return False
+        self.since = 0.0
+        return True
+
+    def _devices(self) -> list[Device]:
+        return [*self.house.controls.pads(), *(Device("keys", number) for number in range(len(CLUSTERS)))]
+
+    def _holds(self, device: Device) -> bool:
+        drive = self.house.controls.drive(device)
+        return drive.linear > AHEAD and drive.turbo and not drive.fire

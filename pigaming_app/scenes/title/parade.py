@@ -1,0 +1,125 @@
+"""The robots of the title: each drives in, draws a line under the name, looks about, drives off, and comes again."""
+
+import math
+from itertools import pairwise
+
+import pygame
+
+from pigaming_app.scenes.title.logo import seat_robot, trail_path
+from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import ADD, LINE, PLAYERS, WHITE, Ink, Point, mix
+from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.widgets.labels import stamp
+
+COMING, STAYING, LEAVING = 1.9, 16.0, 1.3  # seconds
+APART = 0.22  # seconds between one robot and the next
+SPARK_EVERY, SPARK_SPEED = 4.0, 1500.0  # seconds, px/s: light that runs along the lines
+LOOKS = (0.0, -0.45, 0.0, 0.5, 0.15, -0.3)  # rad, where a waiting robot looks, one after the other
+LOOK_EVERY, LOOK_TURN = 1.7, 0.3  # seconds
+FAR = 2080.0  # px along x: out of sight
+
+
+def parade(screen: pygame.Surface, seconds: float) -> None:
+    """Paint lines and robots as they are so long after the title has come."""
+    for player in range(4):
+        own = seconds - APART * player
+        head, tail = _reach(own, player)
+        if head > tail:
+            lit = line(player)
+            left = max(0, round(tail) - lit.at[0])
+            area = (left, 0, round(head) - lit.at[0] - left, lit.image.get_height())
+            screen.blit(lit.image, (lit.at[0] + left, lit.at[1]), area, special_flags=ADD)
+            _spark(screen, player, own, tail, head)
+    for player in range(4):
+        own = seconds - APART * player
+        head, _ = _reach(own, player)
+        if head < FAR:
+            x, y, heading = _at(player, head)
+            stamp(screen, tank(player, step(heading + _look(own, player), HEADINGS)), x, y)
+
+
+def dot_robot(seconds: float, scale: float) -> Sprite:
+    """The robot that dots the i, looking about."""
+    return _dot_robot(step(-0.5 + 1.3 * _look(seconds + 0.6, 2), HEADINGS), scale)
+
+
+@cached
+def _dot_robot(turn: int, scale: float) -> Sprite:
+    return seat_robot(0, turn * math.tau / HEADINGS, scale)
+
+
+@cached
+@sliced
+def line(player: int) -> Steps[Lit]:
+    """The whole line that a robot draws."""
+    path = trail_path(player)
+    ys = [y for _, y in path]
+    pane = Pane(0, min(ys), 1920, max(ys) - min(ys))
+    pane.hot.line(path, PLAYERS[player], LINE)
+    yield
+    return (yield from pane.lighting())
+
+
+@cached
+def _light(player: int) -> Lit:
+    ink = Ink(96, 64)
+    for i in range(8):
+        ink.line([(16 + 4 * i, 32), (64, 32)], mix(PLAYERS[player], WHITE, 0.1 * i), 4)
+    return Lit(ink.disc(64, 32, 5, WHITE).lit(1.2), (-64, -32))
+
+
+def _reach(own: float, player: int) -> tuple[float, float]:
+    """How far the robot and the end of its line have come along x, px."""
+    stop = trail_path(player)[3][0]
+    if own < 0.0:
+        return -80.0, -80.0
+    own %= COMING + STAYING + LEAVING + 0.7
+    if own < COMING:
+        return -80.0 + (stop + 80.0) * (1.0 - (1.0 - own / COMING) ** 2.2), -80.0
+    own -= COMING + STAYING
+    if own < 0.0:
+        return stop, -80.0
+    gone = own / LEAVING
+    return min(FAR, stop + (FAR - stop) * gone**2 * 1.6), -80.0 + (FAR + 80.0) * min(1.0, gone) ** 1.5
+
+
+def _at(player: int, x: float) -> tuple[float, float, float]:
+    """Place and heading on the line, x px from the left."""
+    path = trail_path(player)
+    for (ax, ay), (bx, by) in pairwise(path):
+        if x <= bx:
+            return x, ay + (by - ay) * (x - ax) / (bx - ax), _bend(path, x)
+    return x, path[-1][1], 0.0
+
+
+def _bend(path: list[Point], x: float) -> float:
+    """The heading near a corner turns within 40 px of it."""
+    return -math.pi / 4 * (_ramp(x - path[1][0]) - _ramp(x - path[2][0]))
+
+
+def _ramp(x: float) -> float:
+    return max(0.0, min(1.0, 0.5 + x / 80.0))
+
+
+def _look(own: float, player: int) -> float:
+    """How far a waiting robot has turned away; 0 while it drives."""
+    waiting = own % (COMING + STAYING + LEAVING + 0.7) - COMING
+    if not 0.0 < waiting < STAYING or own < 0.0:
+        return 0.0
+    turns, into = divmod(min(waiting, STAYING - LOOK_EVERY * 0.6) + 0.4 * player, LOOK_EVERY)
+    ends = waiting > STAYING - LOOK_EVERY
+    now = LOOKS[(int(turns) * (player + 1)) % len(LOOKS)]
+    then = 0.0 if ends else LOOKS[((int(turns) + 1) * (player + 1)) % len(LOOKS)]
+    share = max(0.0, min(1.0, (into - LOOK_EVERY + LOOK_TURN) / LOOK_TURN))
+    return now + (then - now) * share * share * (3.0 - 2.0 * share)
+
+
+def _spark(screen: pygame.Surface, player: int, own: float, tail: float, head: float) -> None:
+    x = ((own + 1.3 * player) % SPARK_EVERY) * SPARK_SPEED - 80.0
+    if tail < x < head - 40.0:
+        _, y, heading = _at(player, x)
+        if heading == 0.0:
+            _light(player).draw(screen, round(x), round(y))

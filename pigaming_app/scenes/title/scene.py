@@ -1,0 +1,245 @@
+"""The title: the name in light, four robots that underline it, a tile for each game, and what else there is to do.
+
+When nobody is there for a while, an AI match begins.
+"""
+
+import pygame
+
+from pigaming_app.games import GAMES
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.rule_texts import kept_goal, tagline
+from pigaming_app.scenes.flow.stack import Push, Quit, Scene, Turn
+from pigaming_app.scenes.title.kiosk_unlock import Combination
+from pigaming_app.scenes.title.logo import dot_of, logo, vignette
+from pigaming_app.scenes.title.parade import dot_robot, parade
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import (
+    BODY,
+    FOCUS,
+    HAIR,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    STEEL,
+    SUB,
+    button_width,
+    dim,
+    panel,
+)
+from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Lit, Pane, backdrop, fitted, span
+from pigaming_app.ui.draw.surface_cache import cached, surfaces
+from pigaming_app.ui.i18n import LANGUAGES, NAMES
+from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.labels import (
+    blacked,
+    button_light,
+    calling,
+    calling_width,
+    chip,
+    chip_width,
+    pulse,
+    sign,
+    stamp,
+)
+
+TILE_Y, TILE_H = 416, 416
+PROMPT_Y, FOOT_Y = 906, 990
+LOGO = (LEFT + 16, 84, 30)
+
+
+class Title:
+    """The lowest scene: what the arcade comes back to."""
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.clock = 0.0
+        self.combination = Combination(house)
+        self.focus = Focus(self._spots())
+        self.game = next(iter(GAMES))  # whose tile had the focus last
+        self.lab: Scene | None = None
+
+    def entered(self) -> None:
+        """Shown, or shown again; the sprites of matches are released."""
+        surfaces.release_matches()
+        self.house.idle = 0.0
+        self.house.sounds.music(True)
+        self.focus.place(self._spots())
+
+    def on(self, press: Press) -> Turn:
+        """Directions and the mouse move the focus; FIRE, START or a click choose; ALT changes the language."""
+        if press.act is Act.ALT:
+            self._speak(self.house.words.other)
+        elif self.focus.on(press):
+            self.house.sounds.play("move")
+        self.game = self.focus.name if self.focus.name in GAMES else self.game
+        chosen = self.focus.chosen(press)
+        return self._open(chosen) if chosen else None
+
+    def update(self, seconds: float) -> Turn:
+        """Let the robots drive; after a while without anybody, show a match."""
+        self.clock += seconds
+        self.focus.update(seconds)
+        if self.combination.held(seconds):
+            from pigaming_app.scenes.options.page import OptionsPage
+
+            self.house.sounds.play("accept")
+            return Push(OptionsPage(self.house, operator=True))
+        if self.house.idle > self.house.settings.attract_seconds and not self.house.backstage.busy:
+            from pigaming_app.scenes.title.attract import Attract
+
+            return Push(Attract(self.house))
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Paint the page."""
+        words = self.house.words
+        screen.blit(ground(), (0, 0))
+        parade(screen, self.clock)
+        stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
+        for i, game in enumerate(GAMES):
+            line = tagline(words, game, kept_goal(self.house.settings, game))
+            lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
+            lit.draw(screen, *tile_rect(i).topleft)
+        self._prompt(screen)
+        self._foot(screen)
+        self.focus.draw(screen)
+
+    # ---- inside
+
+    def _open(self, name: str) -> Turn:
+        if name in LANGUAGES:
+            self._speak(name)
+            return None
+        scene = self._scene(name)
+        self.house.sounds.play("accept")
+        return Push(scene) if scene else Quit()
+
+    def _scene(self, name: str) -> Scene | None:
+        """The page of a place; pages are imported when they are wanted, so that the title comes at once."""
+        if name in GAMES:
+            from pigaming_app.scenes.lobby.scene import Lobby
+
+            return Lobby(self.house, name)
+        if name == "howto":
+            from pigaming_app.scenes.howto.scene import HowTo
+
+            return HowTo(self.house, self.game)
+        if name == "lab":
+            return self._lab()
+        if name == "options":
+            from pigaming_app.scenes.options.page import OptionsPage
+
+            return OptionsPage(self.house)
+        return None
+
+    def _lab(self) -> Scene:
+        """The Lab as it was left: the robot is still there."""
+        from pigaming_app.scenes.lab.scene import Lab
+
+        self.lab = self.lab or Lab(self.house)
+        return self.lab
+
+    def _speak(self, language: str) -> None:
+        if language != self.house.words.language:
+            self.house.words.switch(language)
+            self.house.settings.language = language
+            self.house.sounds.play("accept")
+        self.focus.place(self._spots())
+
+    def _spots(self) -> list[Spot]:
+        spots = [Spot(game, tile_rect(i)) for i, game in enumerate(GAMES)]
+        x = LEFT
+        for name in self._menu():
+            w = chip_width(self.house.words(f"title.{name}"))
+            spots.append(Spot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
+            x += w + 24
+        x = RIGHT
+        for language in reversed(LANGUAGES):
+            w = chip_width(language.upper())
+            spots.append(Spot(language, pygame.Rect(x - w, FOOT_Y - 32, w, 64)))
+            x -= w + 12
+        return spots
+
+    def _menu(self) -> tuple[str, ...]:
+        there = "howto", "lab", "options"
+        return there if self.house.kiosk else (*there, "quit")
+
+    def _prompt(self, screen: pygame.Surface) -> None:
+        """The line that asks for a press, and says what it opens, between arrows that run towards it."""
+        said, label = self.asked
+        calling(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
+        reach = calling_width(said, label, SUB) / 2 + 44
+        for k in range(3):
+            level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
+            sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
+            sign("left", 24, FOCUS, LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
+
+    @property
+    def asked(self) -> tuple[str, str]:
+        """The line that asks for a press, and the label of the button in it."""
+        words, name = self.house.words, self.focus.name
+        label = words.printed(self.house.controls.label(None, Act.FIRE))
+        if name in GAMES:
+            return words("title.press", button="{button}"), label
+        return words("title.choose", button="{button}", what=self._what(name)), label
+
+    def _what(self, name: str) -> str:
+        """What a chip opens, as its label says."""
+        return NAMES[name] if name in LANGUAGES else self.house.words(f"title.{name}")
+
+    def _foot(self, screen: pygame.Surface) -> None:
+        words = self.house.words
+        for name in (*self._menu(), *LANGUAGES):
+            lit = name == words.language if name in LANGUAGES else name == self.focus.name
+            said, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
+            chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
+        label = self.house.controls.label(None, Act.ALT)
+        if label:
+            button_light(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
+
+
+def tile_rect(i: int) -> pygame.Rect:
+    """Where the tile of a game is, the i-th from the left."""
+    x, w = span(4 * i, 4)
+    return pygame.Rect(x, TILE_Y, w, TILE_H)
+
+
+@cached
+@sliced
+def ground() -> Steps[pygame.Surface]:
+    """What never changes: the floor's dots, the name, and black where the tiles are."""
+    pane = Pane(LEFT, 54, 1210, 260)
+    logo(pane.hot, *LOGO)
+    name = yield from pane.lighting()
+    out = backdrop().copy()
+    name.draw(out)
+    return blacked(out, *map(tile_rect, range(len(GAMES))))
+
+
+@cached
+@sliced
+def tile(game: str, name: str, line: str, hot: bool) -> Steps[Lit]:
+    """A game's picture and name, its upper left at (0, 0)."""
+    w = span(0, 4)[1]
+    pane = Pane(0, 0, w, TILE_H)
+    panel(pane.hot, 0, 0, w, TILE_H, dim(FOCUS, 0.55) if hot else STEEL)
+    pane.hot.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
+    color = FOCUS if hot else ICE
+    pane.page.text(name, fitted(name, LABEL, w - 64), 32, 326, color)
+    pane.page.body(line, 32, 380, ICE if hot else MIST, "l", fitted(line, BODY, w - 64, "body"))
+    picture = _picture(game)
+    lit = yield from pane.lighting()
+    picture.draw(lit.image, -lit.at[0], -lit.at[1])
+    return lit
+
+
+@cached
+@sliced
+def _picture(game: str) -> Steps[Lit]:
+    pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
+    vignette(game, pane.hot, MARGIN, MARGIN)
+    yield
+    lit = yield from pane.lighting()
+    return Lit(lit.image, (-MARGIN, -MARGIN))

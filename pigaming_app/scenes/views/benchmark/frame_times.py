@@ -1,0 +1,85 @@
+"""How long the pictures of a game take: its busiest match, on a display that nobody sees.
+
+Two hundred particles are kept in the air, and every number of the match moves.
+"""
+
+from collections.abc import Callable
+from time import perf_counter
+from typing import Any, Protocol
+
+import pygame
+
+from pigaming_app.ai import seated
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes.views import VIEWS
+from pigaming_app.scenes.views.benchmark import pitanks as busy
+from pigaming_app.scenes.views.benchmark import race as race_busy
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import DT
+from pigaming_app.ui.i18n import Words
+
+PARTICLES = 200
+FPS = 60
+FIRST = 60  # frames that are not counted
+
+
+class Scene(Protocol):
+    """A match, or what looks like one."""
+
+    arena: Arena
+    state: Any
+
+    def tick(self) -> None:
+        """Advance by 1/50 s."""
+
+
+class Works:
+    """A factory with eight pallets a team and drivers in a hurry; somebody is always frozen."""
+
+    def __init__(self) -> None:
+        rules = GAMES["factory"]
+        one, two, three, four = (Seat("hard", team) for team in rules.teams)
+        setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, "standard", max(rules.goals))
+        self.match = seated(setup)
+        self.arena, self.state = self.match.arena, self.match.state
+
+    def tick(self) -> None:
+        """Advance by 1/50 s."""
+        self.match.tick()
+        frozen = self.state.loads[3]
+        frozen.frozen = frozen.frozen or self.state.rules.freeze
+
+
+BUSY: dict[str, Callable[[], Scene]] = {
+    "pitanks": busy.Busy,
+    "factory": Works,
+    "race": lambda: race_busy.Busy(laps=max(GAMES["race"].goals)),
+}
+
+
+def frame_times(game: str, frames: int) -> list[float]:
+    """Milliseconds of so many frames at 60 a second, warm. The caller has chosen the dummy driver."""
+    pygame.display.init()
+    pygame.font.init()
+    screen = pygame.display.set_mode((1920, 1080))
+    scene = BUSY[game]()
+    view = VIEWS[game](scene.arena, scene.state, ["human", "human", "easy", "hard"], busy.Full(), Words("en"))
+    while not view.warm(1000.0):
+        pass
+    times, owed = [], 0.0
+    for frame in range(frames + FIRST):
+        owed += 1 / FPS
+        while owed >= DT:
+            scene.tick()
+            view.watch(scene.state)
+            owed -= DT
+        missing = PARTICLES - len(view.moments.particles)
+        if missing > 0:
+            view.moments.burst(960, 540, (60, 160, 255), missing, 40, 300)
+        began = perf_counter()
+        view.draw(screen, scene.state, owed / DT, 1 / FPS)
+        if frame >= FIRST:
+            times.append(1000.0 * (perf_counter() - began))
+    return times

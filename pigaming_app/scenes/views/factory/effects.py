@@ -1,0 +1,73 @@
+"""What a happening of Robot Factory looks and sounds like."""
+
+from collections.abc import Iterable
+
+from pigaming_app.games.factory.state import Factory
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.factory.events import (
+    DELIVERY,
+    DONE,
+    LIFTED,
+    RENEWED,
+    SET_DOWN,
+    SPOILED,
+    STARTED,
+    THAWED,
+    Happening,
+)
+from pigaming_app.scenes.views.particles import Moments
+from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
+from pigaming_app.scenes.views.view import Heard, Taste
+from pigaming_app.ui.draw.ink import ALARM
+
+POP = 0.12  # seconds in which a crate that was moved snaps to its size
+
+
+class Popping:
+    """Crates that have just been lifted or set down are a little larger for a moment."""
+
+    def __init__(self) -> None:
+        self.since: dict[int, float] = {}
+
+    def begin(self, pallet: int, now: float) -> None:
+        """This one has just been moved."""
+        self.since[pallet] = now
+
+    def tenths(self, pallet: int, now: float) -> int:
+        """How large it is, in tenths."""
+        share = (now - self.since.get(pallet, -9.0)) / POP
+        return 10 if share >= 1.0 else 13 - round(3 * share)
+
+
+def react(
+    happenings: Iterable[Happening], state: Factory, moments: Moments, popping: Popping, taste: Taste
+) -> list[Heard]:
+    """Put what happened into the air; answers what is heard of it."""
+    heard: list[Heard] = []
+    for one in happenings:
+        x, y = LEFT + one.x, TOP + one.y
+        if one.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
+            popping.begin(one.what, moments.clock)
+        match one.kind:
+            case "delivered":
+                color = TEAMS[state.pallets[one.what].team]
+                moments.burst(x, y, color, 30, 30, 120)
+                if taste.flashes != "off":
+                    moments.shock(x, y, color)
+                if taste.flashes == "full":
+                    moments.glow(x, y, color)
+                if one.player is not None:
+                    moments.score(x, y - 70, "+1", one.player)
+            case "spoiled":
+                moments.burst(x, y, ALARM, 24, 26, 100)
+                if taste.flashes == "full" and taste.shake:
+                    moments.shake()
+            case "machine_done":
+                moments.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)
+            case "freeze":
+                moments.burst(x, y, ALARM, 16, 50, 70)
+            case _:
+                pass
+        if one.kind not in (THAWED, STARTED):
+            heard.append((one.kind, one.player, one.x))
+    return heard

@@ -1,0 +1,143 @@
+"""The panels over a match of Robot Factory: what each team has delivered, its robots, the state of its pallets.
+
+They are baked into the ground whenever what they say changes.
+"""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+
+import pygame
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.games.factory.state import DELIVERED, MOST_PALLETS, TEAMS
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
+from pigaming_app.scenes.views.pitanks.hud import ALARM_SECONDS, number_bits
+from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
+from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
+from pigaming_app.scenes.views.sprites.pickups import glyph, number_width
+from pigaming_app.sim.world import HZ
+from pigaming_app.ui.draw.ink import ALARM, ICE, LABEL, LINE, MIST, PLAYERS, SUB, TITLE, Ink, badge, cut, dim, icon
+from pigaming_app.ui.draw.sprites import Sprite, faded
+from pigaming_app.ui.draw.surface_cache import cached
+
+Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin round its sprites
+X = (160, 1108)
+EMBLEM, NUMBER, ROBOT, CRATES = 58, 106, 268, 330  # px from a panel's outer edge
+
+
+class FactoryHud:
+    """Keeps the ground saying what the match says. `players`: who sits where; names in BRAINS are marked as AI."""
+
+    def __init__(self, ground: Ground, players: list[str]) -> None:
+        self.ground, self.players = ground, players
+        self.said: dict[object, object] = {}
+        self.delivered = [0] * TEAMS
+
+    def show(self, state: Any) -> list[int]:
+        """Bake what has changed; answers the teams that have delivered something."""
+        new = [team for team in range(TEAMS) if state.delivered[team] > self.delivered[team]]
+        self.delivered = list(state.delivered)
+        for team in range(TEAMS):
+            mates = tuple(
+                (i, self.players[i] in BRAINS["factory"], round(16 * robot.turbo))
+                for i, robot in enumerate(state.robots)
+                if robot.present and robot.team == team
+            )
+            first = team * MOST_PALLETS
+            states = tuple(
+                sorted((one.state for one in state.pallets[first : first + MOST_PALLETS] if one.exists), key=order)
+            )
+            says = state.delivered[team], state.rules.pallets, mates, states
+            if self.said.get(team) != says:
+                box = pygame.Rect(X[team] - 8, 0, W + 16, HUD_HEIGHT)
+                self.ground.bake(box, [*panel_bits(team, *says)])
+                self.said[team] = says
+        left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
+        if self.said.get("clock") != left:
+            text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
+            x = 960 - number_width(text, TITLE) / 2
+            self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 82, color))
+            self.said["clock"] = left
+        return new
+
+    def jobs(self) -> Iterator[Callable[[], object]]:
+        """The pieces of the panels, each made by one small job."""
+        for team in range(TEAMS):
+            yield partial(frame, team)
+            yield partial(pulse, team)
+            for char in "0123456789":
+                yield partial(glyph, char, SUB, ICE)
+            for state in range(DELIVERED + 1):
+                yield partial(small_crate, team, state, 52)
+
+
+def order(state: int) -> int:
+    """Delivered pallets come first, then those that are nearest to it; the damaged ones last."""
+    return (3, 2, 1, 4, 0)[state]
+
+
+def panel_bits(
+    team: int, delivered: int, whole: int, mates: tuple[tuple[int, bool, int], ...], states: tuple[int, ...]
+) -> Iterator[Bit]:
+    """The pieces of a panel; that of the second team is a mirror of the first."""
+    x = X[team]
+    yield frame(team), (x - EDGE, Y - EDGE), None
+
+    def at(px: float, width: float) -> float:
+        return x + px if team == 0 else x + W - px - width
+
+    text, of = str(delivered), f"/{whole}"
+    wide, rest = number_width(text, SUB), number_width(of, LABEL)
+    begin = at(NUMBER, wide + rest + 4)
+    yield from number_bits(text, SUB, begin, Y + H / 2, ICE)
+    yield from number_bits(of, LABEL, begin + wide + 4, Y + H / 2 + 7, MIST)
+    for i, (seat, ai, turbo) in enumerate(mates):
+        image = robot_sign(seat, ai, turbo)
+        y = Y + H / 2 + (0 if len(mates) == 1 else -25 + 50 * i)
+        yield image, (round(at(ROBOT, 0)) - image.get_width() // 2, round(y) - image.get_height() // 2), None
+    room = W - CRATES - 16
+    size, pitch = (52, 66) if len(states) <= 4 else (40, 42) if len(states) <= 7 else (36, 38)
+    pitch = min(pitch, room // max(1, len(states)))
+    for i, state in enumerate(states):
+        image = small_crate(team, state, size)
+        px = CRATES + pitch * i + pitch / 2
+        yield image, (round(at(px, 0)) - image.get_width() // 2, round(Y + H / 2) - image.get_height() // 2), None
+
+
+@cached
+def frame(team: int) -> pygame.Surface:
+    """Outline and emblem of a panel."""
+    ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink.fill(cut(0, 0, W, H), dim(COLORS[team], 0.05)).line(cut(0, 0, W, H), COLORS[team], LINE, True)
+    emblem(ink, team, EMBLEM if team == 0 else W - EMBLEM, H / 2, 34)
+    return ink.lit(0.6)
+
+
+@cached
+def small_crate(team: int, state: int, size: int) -> pygame.Surface:
+    """A crate in a panel."""
+    ink = Ink(size + 28, size + 28, 3)
+    draw_crate(ink, team, state, size / 2 + 14, size / 2 + 14, size)
+    return ink.lit(0.5)
+
+
+@cached
+def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
+    """A robot of the team: badge, the mark of an AI, and its turbo, of 16."""
+    ink = Ink(120, 52, 3)
+    badge(ink, seat, 34, 22, 18)
+    if ai:
+        icon(ink, "ai", 80, 20, 13, MIST, 3)
+    ink.line([(14, 46), (104, 46)], dim(PLAYERS[seat], 0.2), 4)
+    if turbo:
+        ink.line([(14, 46), (14 + 90 * turbo / 16, 46)], PLAYERS[seat], 4)
+    return ink.lit(0.4)
+
+
+@cached
+def pulse(team: int) -> tuple[Sprite, ...]:
+    """A panel that lights up at a delivery, and how that fades; from its upper left corner."""
+    ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE).fill(cut(0, 0, W, H), dim(COLORS[team], 0.24))
+    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
+    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))

@@ -1,0 +1,95 @@
+"""Where to go next: a dashed arrow for people, small corners round what AIs are making for."""
+
+import math
+
+from pigaming_app.games.factory.layout import FORK
+from pigaming_app.games.factory.rules import may_lift, may_set_down
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, INPUT, SLOTS, Factory
+from pigaming_app.games.factory.workers import fits
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.sprites import factory as crates
+from pigaming_app.scenes.views.view import Pose
+from pigaming_app.ui.draw.ink import PLAYERS, dim
+from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
+
+EVERY = 10  # ticks between two looks
+PITCH, SPEED = 34.0, 50.0  # px from dash to dash, px/s at which they run
+AIMS = 0.8  # of a driver's colour, for what it is making for
+STAY = 120.0  # px by which another slot must be nearer before the arrow turns to it
+
+
+class Guide:
+    """Knows for each seat the slot to which it should go; -1: none."""
+
+    def __init__(self, players: list[str]) -> None:
+        self.players = players
+        self.slots = [-1] * len(players)
+
+    def look(self, state: Factory) -> None:
+        """Think again now and then."""
+        for seat, robot in enumerate(state.robots):
+            if not robot.present or (state.tick + seat) % EVERY:
+                continue
+            if self.players[seat] == "human":
+                self.slots[seat] = advised(state, seat, self.slots[seat])
+            else:
+                self.slots[seat] = state.loads[seat].aim - 1
+
+    def draw(self, light: Batch, state: Factory, seat: int, pose: Pose, clock: float) -> None:
+        """The arrow, or the corners."""
+        s, human = self.slots[seat], self.players[seat] == "human"
+        if s < 0 or state.over:
+            return
+        x, y = LEFT + state.slots[s].x, TOP + state.slots[s].y
+        put(light, crates.target(PLAYERS[seat] if human else dim(PLAYERS[seat], AIMS), not human), x, y)
+        from_x, from_y = pose[0] + FORK * math.cos(pose[2]), pose[1] + FORK * math.sin(pose[2])
+        way = math.dist((from_x, from_y), (x, y))
+        if not human or way < 90.0:
+            return
+        angle = math.atan2(y - from_y, x - from_x)
+        c, s_ = math.cos(angle), math.sin(angle)
+        turn, end = step(angle, HEADINGS), way - 66.0
+        put(light, crates.arrow(PLAYERS[seat], turn), from_x + end * c, from_y + end * s_)
+        at = 30.0 + clock * SPEED % PITCH
+        while at < end - 24.0:
+            put(light, crates.dash(PLAYERS[seat], turn), from_x + at * c, from_y + at * s_)
+            at += PITCH
+
+
+def advised(state: Factory, seat: int, before: int) -> int:
+    """The nearest slot at which a robot could do what is next; a job further on comes before one at its beginning."""
+    robot, load = state.robots[seat], state.loads[seat]
+    best, least = -1, 1e9
+    for s in range(SLOTS):
+        slot = state.slots[s]
+        useful = _useful_to_put(state, seat, s) if load.pallet else _useful_to_lift(state, seat, s)
+        if useful < 0.0:
+            continue
+        cost = math.dist((robot.x, robot.y), (slot.x, slot.y)) + useful - (STAY if s == before else 0.0)
+        if cost < least:
+            best, least = s, cost
+    return best
+
+
+def _useful_to_put(state: Factory, seat: int, s: int) -> float:
+    """What it costs besides the way to put the load there; below 0: it does not belong there."""
+    slot, pallet = state.slots[s], state.pallets[state.loads[seat].pallet - 1]
+    if not may_set_down(state, seat, s):
+        return -1.0
+    if pallet.state == DAMAGED:
+        return 0.0 if slot.kind == ENTRY else -1.0
+    if slot.kind == INPUT:
+        machine = state.machines[slot.machine]
+        return -1.0 if not fits(machine.kind, pallet.state) else 300.0 if machine.keeps else 0.0
+    return 0.0 if slot.kind == EXIT and pallet.state == DONE else -1.0
+
+
+def _useful_to_lift(state: Factory, seat: int, s: int) -> float:
+    """What it costs besides the way to lift what lies there; below 0: nothing, or it lies where it should."""
+    slot = state.slots[s]
+    if not may_lift(state, seat, s):
+        return -1.0
+    pallet = state.pallets[slot.pallet - 1]
+    if pallet.state == DAMAGED or (slot.kind == INPUT and fits(state.machines[slot.machine].kind, pallet.state)):
+        return -1.0
+    return 400.0 if slot.kind == ENTRY else 0.0

@@ -1,0 +1,63 @@
+"""Sprites that a match of Robot Factory will ask for besides those of driving robots."""
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MOST_PALLETS, SHELVES, TEAMS, A, B
+from pigaming_app.scenes.views.factory.next_step import AIMS
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites import factory as crates
+from pigaming_app.scenes.views.sprites import pickups as things
+from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.ink import ALARM, ICE, PLAYERS, TITLE, dim
+from pigaming_app.ui.draw.sprites import HEADINGS
+
+
+def jobs(seats: Sequence[int]) -> Iterator[Job]:
+    """One small piece of work after the other."""
+    for team in range(TEAMS):
+        for turn in range(HEADINGS):
+            yield partial(crates.forks, team, turn)
+        for state in range(DELIVERED + 1):
+            for tenths in (10, 13, 12, 11):
+                yield partial(crates.crate, team, state, tenths)
+        yield from (partial(crates.busy, team, kind) for kind in (A, B))
+        yield from (partial(crates.count, number, team) for number in range(1, MOST_PALLETS + 1 - SHELVES))
+    for working in (False, True):
+        for stride in range(crates.STRIDE):
+            for turn in range(crates.PERSON_TURNS):
+                yield partial(crates.person, turn, stride, working)
+    for part in range(crates.COUNTS + 1):
+        yield partial(crates.progress, HALF, part)
+        yield partial(crates.progress, DONE, part)
+        yield partial(crates.frozen, part)
+    for char in "0123456789:":
+        for color in (ICE, ALARM):
+            yield partial(things.glyph, char, TITLE, color)
+    for seat in seats:
+        yield partial(crates.target, PLAYERS[seat], False)
+        yield partial(crates.target, dim(PLAYERS[seat], AIMS), True)
+        for turn in range(HEADINGS):
+            yield partial(crates.dash, PLAYERS[seat], turn)
+            yield partial(crates.arrow, PLAYERS[seat], turn)
+    yield from _moments(seats)
+
+
+def _moments(seats: Sequence[int]) -> Iterator[Job]:
+    for number in (1, 2, 3):
+        yield partial(crates.digit, number)
+    for seconds in range(1, 11):
+        yield partial(crates.awaited, seconds)
+    yield from (crates.exclaim, crates.cross)
+    for color in (*crates.TEAMS, ALARM, crates.STATES[HALF], crates.STATES[DONE]):
+        for size in effects.SPARK_SIZES:
+            for turn in range(effects.SPARK_TURNS):
+                yield partial(effects.sparks, color, size, turn)
+    for color in crates.TEAMS:
+        for stage in range(effects.WAVE_STEPS):
+            yield partial(effects.wave, color, stage)
+        for level in range(effects.LIGHT_LEVELS, 0, -1):
+            yield partial(effects.light, color, level)
+    for seat in seats:
+        for level in range(things.POPUP_LEVELS, 0, -1):
+            yield partial(things.popup, "+1", seat, level)

@@ -1,0 +1,150 @@
+"""What a match leaves in the air for a moment: sparks, shards, shocks, light, scores that rise, and the shake of a hit.
+
+It lives in real time, has its own random generator, and is bounded: a burst that finds no room is smaller.
+"""
+
+import math
+import random
+from typing import NamedTuple
+
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.sprites.effects import (
+    LIGHT_LEVELS,
+    SHARDS,
+    SPARK_SIZES,
+    SPARK_TURNS,
+    WAVE_STEPS,
+    light,
+    shards,
+    sparks,
+    wave,
+)
+from pigaming_app.scenes.views.sprites.pickups import POPUP_LEVELS, popup
+from pigaming_app.sim.world import WIDTH
+from pigaming_app.ui.draw.ink import Color
+from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step
+
+MOST = 320  # particles alive
+SHAKE = 0.28  # seconds
+RISE, RISING = 60.0, 0.8  # px, seconds
+Cone = tuple[float, float]  # middle and half width, rad
+ALL: Cone = (0.0, math.pi)
+
+
+class Particle(NamedTuple):
+    """Flies (dx, dy) px in `life` seconds, ever slower and dimmer; the last of `frames` is the brightest."""
+
+    born: float
+    life: float
+    x: float
+    y: float
+    dx: float
+    dy: float
+    frames: tuple[Sprite, ...]
+
+
+class Bloom(NamedTuple):
+    """Light at a place that runs through its frames once."""
+
+    born: float
+    life: float
+    x: float
+    y: float
+    frames: tuple[Sprite, ...]
+
+
+class Score(NamedTuple):
+    """A number that rises."""
+
+    born: float
+    x: float
+    y: float
+    text: str
+    player: int
+
+
+class Moments:
+    """All of them, in canvas px and seconds."""
+
+    def __init__(self) -> None:
+        self.clock = 0.0
+        self.random = random.Random(7)
+        self.particles: list[Particle] = []
+        self.blooms: list[Bloom] = []
+        self.scores: list[Score] = []
+        self.shaken = -1.0
+
+    def burst(self, x: float, y: float, color: Color, count: int, start: float, reach: float, cone: Cone = ALL) -> None:
+        """Sparks that fly from `start` px round (x, y) up to `reach` px further, within a cone."""
+        for _ in range(min(count, MOST - len(self.particles))):
+            a = cone[0] + self.random.uniform(-cone[1], cone[1])
+            c, s, far = math.cos(a), math.sin(a), reach * self.random.random() ** 0.6
+            near = start * self.random.uniform(1.0, 1.3)
+            frames = sparks(color, self.random.choice(SPARK_SIZES), step(a, SPARK_TURNS))
+            life = self.random.uniform(0.3, 0.75)
+            self.particles.append(Particle(self.clock, life, x + near * c, y + near * s, far * c, far * s, frames))
+
+    def debris(self, ax: float, ay: float, bx: float, by: float, count: int) -> None:
+        """Splinters from all along a line."""
+        for _ in range(min(count, MOST - len(self.particles))):
+            t, a, far = self.random.random(), self.random.uniform(0, math.tau), self.random.uniform(20, 90)
+            frames = shards(self.random.randrange(SHARDS), self.random.randrange(SPARK_TURNS))
+            x, y, life = ax + (bx - ax) * t, ay + (by - ay) * t, self.random.uniform(0.5, 1.1)
+            self.particles.append(Particle(self.clock, life, x, y, far * math.cos(a), far * math.sin(a), frames))
+
+    def shock(self, x: float, y: float, color: Color) -> None:
+        """A wave that runs out over the ground."""
+        self.bloom(x, y, 0.45, tuple(wave(color, i) for i in range(WAVE_STEPS)))
+
+    def glow(self, x: float, y: float, color: Color, seconds: float = 0.35) -> None:
+        """Light on the ground that goes out."""
+        self.bloom(x, y, seconds, tuple(light(color, i) for i in range(LIGHT_LEVELS, 0, -1)))
+
+    def bloom(self, x: float, y: float, seconds: float, frames: tuple[Sprite, ...]) -> None:
+        """Any light that runs through its frames once."""
+        self.blooms.append(Bloom(self.clock, seconds, x, y, frames))
+
+    def score(self, x: float, y: float, text: str, player: int) -> None:
+        """A number over a robot, inside the arena; it takes the place of one like it."""
+        x, y = min(max(x, LEFT + 60), LEFT + WIDTH - 60), max(y, TOP + 48 + RISE)
+        self.scores = [one for one in self.scores if (one.player, one.text[0]) != (player, text[0])]
+        self.scores.append(Score(self.clock, x, y, text, player))
+
+    def shake(self) -> None:
+        """Shake the picture a little."""
+        self.shaken = self.clock
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass."""
+        self.clock += seconds
+        now = self.clock
+        self.particles = [one for one in self.particles if now - one.born < one.life]
+        self.blooms = [one for one in self.blooms if now - one.born < one.life]
+        self.scores = [one for one in self.scores if now - one.born < RISING]
+
+    @property
+    def offset(self) -> tuple[int, int]:
+        """How far the picture is shaken, px."""
+        left = 1.0 - (self.clock - self.shaken) / SHAKE if self.shaken >= 0.0 else 0.0
+        if left <= 0.0:
+            return 0, 0
+        swing = 7.0 * left * left
+        return round(swing * math.sin(self.clock * 71.0)), round(swing * math.cos(self.clock * 83.0))
+
+    def draw_light(self, batch: Batch) -> None:
+        """Everything that is added."""
+        now = self.clock
+        for born, life, x, y, dx, dy, frames in self.particles:
+            t = (now - born) / life
+            far = t * (2.0 - t)
+            image, ox, oy = frames[int((1.0 - t) * len(frames))] if t > 0.0 else frames[-1]
+            batch.append((image, (int(x + dx * far + ox), int(y + dy * far + oy))))
+        for born, life, x, y, frames in self.blooms:
+            put(batch, frames[int((now - born) / life * len(frames))], x, y)
+
+    def draw_scores(self, batch: Batch) -> None:
+        """The numbers, which hide what is below them."""
+        for born, x, y, text, player in self.scores:
+            t = (self.clock - born) / RISING
+            level = POPUP_LEVELS if t < 0.6 else max(1, math.ceil(POPUP_LEVELS * (1.0 - t) / 0.4))
+            put(batch, popup(text, player, level), x, y - RISE * (1.0 - (1.0 - t) ** 2))

@@ -1,0 +1,93 @@
+"""The ground of PiTanks: frame, grid, the places on which robots begin, and walls, drawn again when they break."""
+
+import math
+from functools import partial
+from typing import Any
+
+import pygame
+
+from pigaming_app.scenes.views.background import LEFT, TOP, Ground
+from pigaming_app.scenes.views.sprites.wall import wall
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import LINE, PLAYERS, PRE, WALL, Page, cut, dim, shape_points
+from pigaming_app.ui.draw.sprites import Sprite
+from pigaming_app.ui.draw.surface_cache import cached
+
+Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
+
+
+class Walled(Ground):
+    """The ground of a match with walls that break."""
+
+    def __init__(self, state: Any, starts: Starts) -> None:
+        super().__init__(partial(bare, starts))
+        self.health: list[int] = [0] * state.wall_count
+        self.sprites: list[Sprite | None] = [None] * state.wall_count
+
+    def show_walls(self, state: Any) -> None:
+        """Bake walls whose health has changed."""
+        for i in range(state.wall_count):
+            one = state.walls[i]
+            if self.sprites[i] is None or one.health != self.health[i]:
+                before, now = self.sprites[i], wall_sprite(one, one.health)
+                self.health[i], self.sprites[i] = one.health, now
+                box = _box(one, now)
+                self._bake_walls(state, box.union(_box(one, before)) if before else box)
+
+    def _bake_walls(self, state: Any, box: pygame.Rect) -> None:
+        self.surface.set_clip(box)
+        self.surface.blit(self.bare, box, box)
+        for one, sprite in zip(state.walls, self.sprites, strict=False):
+            if sprite:
+                at = _box(one, sprite)
+                if at.colliderect(box):
+                    self.surface.blit(sprite.image, at, special_flags=PRE)
+        self.surface.set_clip(None)
+
+
+def wall_sprite(one: Any, health: int) -> Sprite:
+    """A wall of a match with so much health."""
+    length = math.dist((one.ax, one.ay), (one.bx, one.by)) + 2 * one.half - 4
+    angle = math.atan2(one.by - one.ay, one.bx - one.ax)
+    return wall(length, 2 * one.half - 4, angle, health, int(one.ax * 7 + one.ay * 13 + one.bx), max(1, one.whole))
+
+
+def _box(one: Any, sprite: Sprite) -> pygame.Rect:
+    x, y = LEFT + (one.ax + one.bx) / 2, TOP + (one.ay + one.by) / 2
+    return sprite.image.get_rect(topleft=(int(x + sprite.dx + 0.5), int(y + sprite.dy + 0.5)))
+
+
+@cached
+@sliced
+def bare(starts: Starts) -> Steps[pygame.Surface]:
+    """Grid, frame and the shapes on which robots begin."""
+    page = Page()
+    hot, cold = page.hot, page.cold
+    _grid(page)
+    yield
+    for seat, x, y in starts:
+        pad = [(LEFT + x + py, TOP + y - px) for px, py in shape_points(seat, 40)]
+        cold.line(pad, dim(PLAYERS[seat], 0.20), 3, True)
+    hot.neon(cut(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
+    cold.line(cut(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
+    yield
+    return (yield from page.lighting())
+
+
+def _grid(page: Page) -> None:
+    cold = page.cold
+    for x in range(50, int(WIDTH), 50):
+        for y in range(50, int(HEIGHT), 50):
+            px, py = LEFT + x, TOP + y
+            if x % 200 == 0 and (y - 50) % 200 == 0:
+                cold.line([(px - 7, py), (px + 7, py)], (34, 48, 70), 2).line(
+                    [(px, py - 7), (px, py + 7)], (34, 48, 70), 2
+                )
+            else:
+                cold.disc(px, py, 1.6, (26, 37, 54))
+    cx, cy = LEFT + WIDTH / 2, TOP + HEIGHT / 2
+    cold.ring(cx, cy, 150, (20, 29, 43), 3).ring(cx, cy, 164, (20, 29, 43), 2)
+    for i in range(24):
+        c, s = math.cos(i * math.tau / 24), math.sin(i * math.tau / 24)
+        cold.line([(cx + 172 * c, cy + 172 * s), (cx + 180 * c, cy + 180 * s)], (24, 35, 52), 3)

@@ -1,0 +1,139 @@
+"""What happened in a tick of PiTanks, found by comparing a match with what it was before. Nothing here writes to it.
+
+The engine sends no messages: it is a record of numbers, also inside a compiled rollout. Whoever looks, remembers.
+"""
+
+import math
+from typing import NamedTuple
+
+from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
+from pigaming_app.sim.robot import RADIUS
+
+NEAR = RADIUS + 20.0  # px between a robot and a bullet that it stopped
+
+
+class Happening(NamedTuple):
+    """One thing that happened at (x, y), px; `angle`: which way it points, rad.
+
+    kind        player   number
+    fire        who      -
+    stopped     whose    -       a bullet ended on a wall, or on a robot that could not be hit
+    bounced     whose    -
+    cracked     -        which wall
+    crumbled    -        which wall
+    hit         victim   how often
+    shielded    victim   -
+    scored      who      how many
+    pickup      who      which power
+    power_end   who      which power
+    mine_laid   whose    -
+    mine_blown  whose    -
+    """
+
+    kind: str
+    player: int | None
+    x: float
+    y: float
+    angle: float = 0.0
+    number: int = 0
+
+
+class _Shot(NamedTuple):
+    alive: int
+    x: float
+    y: float
+    vx: float
+    vy: float
+
+
+class Watcher:
+    """Remembers one match from tick to tick."""
+
+    def __init__(self, state: PiTanks) -> None:
+        self._remember(state)
+
+    def look(self, state: PiTanks) -> list[Happening]:
+        """What has happened since the last look."""
+        found = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
+        self._remember(state)
+        return found
+
+    def _remember(self, state: PiTanks) -> None:
+        self.tanks = [(t.shots, t.hits, t.taken, tuple(t.powers)) for t in state.tanks]
+        self.shots = [_shot(bullet) for bullet in state.bullets]
+        self.walls = [wall.health for wall in state.walls]
+        self.mines = [(mine.alive, mine.x, mine.y) for mine in state.mines]
+        self.places = [(robot.x, robot.y) for robot in state.robots]
+
+    def _tanks(self, state: PiTanks) -> list[Happening]:
+        found = []
+        for k, (tank, robot) in enumerate(zip(state.tanks, state.robots, strict=True)):
+            shots, hits, taken, powers = self.tanks[k]
+            x, y = robot.x, robot.y
+            if tank.shots > shots:
+                found.append(Happening("fire", k, x, y, robot.heading))
+            if tank.hits > hits:
+                found.append(Happening("scored", k, x, y, 0.0, tank.hits - hits))
+            if tank.taken > taken:
+                found.append(Happening("hit", k, x, y, 0.0, tank.taken - taken))
+            for power in range(len(POWERS)):
+                before, now = powers[power], tank.powers[power]
+                if now > before:
+                    found.append(Happening("pickup", k, x, y, 0.0, power))
+                elif power == SHIELD and before > 1 and not now:
+                    found.append(Happening("shielded", k, x, y))
+                elif before == 1 and not now:
+                    found.append(Happening("power_end", k, x, y, 0.0, power))
+        return found
+
+    def _bullets(self, state: PiTanks) -> list[Happening]:
+        found = []
+        for i, bullet in enumerate(state.bullets):
+            before, owner = self.shots[i], i // OWN_BULLETS
+            if bullet.alive and before.alive and (bullet.vx != before.vx or bullet.vy != before.vy):
+                found.append(Happening("bounced", owner, bullet.x, bullet.y, math.atan2(bullet.vy, bullet.vx)))
+            elif not bullet.alive and (before.alive or (bullet.x, bullet.y) != (before.x, before.y)):
+                victim = self._stopped_by(state, bullet, owner)
+                if victim is None or state.tanks[victim].taken == self.tanks[victim][2]:
+                    angle = math.atan2(-bullet.vy, -bullet.vx)
+                    found.append(Happening("stopped", owner, bullet.x, bullet.y, angle))
+        return found
+
+    def _stopped_by(self, state: PiTanks, bullet: Bullet, owner: int) -> int | None:
+        """The robot on which a bullet ended. Robots have moved on since: where they were counts."""
+        for k, (x, y) in enumerate(self.places):
+            robot = state.robots[k]
+            if (
+                robot.present
+                and robot.team != state.robots[owner].team
+                and math.dist((x, y), (bullet.x, bullet.y)) < NEAR
+            ):
+                return k
+        return None
+
+    def _walls(self, state: PiTanks) -> list[Happening]:
+        found = []
+        for i in range(state.wall_count):
+            wall = state.walls[i]
+            if wall.health != self.walls[i]:
+                x, y, angle = (
+                    (wall.ax + wall.bx) / 2,
+                    (wall.ay + wall.by) / 2,
+                    math.atan2(wall.by - wall.ay, wall.bx - wall.ax),
+                )
+                found.append(Happening("cracked" if wall.health else "crumbled", None, x, y, angle, i))
+        return found
+
+    def _mines(self, state: PiTanks) -> list[Happening]:
+        found = []
+        for i, mine in enumerate(state.mines):
+            alive, _, _ = self.mines[i]
+            if mine.alive > alive:
+                found.append(Happening("mine_laid", i // OWN_MINES, mine.x, mine.y))
+            elif alive > 1 and not mine.alive:
+                found.append(Happening("mine_blown", i // OWN_MINES, mine.x, mine.y))
+        return found
+
+
+def _shot(bullet: Bullet) -> _Shot:
+    return _Shot(bullet.alive, bullet.x, bullet.y, bullet.vx, bullet.vy)

@@ -1,0 +1,263 @@
+"""The panels and the clock over a PiTanks match, baked into the ground whenever what they say changes.
+
+Free-for-all: a panel for each seat, two left and two right of the clock. Two teams: one on each side, their sum beside
+the clock and linked to their panels.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import pygame
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.games.pitanks.state import POWERS
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
+from pigaming_app.scenes.views.sprites.effects import timer_ring
+from pigaming_app.scenes.views.sprites.pickups import glyph, number_width, small_icon
+from pigaming_app.sim.world import HZ
+from pigaming_app.ui.draw.ink import (
+    ALARM,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    SUB,
+    THIN,
+    TITLE,
+    WHITE,
+    Color,
+    Ink,
+    badge,
+    cut,
+    dim,
+    icon,
+    mix,
+)
+from pigaming_app.ui.draw.sprites import Sprite, faded
+from pigaming_app.ui.draw.surface_cache import cached
+
+Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin round their sprites
+WIDE, SUM_W = 316, 116  # px
+CELL = 17.75  # px from one cell of the turbo bar to the next
+PLACES = {1: (492,), 2: (492, 1112), 3: (160, 492, 1112), 4: (160, 492, 1112, 1444)}
+ALARM_SECONDS = 10
+
+
+@dataclass(frozen=True)
+class Slot:
+    """The panel of a seat."""
+
+    seat: int
+    x: int
+    w: int
+
+
+@dataclass(frozen=True)
+class Sum:
+    """The box with a team's points; `mates`: the slots linked to it."""
+
+    team: int
+    x: int
+    mates: tuple[Slot, ...]
+
+
+def layout(robots: Any) -> tuple[list[Slot], list[Sum]]:
+    """Where the panels stand, and the sums of two teams. Absent seats have no panel."""
+    seats = [i for i, robot in enumerate(robots) if robot.present]
+    teams = list(dict.fromkeys(robots[i].team for i in seats))
+    if len(teams) != 2 or len(seats) == 2:
+        places = PLACES.get(len(seats), ())
+        return [Slot(seat, x, WIDE) for seat, x in zip(seats, places, strict=False)], []
+    slots: list[Slot] = []
+    sums: list[Sum] = []
+    for side, team in enumerate(teams):
+        members = [i for i in seats if robots[i].team == team]
+        w = min(WIDE, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
+        total = len(members) * w + 8 * (len(members) - 1)
+        first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
+        mates = tuple(Slot(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
+        slots += mates
+        sums.append(Sum(team, 692 if side == 0 else 1112, mates))
+    return slots, sums
+
+
+class Hud:
+    """Keeps the ground saying what the match says. `players`: who sits where; names in BRAINS are marked as AI."""
+
+    def __init__(self, ground: Ground, state: Any, players: list[str]) -> None:
+        self.ground, self.players = ground, players
+        self.slots, self.sums = layout(state.robots)
+        self.said: dict[object, object] = {}
+        self.points: dict[int, int] = {}
+
+    def show(self, state: Any) -> list[Slot]:
+        """Bake what has changed; answers the panels whose points have."""
+        points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
+        totals = {one.team: sum(points[slot.seat] for slot in one.mates) for one in self.sums}
+        ahead = _ahead(totals or points)
+        changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
+        self.points = points
+        for slot in self.slots:
+            leads = slot.seat == ahead and not self.sums
+            says = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
+            if self.said.get(slot) != says:
+                box = pygame.Rect(slot.x - 4, 0, slot.w + 8, HUD_HEIGHT)
+                self.ground.bake(box, panel_bits(slot, *says))
+                self.said[slot] = says
+        for one in self.sums:
+            total = totals[one.team], one.team == ahead
+            if self.said.get(one) != total:
+                self._bake_sum(one, *total)
+                self.said[one] = total
+        left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
+        if self.said.get("clock") != left:
+            text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
+            x = 960 - number_width(text, TITLE) / 2
+            self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 84, color))
+            self.said["clock"] = left
+        return changed
+
+    def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
+        """The pieces of the panels, each made by one small job."""
+        turbo = bool(state.rules.turbo)
+        for slot in self.slots:
+            for leads in {False, not self.sums}:
+                yield partial(frame, slot.seat, slot.w, leads, self._ai(slot.seat), turbo)
+            yield partial(pulse, slot.seat, slot.w)
+            if turbo:
+                yield partial(turbo_bar, slot.seat, slot.w, True)
+                yield partial(turbo_bar, slot.seat, slot.w, False)
+        if self.sums:
+            yield from (partial(sum_frame, leads, second) for leads in (True, False) for second in (True, False))
+
+    def _ai(self, seat: int) -> bool:
+        return self.players[seat] in BRAINS["pitanks"]
+
+    def _bake_sum(self, one: Sum, points: int, leads: bool) -> None:
+        text = str(points).replace("-", "−")
+        size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
+        bits: list[Bit] = [(sum_frame(leads, one is self.sums[1]), (one.x - EDGE, Y - EDGE), None)]
+        bits += number_bits(text, size, one.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
+        self.ground.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
+        inner = one.x - 12 if one.x < 960 else one.x + SUM_W
+        gaps = [inner, *(slot.x + slot.w for slot in one.mates[:-1])]
+        for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
+            self.ground.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
+
+
+def _ahead(points: dict[int, int]) -> int | None:
+    """Who leads alone."""
+    best = max(points.values(), default=0)
+    leaders = [who for who, score in points.items() if score == best]
+    return leaders[0] if len(leaders) == 1 and len(points) > 1 else None
+
+
+def _turbo(state: Any, seat: int) -> int | None:
+    """What is left in the meter, of 64, or None without turbo."""
+    return round(64 * state.robots[seat].turbo) if state.rules.turbo else None
+
+
+def _powers(state: Any, seat: int) -> tuple[tuple[int, int], ...]:
+    """(what is left of 48, power) of every power held, what ends first first."""
+    life = max(1, state.rules.power_life)
+    held = [(min(48, -(-48 * left // life)), i) for i, left in enumerate(state.tanks[seat].powers) if left]
+    return tuple(sorted(held))
+
+
+def panel_bits(
+    slot: Slot, score: int, leads: bool, ai: bool, turbo: int | None, powers: tuple[tuple[int, int], ...]
+) -> list[Bit]:
+    """The pieces of a panel."""
+    x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
+    text = str(score).replace("-", "−")
+    size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
+    bits: list[Bit] = [(frame(slot.seat, slot.w, leads, ai, turbo is not None), (x - EDGE, Y - EDGE), None)]
+    bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
+    if turbo is not None:
+        full = EDGE + round((slot.w - 32) * turbo / 64)
+        at, below = (x + 16 - EDGE, Y + 72 - EDGE), 10 + 2 * EDGE
+        bits.append((turbo_bar(slot.seat, slot.w, True), at, (0, 0, full, below)))
+        bits.append((turbo_bar(slot.seat, slot.w, False), (at[0] + full, at[1]), (full, 0, slot.w, below)))
+    room = int((slot.w - 116 - number_width(text, size)) // 58)
+    for i, (left, power) in enumerate(powers[: max(0, room)]):
+        cx = x + slot.w - 42 - 58 * i
+        for image, dx, dy in (small_icon(POWERS[power], FOCUS, 15), timer_ring(FOCUS, left, 26, THIN)):
+            bits.append((image, (cx + dx, middle - 1 + dy), None))
+    return bits
+
+
+def number_bits(text: str, size: int, x: float, y: float, color: Color) -> list[Bit]:
+    """A number, set in glyphs from x on; y is the middle of its digits."""
+    bits: list[Bit] = []
+    for char in text:
+        (image, dx, dy), advance = glyph(char, size, color)
+        bits.append((image, (round(x + dx), round(y + dy)), None))
+        x += advance
+    return bits
+
+
+@cached
+def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Surface:
+    """Outline and badge of a panel, the leader's crown and the sign of an AI."""
+    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    outline = cut(0, 0, w, H)
+    if leads:
+        ink.fill(outline, dim(color, 0.14))
+    ink.line(outline, color, LINE if leads else THIN, True)
+    badge(ink, player, 44, 38 if turbo else H / 2, 24)
+    if leads:
+        ink.solid(cut(22, -22, 44, 32, 4))
+        icon(ink, "crown", 44, -6, 16, color, THIN)
+    if ai:
+        ink.solid(cut(100, -22, 48, 34, 4))
+        icon(ink, "ai", 124, -4, 18, mix(color, WHITE, 0.5), 3)
+    return ink.lit(0.7)
+
+
+@cached
+def pulse(player: int, w: int) -> tuple[Sprite, ...]:
+    """A panel that lights up when its points change, and how that fades; from its upper left corner."""
+    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    ink.fill(cut(0, 0, w, H), dim(color, 0.24))
+    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
+    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
+
+
+@cached
+def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
+    """The cells of a turbo meter, all lit or all dark."""
+    ink = Ink(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
+    for i in range(int((w - 32) / CELL + 0.01)):
+        x = i * CELL
+        cell = [(x + 3, 0), (x + 16, 0), (x + 13, 10), (x, 10)]
+        ink.fill(cell, PLAYERS[player] if full else dim(PLAYERS[player], 0.18))
+    return ink.lit(0.5) if full else ink.plain()
+
+
+@cached
+def sum_frame(leads: bool, second: bool) -> pygame.Surface:
+    """The box of a team's sum, with the bars that its robots wear: one, or two for the second team."""
+    ink = Ink(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    if leads:
+        ink.fill(cut(0, 0, SUM_W, H), dim(ICE, 0.10))
+    ink.line(cut(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
+    for a, b in ((-24, -5), (5, 24)) if second else ((-18, 18),):
+        ink.line([(SUM_W / 2 + a, H - 13), (SUM_W / 2 + b, H - 13)], ICE, THIN)
+    if leads:
+        ink.solid(cut(SUM_W / 2 - 22, -22, 44, 36, 4))
+        icon(ink, "crown", SUM_W / 2, -4, 16, ICE, THIN)
+    return ink.lit(0.7)
+
+
+@cached
+def link() -> pygame.Surface:
+    """Two short bars between panels that belong together."""
+    ink = Ink(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    for y in (30, 62):
+        ink.line([(-6, y), (18, y)], MIST, LINE)
+    return ink.plain()

@@ -1,0 +1,82 @@
+"""Sprites that a match of PiTanks will ask for besides those of driving robots."""
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+from typing import Any
+
+from pigaming_app.games.pitanks.state import POWERS
+from pigaming_app.scenes.views.pitanks.background import wall_sprite
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites import pickups as things
+from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
+from pigaming_app.ui.draw.sprites import HEADINGS
+
+
+def jobs(state: Any, seats: Sequence[int]) -> Iterator[Job]:
+    """One small piece of work after the other; each makes one sprite, or finds it made."""
+    yield from (partial(tank.ghost, seat) for seat in seats)
+    yield from _shooting(seats)
+    yield from _numbers(seats)
+    yield from _walls(state)
+    yield from _hits(seats)
+    if state.rules.pickups:
+        yield from _powers(seats)
+
+
+def _shooting(seats: Sequence[int]) -> Iterator[Job]:
+    for seat in seats:
+        for turn in range(HEADINGS):
+            yield partial(effects.bullet, seat, turn)
+        for turn in range(effects.TURNS):
+            yield partial(effects.flash, seat, turn)
+
+
+def _numbers(seats: Sequence[int]) -> Iterator[Job]:
+    for char in "0123456789−":
+        for seat in seats:
+            yield partial(things.glyph, char, SUB, mix(PLAYERS[seat], WHITE, 0.8))
+    for char in "0123456789:":
+        for color in (ICE, ALARM):
+            yield partial(things.glyph, char, TITLE, color)
+    for seat in seats:
+        for text in ("+1", "−1"):
+            for level in range(things.POPUP_LEVELS, 0, -1):
+                yield partial(things.popup, text, seat, level)
+
+
+def _walls(state: Any) -> Iterator[Job]:
+    for i in range(state.wall_count):
+        one = state.walls[i]
+        for health in range(one.whole - 1, -1, -1):
+            yield partial(wall_sprite, one, health)
+
+
+def _hits(seats: Sequence[int]) -> Iterator[Job]:
+    for color in (*(PLAYERS[seat] for seat in seats), WALL, FOCUS, ALARM):
+        for size in effects.SPARK_SIZES:
+            for turn in range(effects.SPARK_TURNS):
+                yield partial(effects.sparks, color, size, turn)
+    for shape in range(effects.SHARDS):
+        for turn in range(effects.SPARK_TURNS):
+            yield partial(effects.shards, shape, turn)
+    for seat in seats:
+        for stage in range(effects.WAVE_STEPS):
+            yield partial(effects.wave, PLAYERS[seat], stage)
+        for level in range(effects.LIGHT_LEVELS, 0, -1):
+            yield partial(effects.light, PLAYERS[seat], level)
+
+
+def _powers(seats: Sequence[int]) -> Iterator[Job]:
+    for name in POWERS:
+        yield partial(things.pickup, name)
+        yield partial(things.small_icon, name, FOCUS, 15)
+    for left in range(49):
+        for r, width in ((56, LINE), (52, THIN), (26, THIN)):
+            yield partial(effects.timer_ring, FOCUS, left, r, width)
+    for seat in seats:
+        yield partial(things.mine, seat, True)
+        yield partial(things.mine, seat, False)
+        for turn in range(24):
+            yield partial(effects.shield, seat, turn)

@@ -1,0 +1,175 @@
+"""What a happening of a race looks and sounds like, and the words and times that rise over robots."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from pigaming_app.games.race.state import Race
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.particles import MOST, Moments, Particle
+from pigaming_app.scenes.views.race import sprites as race_signs
+from pigaming_app.scenes.views.race.events import Happening
+from pigaming_app.scenes.views.race.ghost import Delta
+from pigaming_app.scenes.views.race.hud import signed
+from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
+from pigaming_app.scenes.views.sprites.pickups import glyph, number_width
+from pigaming_app.scenes.views.view import Heard, Pose, Taste, Words, decimal
+from pigaming_app.sim.world import WIDTH
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
+from pigaming_app.ui.draw.sprites import Batch, Sprite, put
+
+SOUNDS = {
+    "finish": "finish",
+    "last_lap": "last_lap",
+    "best": "best_lap",
+    "lap": "lap",
+    "void": "missed",
+    "missed": "missed",
+    "wrong": "wrong_way",
+    "mud": "mud",
+}
+BY_WEIGHT = list(SOUNDS)
+LASTS, RISE = 1.7, 46.0  # s and px of what rises
+OVER = 70.0  # px from a robot to what rises
+HIGH = 76.0  # px from one that rises to another over it
+
+
+class Note(NamedTuple):
+    """Rises over the robot of a seat: a sprite, or a number after a star if it is the best."""
+
+    born: float
+    seat: int
+    sprite: Sprite | None
+    text: str
+    color: Color
+
+
+class Notes:
+    """All that rises at the moment; what would lie over another stands above it."""
+
+    def __init__(self) -> None:
+        self.notes: list[Note] = []
+
+    def say(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
+        """Let something rise over a robot."""
+        self.notes.append(Note(now, seat, sprite, text, color))
+
+    def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
+        """Add what has not gone yet; over those who wear a sign, nothing."""
+        self.notes = [note for note in self.notes if now - note.born < LASTS and note.seat not in busy]
+        placed: list[tuple[float, float, float]] = []
+        for note in self.notes:
+            wide = note.sprite.image.get_width() if note.sprite else number_width(note.text, SUB) + 70
+            t = (now - note.born) / LASTS
+            x = min(max(poses[note.seat][0], LEFT + wide / 2), LEFT + WIDTH - wide / 2)
+            y = poses[note.seat][1] - OVER - RISE * (1.0 - (1.0 - t) ** 2)
+            while any(abs(x - px) < (wide + w) / 2 and abs(y - py) < HIGH for px, py, w in placed):
+                y -= HIGH
+            y = max(y, TOP + 60)
+            placed.append((x, y, wide))
+            if note.sprite:
+                put(top, note.sprite, x, y)
+            else:
+                _number(light, note, x, y)
+
+
+def _number(light: Batch, note: Note, x: float, y: float) -> None:
+    wide = number_width(note.text, SUB)
+    if note.color == FOCUS:
+        put(light, race_signs.gold_star(), x - wide / 2 - 12, y)
+        x += 26
+    x -= wide / 2
+    for char in note.text:
+        sprite, advance = glyph(char, SUB, note.color)
+        put(light, sprite, x, y)
+        x += advance
+
+
+def heard(happenings: Sequence[Happening], state: Race) -> list[Heard]:
+    """What is heard: of every robot only what matters most."""
+    loudest: dict[int, str] = {}
+    for one in happenings:
+        if one.kind in SOUNDS:
+            loudest[one.seat] = min(loudest.get(one.seat, one.kind), one.kind, key=BY_WEIGHT.index)
+    return [(SOUNDS[kind], seat, state.robots[seat].x) for seat, kind in loudest.items()]
+
+
+class Reactions:
+    """Puts what happened into the air."""
+
+    def __init__(self, moments: Moments, notes: Notes, taste: Taste, words: Words | None) -> None:
+        self.moments, self.notes, self.taste, self.words = moments, notes, taste, words
+
+    def show(self, one: Happening, state: Race, golden: Delta | None) -> None:
+        """Show one happening; `golden`: what the racer is away from the best lap ever."""
+        moments, robot, racer = self.moments, state.robots[one.seat], state.racers[one.seat]
+        x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[one.seat]
+        match one.kind:
+            case "line":
+                moments.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
+                if int(one.number) != one.seat:
+                    self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
+            case "lap" if not racer.finished:
+                self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), ICE)
+            case "best":
+                if not racer.finished:
+                    self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), FOCUS)
+                moments.burst(x, y, FOCUS, 16, 44, 80)
+            case "last_lap" if self.words:
+                self._say(one.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
+            case "missed" | "void":
+                moments.burst(x, y, ALARM, 12, 44, 60)
+            case "mud":
+                spray(moments, x, y, 0.0, 9, 3.2)
+            case "finish":
+                self.celebrate(x, y, color)
+
+    def celebrate(self, x: float, y: float, color: Color) -> None:
+        """A chequered cloud."""
+        moments = self.moments
+        for tone in (color, WHITE):
+            for _ in range(min(22, MOST - len(moments.particles))):
+                _fly(moments, x, y, 210.0, race_signs.confetti(tone, moments.random.randrange(4)), 1.3)
+        moments.burst(x, y, FOCUS, 14, 46, 130)
+        if self.taste.flashes != "off":
+            moments.shock(x, y, color)
+        if self.taste.flashes == "full":
+            moments.glow(x, y, color)
+
+    def record(self, x: float, y: float) -> None:
+        """The best lap ever on this track."""
+        self.moments.burst(x, y, FOCUS, 40, 46, 150)
+        if self.taste.flashes != "off":
+            self.moments.shock(x, y, FOCUS)
+
+    def _difference(self, seat: int, delta: float | None, golden: Delta | None) -> None:
+        if delta is not None:
+            self._say(seat, decimal(self.words, signed(delta)), GAIN if delta <= 0.0 else LOSS)
+        elif golden:
+            self._say(seat, decimal(self.words, signed(golden[0])), FOCUS)
+
+    def _say(self, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
+        self.notes.say(self.moments.clock, seat, text, color, sprite)
+
+
+def spray(moments: Moments, x: float, y: float, heading: float, count: int, spread: float) -> None:
+    """Clods that fly up behind wheels."""
+    for _ in range(min(count, MOST - len(moments.particles))):
+        frames = race_signs.clods(moments.random.choice(race_signs.CLODS))
+        _fly(moments, x, y, 70.0, frames, 0.6, heading, spread)
+
+
+def _fly(
+    moments: Moments,
+    x: float,
+    y: float,
+    reach: float,
+    frames: tuple[Sprite, ...],
+    life: float,
+    heading: float = 0.0,
+    spread: float = 3.2,
+) -> None:
+    a = heading + moments.random.uniform(-spread, spread)
+    c, s, far = math.cos(a), math.sin(a), reach * moments.random.uniform(0.3, 1.0)
+    life *= moments.random.uniform(0.6, 1.0)
+    moments.particles.append(Particle(moments.clock, life, x + 34 * c, y + 34 * s, far * c, far * s, frames))

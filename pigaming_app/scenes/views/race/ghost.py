@@ -1,0 +1,81 @@
+"""The ghost in a race: it drives along with the first person, and a better lap of any person takes its place.
+
+Only laps of people count, from their own line to it again without an AI at the wheel in between.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+from threading import Thread
+
+from pigaming_app.games.race.state import LINES, Race
+from pigaming_app.scenes.views.race import ghost_files as ghosts
+from pigaming_app.scenes.views.race.events import Happening
+from pigaming_app.scenes.views.race.ghost_files import Pose
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import DT
+
+Delta = tuple[float, int]  # ticks, and the tick at which it came
+
+
+class Haunt:
+    """The ghost of one track in one race. `trouble`: a word if the kept one had to be dropped."""
+
+    def __init__(self, folder: Path, arena: Arena, players: Sequence[str]) -> None:
+        self.folder, self.arena, self.players = folder, arena, players
+        self.ghost, self.trouble = ghosts.call(folder, arena)
+        self.notes: list[list[tuple[int, Pose]]] = [[] for _ in players]  # of each seat's lap: tick and pose
+        self.golden: dict[int, Delta] = {}
+        self.writing: Thread | None = None
+
+    def watch(self, state: Race, happenings: Sequence[Happening]) -> list[int]:
+        """See a tick: note the laps of people, compare them; answers the seats that have set a new best lap ever."""
+        new = []
+        for seat in (one.seat for one in happenings if one.kind == "line" and self._person(one.seat)):
+            self._compare(state, seat)
+            if state.racers[seat].passed % LINES == 1:
+                if self._best_ever(state, seat):
+                    new.append(seat)
+                del self.notes[seat][:-2]  # the line lies between the two that stay
+        for seat, notes in enumerate(self.notes):
+            robot = state.robots[seat]
+            if not self._person(seat):
+                notes.clear()
+            elif robot.present and not state.racers[seat].finished:
+                notes.append((state.tick, (robot.x, robot.y, robot.heading)))
+        return new
+
+    def pose(self, state: Race, blend: float) -> Pose | None:
+        """Where the ghost drives, `blend` of the way from the tick before to the last."""
+        first = next((seat for seat in range(LINES) if self._person(seat) and state.robots[seat].present), None)
+        if self.ghost is None or first is None or state.over:
+            return None
+        racer = state.racers[first]
+        if not racer.passed or racer.finished:
+            return None
+        return self.ghost.pose(first, (state.tick - 1 + blend - racer.lap_began) * DT)
+
+    def _person(self, seat: int) -> bool:
+        return self.players[seat] == "human"
+
+    def _compare(self, state: Race, seat: int) -> None:
+        """How the way since the own line compares with the ghost's."""
+        racer = state.racers[seat]
+        later = (racer.passed - 1) % LINES
+        if self.ghost and racer.passed > 1:
+            ticks = racer.splits[later] if later else racer.last_lap
+            self.golden[seat] = ticks - self.ghost.since(seat, later or LINES) / DT, state.tick
+
+    def _best_ever(self, state: Race, seat: int) -> bool:
+        """If the lap that has just ended is the best ever, it is the ghost from now on."""
+        racer, notes = state.racers[seat], self.notes[seat]
+        began = racer.lap_began - racer.last_lap
+        whole = len(notes) > 1 and racer.last_lap == racer.best_lap > 0.0 and notes[0][0] <= began
+        if not whole or (self.ghost and racer.last_lap * DT >= self.ghost.seconds):
+            return False
+        crossed = [split * DT for split in racer.best_splits]
+        track = [((tick - began) * DT, pose) for tick, pose in notes]
+        self.ghost = ghosts.ghost_of(seat, racer.last_lap * DT, crossed, track)
+        if self.writing:
+            self.writing.join()
+        self.writing = ghosts.write(self.folder, self.arena, self.ghost)
+        return True

@@ -1,0 +1,142 @@
+"""The best lap ever driven by a person on each track, kept as a ghost that drives along and touches nobody.
+
+A ghost is worth something only as long as robots and rules are what they were: it is kept with the hash of the engine,
+and dropped where that has changed. A file for each track, by its name and what it is made of, in `ghosts` of the folder
+for data: {"engine": "…", "line": 0, "seconds": 11.32, "crossed": [0, 2.9, 5.6, 8.5], "poses": [[x, y, heading], …]}.
+"""
+
+import hashlib
+import json
+import logging
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+from pigaming_app.games.race.state import LINES
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.kernel import engine_hash
+from pigaming_app.storage.parsing import json_of, shown
+from pigaming_app.storage.safe_files import NotSaved, keep, recall
+
+RATE = 10.0  # poses in a second
+FOLDER = "ghosts"
+LONGEST = 600.0  # s
+FARTHEST = 10_000.0  # px from the middle, or rad
+Pose = tuple[float, float, float]  # px, px, rad
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Ghost:
+    """A lap from line `line` to itself, RATE poses a second; `crossed`: s until each next line, the first is 0."""
+
+    line: int
+    seconds: float
+    crossed: tuple[float, ...]
+    poses: tuple[Pose, ...]
+
+    def since(self, line: int, later: int) -> float:
+        """Seconds that it took from one line to the one `later` lines on, 0..LINES; all of them are a lap."""
+        if later == LINES:
+            return self.seconds
+        first, second = (line - self.line) % LINES, (line + later - self.line) % LINES
+        return (self.crossed[second] - self.crossed[first]) % self.seconds
+
+    def pose(self, line: int, seconds: float) -> Pose | None:
+        """Where it was so long after crossing a line; None before it did, and once it was round."""
+        if not 0.0 <= seconds <= self.seconds:
+            return None
+        at = (self.crossed[(line - self.line) % LINES] + seconds) % self.seconds * RATE
+        k = min(int(at), len(self.poses) - 1)
+        after = k + 1 if k + 1 < len(self.poses) else 0
+        return between(self.poses[k], self.poses[after], min(1.0, at - k))
+
+
+def between(a: Pose, b: Pose, share: float) -> Pose:
+    """A pose on the way from one to another, turning the short way."""
+    turn = (b[2] - a[2] + math.pi) % math.tau - math.pi
+    return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * turn
+
+
+def ghost_of(line: int, seconds: float, crossed: Sequence[float], track: Sequence[tuple[float, Pose]]) -> Ghost:
+    """The ghost of a lap that was noted as (s since its start, pose), in order, from before its start to its end."""
+    poses, k = [], 0
+    for i in range(int(seconds * RATE) + 1):
+        at = i / RATE
+        while k + 2 < len(track) and track[k + 1][0] < at:
+            k += 1
+        (before, a), (after, b) = track[k], track[k + 1]
+        x, y, heading = between(a, b, max(0.0, min(1.0, (at - before) / (after - before))))
+        poses.append((round(x, 1), round(y, 1), round(heading, 3)))
+    return Ghost(line, round(seconds, 4), tuple(round(one, 4) for one in crossed), tuple(poses))
+
+
+# ---- files
+
+
+def file_of(folder: Path, arena: Arena) -> Path:
+    """Where the ghost of a track is kept; another track of the same name has another file."""
+    made_of = hashlib.sha256(arena.source.encode()).hexdigest()[:8]
+    return folder / FOLDER / f"{arena.name}-{made_of}.json"
+
+
+def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
+    """The ghost of a track, if there is one; and a word if one had to be dropped: "old", "lost", else ""."""
+    found, said = recall(file_of(folder, arena), _parsed)
+    for line in said:
+        log.warning("%s", line)
+    if found is None:
+        return None, "lost" if said else ""
+    engine, ghost = found
+    return (ghost, "") if engine == engine_hash() else (None, "old")
+
+
+def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
+    """Keep a ghost while the race goes on: a card may take a tenth of a second to write. Trouble goes to the log."""
+    text = json.dumps({"engine": engine_hash(), **asdict(ghost)}, separators=(",", ":"))
+
+    def save() -> None:
+        try:
+            keep(file_of(folder, arena), text)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+
+    thread = Thread(target=save, name="ghost")
+    thread.start()
+    return thread
+
+
+def forget(folder: Path) -> None:
+    """Drop the ghosts of all tracks, as the best scores are cleared. Raises OSError."""
+    for path in (folder / FOLDER).glob("*.json*"):
+        path.unlink(missing_ok=True)
+
+
+def _parsed(text: str) -> tuple[str, Ghost]:
+    """Engine and ghost of a file. Raises ValueError."""
+    match json_of(text):
+        case {"engine": str(engine), "line": int(line), "seconds": seconds, "crossed": crossed, "poses": poses}:
+            pass
+        case _:
+            raise ValueError("it is no ghost")
+    (lap,) = _numbers([seconds], 1, 1.0, LONGEST)
+    if line is True or not 0 <= line < LINES or not isinstance(poses, list) or len(poses) != int(lap * RATE) + 1:
+        raise ValueError("its lap is not whole")
+    lines = _numbers(crossed, LINES, 0.0, lap)
+    if lines[0] != 0.0 or any(before >= after for before, after in pairwise((*lines, lap))):
+        raise ValueError("its lap does not cross one line after the other")
+    ways = (_numbers(pose, 3, -FARTHEST, FARTHEST) for pose in poses)
+    return engine, Ghost(line, lap, lines, tuple((x, y, heading) for x, y, heading in ways))
+
+
+def _numbers(found: Any, count: int, low: float, high: float) -> tuple[float, ...]:
+    """So many numbers from `low` to `high`. Raises ValueError."""
+    if not isinstance(found, list) or len(found) != count:
+        raise ValueError(f"{shown(found)} should be {count} numbers")
+    if not all(isinstance(one, int | float) and not isinstance(one, bool) and low <= one <= high for one in found):
+        raise ValueError(f"{shown(found)} are not all numbers from {low:g} to {high:g}")
+    return tuple(float(one) for one in found)

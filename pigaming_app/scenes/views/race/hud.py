@@ -1,0 +1,143 @@
+"""The cards over a race, in running order, and its clock; baked into the ground whenever what they say changes.
+
+The clock counts up; once somebody has finished it counts down what the others have left.
+"""
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+import pygame
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.games.race.state import LINES, Race
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Ground
+from pigaming_app.scenes.views.pitanks.hud import PLACES, H, Y, number_bits
+from pigaming_app.scenes.views.race import hud_cards as race_cards
+from pigaming_app.scenes.views.race.events import SHOWN_FROM
+from pigaming_app.scenes.views.race.gaps import Gaps, figure
+from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, Card, W, card_bits
+from pigaming_app.scenes.views.sprites.pickups import glyph, number_width
+from pigaming_app.scenes.views.view import Words, decimal
+from pigaming_app.sim.world import DT, HZ
+from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, Ink
+from pigaming_app.ui.draw.surface_cache import cached
+
+MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
+
+
+class Cards:
+    """Keeps the ground saying what the race says. `players`: who sits where; names in BRAINS are marked as AI."""
+
+    def __init__(self, ground: Ground, state: Race, players: list[str], words: Words | None) -> None:
+        self.ground, self.players, self.words = ground, players, words
+        self.gaps = Gaps(state)
+        seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.xs = PLACES[len(seats)]
+        self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
+        self.said: dict[object, object] = {}
+        self.moves: dict[int, tuple[int, int]] = {}  # seat: which way it went, at which tick
+
+    def moved(self, seat: int, ahead: bool, tick: int) -> None:
+        """A robot has gone ahead or fallen back."""
+        self.moves[seat] = (1 if ahead else -1), tick
+
+    def follow(self, state: Race) -> None:
+        """Note where everybody is after this tick."""
+        self.gaps.follow(state)
+
+    def show(self, state: Race, order: Sequence[int]) -> None:
+        """Bake what has changed."""
+        for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
+            card = self._card(state, seat, i + 1)
+            if self.said.get(x) != card:
+                self.ground.bake(pygame.Rect(x - 8, 0, W + 16, HUD_HEIGHT), card_bits(card, x))
+                self.said[x] = card
+        left = _left(state)
+        clock = ("left", left) if left is not None else ("time", state.tick // HZ)
+        if self.said.get("clock") != clock:
+            self._bake_clock(*clock)
+            self.said["clock"] = clock
+
+    def jobs(self, state: Race) -> Iterator[Job]:
+        """The pieces of the cards, each made by one small job."""
+        for seat in (i for i, robot in enumerate(state.robots) if robot.present):
+            yield partial(race_cards.pulse, seat)
+            for alarm, done in ((False, False), (True, False), (False, True)):
+                yield partial(race_cards.frame, seat, self._ai(seat), alarm, done)
+            for full in (True, False):
+                yield partial(race_cards.turbo, seat, full)
+                yield partial(race_cards.foot, seat, state.rules.laps, full)
+        for char in "0123456789:":
+            yield from (partial(glyph, char, TITLE, color) for color in (ICE, ALARM))
+        for char in "1234":
+            yield from (partial(glyph, char, PLACE, color) for color in (WHITE, FOCUS))
+        for char in "0123456789+" + decimal(self.words, "."):
+            yield partial(glyph, char, FIGURE, ICE)
+        for char in f"/{state.rules.laps}":
+            yield partial(glyph, char, OF, MIST)
+        for line in range(LINES):
+            yield partial(race_cards.missed_mark, line)
+            yield from (partial(race_cards.word, self.endings[line], color, ENDING) for color in (WHITE, FOCUS))
+        for flag in (True, False):
+            yield partial(race_cards.leader, flag)
+            yield partial(race_cards.mover, flag)
+        yield from (race_cards.wrong_mark, small_flag)
+
+    def _ai(self, seat: int) -> bool:
+        return self.players[seat] in BRAINS.get("race", {})
+
+    def _card(self, state: Race, seat: int, place: int) -> Card:
+        racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
+        went, when = self.moves.get(seat, (0, -MOVED))
+        done = bool(racer.finished)
+        share = racer.progress / (laps * state.course.length)
+        return Card(
+            seat=seat,
+            ai=self._ai(seat),
+            place=place,
+            ending=self.endings[place - 1],
+            lap=min(laps, robot.score + 1),
+            gap="" if place == 1 else decimal(self.words, figure(self._gap(state, seat))),
+            turbo=round(64 * robot.turbo),
+            way=FOOT if done else round(FOOT * max(0.0, min(1.0, share))),
+            laps=laps,
+            sign="" if done else "missed" if racer.missed else "wrong" if racer.wrong > SHOWN_FROM else "",
+            missed=racer.missed - 1,
+            moved=went if state.tick - when < MOVED else 0,
+            done=done,
+        )
+
+    def _gap(self, state: Race, seat: int) -> float:
+        return self.gaps.gap(state, seat) if state.racers[seat].finished else self.gaps.shown[seat]
+
+    def _bake_clock(self, kind: str, seconds: int) -> None:
+        text = f"{seconds // 60}:{seconds % 60:02}" if kind == "time" else str(seconds)
+        lead = 0 if kind == "time" else 76
+        x = 960 - (number_width(text, TITLE) + lead) / 2
+        bits = number_bits(text, TITLE, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
+        if lead:
+            bits.append((small_flag(), (round(x) - 28, Y + H // 2 - 60), None))
+        self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), bits)
+
+
+def _left(state: Race) -> int | None:
+    """The seconds that those have left who have not finished, once somebody has."""
+    racing = any(robot.present and not one.finished for robot, one in zip(state.robots, state.racers, strict=True))
+    if not state.first or not racing:
+        return None
+    return max(0, -(-(state.first + state.rules.patience - state.tick) // HZ))
+
+
+def signed(ticks: float) -> str:
+    """A difference of so many ticks, in seconds."""
+    hundredths = round(100 * ticks * DT)
+    return f"{'−' if hundredths < 0 else '+'}{abs(hundredths) / 100:.2f}"
+
+
+@cached
+def small_flag() -> pygame.Surface:
+    """The flag beside the clock once somebody has finished."""
+    ink = Ink(120, 120)
+    race_cards.flag(ink, 58, 60, 28, WHITE)
+    return ink.lit(0.7)

@@ -1,0 +1,224 @@
+"""The pieces of a card over a race: who is where, in which lap, how fast, and what is wrong.
+
+A card is baked into the ground from these pieces whenever what it says changes.
+"""
+
+import math
+from dataclasses import dataclass
+
+import pygame
+
+from pigaming_app.scenes.views.background import Bit
+from pigaming_app.scenes.views.pitanks.hud import WIDE, H, Y, number_bits
+from pigaming_app.scenes.views.sprites.pickups import number_width
+from pigaming_app.ui.draw.ink import (
+    ALARM,
+    BODY,
+    FOCUS,
+    ICE,
+    LINE,
+    MIST,
+    PLAYERS,
+    SUB,
+    THIN,
+    WHITE,
+    Color,
+    Ink,
+    Point,
+    badge,
+    cut,
+    dim,
+    icon,
+    mix,
+    regular,
+)
+from pigaming_app.ui.draw.sprites import Sprite, faded
+from pigaming_app.ui.draw.surface_cache import cached
+
+W, EDGE = WIDE, 24  # px: width of the cards, margin round their sprites
+GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # of a time that is better, or worse; a sign says it too
+CELLS, CELL = 16, 17.75  # of the turbo bar, and px from one to the next
+PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # sizes: digits of 58 are 41 px high
+ROW = 49  # px: middle of the figures
+LEFT, LAP, RIGHT = 16, 103, W - 14  # px: where place and lap begin, where the gap ends
+GAP = 122  # px: room for a gap
+FOOT = W - 40  # px: length of the bar of laps
+SIGNS = W - 132  # px: the middle of what is wrong
+
+
+@dataclass(frozen=True)
+class Card:
+    """What a card shows. `sign`: "", "wrong" or "missed"; `moved`: 1 went ahead, -1 fell back, 0."""
+
+    seat: int
+    ai: bool
+    place: int
+    ending: str  # of the place's number: st, nd
+    lap: int  # the one that is driven, of `laps`
+    gap: str  # to the leader, s; empty: this one leads
+    turbo: int  # left, of 64
+    way: int  # px of the bar of laps
+    laps: int
+    sign: str
+    missed: int
+    moved: int
+    done: bool
+
+
+def card_bits(card: Card, x: int) -> list[Bit]:
+    """The pieces of a card whose left edge is at x."""
+    corner = (x - EDGE, Y - EDGE)
+    bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done), corner, None)]
+    number = FOCUS if card.done and card.place == 1 else WHITE
+    text = str(card.place)
+    bits += number_bits(text, PLACE, x + LEFT, Y + ROW, number)
+    after = x + LEFT + round(number_width(text, PLACE)) + 1
+    bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
+    if card.moved:
+        bits.append((mover(card.moved > 0), (x + W - 40 - EDGE, Y - EDGE), None))
+    bits += _part_lit(turbo(card.seat, True), turbo(card.seat, False), (x + 17, Y + 80), card.turbo * CELLS * CELL / 64)
+    bits += _part_lit(
+        foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
+    )
+    if card.sign == "missed":
+        bits.append((missed_mark(card.missed), (x + SIGNS - EDGE, Y - EDGE), None))
+    elif card.sign:
+        bits.append((wrong_mark(), (x + SIGNS - EDGE, Y - EDGE), None))
+    else:
+        bits += _figures(card, x)
+    return bits
+
+
+def _figures(card: Card, x: int) -> list[Bit]:
+    """The lap, and how far behind the leader; the leader wears a crown, and a flag at the end."""
+    lap = str(card.lap)
+    bits = number_bits(lap, FIGURE, x + LAP, Y + ROW, ICE)
+    low = Y + ROW + 0.35 * (FIGURE - OF)  # both stand on one line
+    bits += number_bits(f"/{card.laps}", OF, x + LAP + number_width(lap, FIGURE), low, MIST)
+    if card.gap:
+        size = FIGURE if number_width(card.gap, FIGURE) < GAP else OF  # minutes behind
+        return bits + number_bits(card.gap, size, x + RIGHT - number_width(card.gap, size), Y + ROW, ICE)
+    return [*bits, (leader(card.done), (x + RIGHT - 60 - EDGE, Y - EDGE), None)]
+
+
+def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], way: float) -> list[Bit]:
+    """A bar that is lit up to `way` px."""
+    x, y, split, (w, h) = at[0] - EDGE, at[1] - EDGE, EDGE + round(way), full.get_size()
+    return [(full, (x, y), (0, 0, split, h)), (empty, (x + split, y), (split, 0, w - split, h))]
+
+
+# ---- pieces, each made once
+
+
+@cached
+def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
+    """Outline and badge of a card; it is red while something is wrong and bold when the race is done."""
+    ink, color = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    outline, edge = cut(0, 0, W, H), ALARM if alarm else color
+    if alarm or done:
+        ink.fill(outline, dim(edge, 0.16))
+    ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
+    ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
+    ink.solid(cut(14, -20, 56, 36, 4))
+    badge(ink, seat, 42, -2, 20)
+    if ai:
+        ink.solid(cut(84, -18, 44, 32, 4))
+        icon(ink, "ai", 106, -2, 17, mix(color, WHITE, 0.5), 3)
+    return ink.lit(0.7)
+
+
+@cached
+def pulse(seat: int) -> tuple[Sprite, ...]:
+    """A card that lights up, and how that fades; from its upper left corner."""
+    ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    whole = Sprite(ink.fill(cut(0, 0, W, H), dim(PLAYERS[seat], 0.3)).lit(0.8), -EDGE, -EDGE)
+    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
+
+
+@cached
+def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
+    """A short word, EDGE px in from the left and with its middle EDGE px down."""
+    wide = max(1, round(number_width(text, size)))
+    ink = Ink(wide + 2 * EDGE, size + 2 * EDGE)
+    return ink.text(text, size, EDGE, EDGE, color, "head").lit(0.5)
+
+
+@cached
+def turbo(seat: int, full: bool) -> pygame.Surface:
+    """The cells of a turbo meter, all lit or all dark."""
+    ink, color = Ink(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    for i in range(CELLS):
+        x = i * CELL
+        ink.fill([(x + 3, -4), (x + 15, -4), (x + 13, 3), (x, 3)], color if full else dim(color, 0.2))
+    return ink.lit(0.5) if full else ink.plain()
+
+
+@cached
+def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
+    """The bar along a card's foot, a piece for each lap, all lit or all dark."""
+    ink, color = Ink(FOOT + 2 * EDGE, 6 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    piece = FOOT / laps
+    for i in range(laps):
+        corners = [(i * piece, 0), ((i + 1) * piece - 5, 0), ((i + 1) * piece - 5, 6), (i * piece, 6)]
+        ink.fill(corners, mix(color, WHITE, 0.25) if full else dim(color, 0.28))
+    return ink.lit(0.6) if full else ink.plain()
+
+
+@cached
+def mover(up: bool) -> pygame.Surface:
+    """An arrowhead: went ahead, or fell back."""
+    side = -1 if up else 1
+    ink = Ink(2 * EDGE + 2, 2 * EDGE + 2).to(EDGE, EDGE)
+    return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
+
+
+@cached
+def leader(done: bool) -> pygame.Surface:
+    """The crown of the leader or, at the end, a flag."""
+    ink = Ink(60 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    if done:
+        flag(ink, 30, ROW, 21, FOCUS)
+    else:
+        icon(ink, "crown", 30, ROW, 24, FOCUS, LINE)
+    return ink.lit(0.7)
+
+
+@cached
+def missed_mark(line: int) -> pygame.Surface:
+    """On a card: the badge of the line that was missed."""
+    ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    badge(ink, line, 36, 44, 30)
+    ink.line([(92, 22), (92, 50)], WHITE, 12)
+    return ink.disc(92, 69, 8, WHITE).lit(0.7)
+
+
+@cached
+def wrong_mark() -> pygame.Surface:
+    """On a card: turn round."""
+    ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    return u_turn(ink, 56, 46, 0.85).lit(0.7)
+
+
+def u_turn(ink: Ink, x: float, y: float, k: float) -> Ink:
+    """An arrow that turns back, 72 px high at scale 1."""
+    bow = [(18 * math.cos(t / 8), -8 - 18 * math.sin(t / 8)) for t in range(26)]
+    way = [(18.0, 30.0), (18.0, -8.0), *bow, (-18.0, 6.0)]
+    ink.line([(x + k * a, y + k * b) for a, b in way], WHITE, 11 * k)
+    return ink.fill([(x + k * a, y + k * b) for a, b in ((-39, 4), (3, 4), (-18, 32))], WHITE)
+
+
+def star(x: float, y: float, r: float) -> list[Point]:
+    """Five points."""
+    outer, inner = regular(5, r, -math.pi / 2, x, y), regular(5, r * 0.45, -math.pi / 2 + math.pi / 5, x, y)
+    return [point for pair in zip(outer, inner, strict=True) for point in pair]
+
+
+def flag(ink: Ink, x: float, y: float, r: float, color: Color) -> None:
+    """A chequered flag on its pole, `r` px to each side."""
+    size = 2 * r / 4
+    ink.line([(x - r, y - r), (x - r, y + r)], color, max(3, r * 0.2))
+    for row in range(3):
+        for column in range(4):
+            if (row + column) % 2 == 0:
+                a, b = x - r + column * size, y - r + row * size
+                ink.fill([(a, b), (a + size, b), (a + size, b + size), (a, b + size)], color)

@@ -1,0 +1,75 @@
+"""Sprites that a race will ask for besides those of driving robots and of its cards, made a few in each frame."""
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from pigaming_app.games.race.state import LINES
+from pigaming_app.scenes.views.race import sprites as race_signs
+from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites.pickups import glyph
+from pigaming_app.scenes.views.view import Words, decimal
+from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, PLAYERS, SUB, THIN, WHITE
+from pigaming_app.ui.draw.sprites import HEADINGS
+
+
+def jobs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
+    """One small piece of work after the other; each makes one sprite, or finds it made."""
+    yield from _mud()
+    yield from _rising(seats, words)
+    yield from _signs(seats, words)
+    yield from _light(seats)
+    for turn in range(race_signs.GHOST_TURNS):
+        yield partial(race_signs.ghost, turn)
+
+
+def void_words(words: Words | None) -> tuple[str, ...]:
+    """What is said of a lap that did not count, in lines."""
+    return tuple(words("race.void").split("|")) if words else ()
+
+
+def _mud() -> Iterator[Job]:
+    yield from (partial(race_signs.clods, size) for size in race_signs.CLODS)
+    yield from (partial(race_signs.splash, which) for which in range(3))
+    yield from (partial(effects.timer_ring, FOCUS, left, 52, THIN) for left in range(49))
+
+
+def _rising(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
+    for char in "0123456789+−" + decimal(words, "."):
+        for color in (GAIN, LOSS, FOCUS, ICE):
+            yield partial(glyph, char, SUB, color)
+    yield race_signs.gold_star
+    if words:
+        for seat in seats:
+            yield partial(race_signs.notice, words("race.last_lap"), PLAYERS[seat], "flag")
+
+
+def _signs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
+    for below in (False, True):
+        yield partial(race_signs.wrong_way, below)
+        for line in range(LINES):
+            yield partial(race_signs.missed, line, below)
+            yield partial(race_signs.missed, line, below, void_words(words))
+        for seat in seats:
+            for number in range(len(seats)):
+                ending = words(f"race.place_{number + 1}") if words else ""
+                yield partial(race_signs.place, seat, number + 1, ending, below)
+    for seat in seats:
+        for turn in range(HEADINGS):
+            yield partial(race_signs.dash, seat, turn)
+            yield partial(race_signs.tip, seat, turn)
+
+
+def _light(seats: Sequence[int]) -> Iterator[Job]:
+    for color in {*(PLAYERS[seat] for seat in seats), WHITE}:
+        yield from (partial(race_signs.confetti, color, turn) for turn in range(4))
+    for color in (*PLAYERS, FOCUS, ALARM):
+        for size in effects.SPARK_SIZES:
+            for turn in range(effects.SPARK_TURNS):
+                yield partial(effects.sparks, color, size, turn)
+    for color in (*(PLAYERS[seat] for seat in seats), FOCUS):
+        for stage in range(effects.WAVE_STEPS):
+            yield partial(effects.wave, color, stage)
+        for level in range(effects.LIGHT_LEVELS, 0, -1):
+            yield partial(effects.light, color, level)

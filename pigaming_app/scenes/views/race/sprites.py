@@ -1,0 +1,168 @@
+"""What is put up over robots in a race, and what flies about: signs, plates, the ghost, arrows, clods, confetti."""
+
+import math
+import random
+
+import pygame
+
+from pigaming_app.scenes.views.race.hud_cards import flag, star, u_turn
+from pigaming_app.scenes.views.race.track import MUD
+from pigaming_app.ui.draw.ink import (
+    ALARM,
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    PLAYERS,
+    SUB,
+    THIN,
+    WHITE,
+    Color,
+    Ink,
+    badge,
+    cut,
+    dim,
+    mix,
+    regular,
+    text_width,
+)
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
+from pigaming_app.ui.draw.surface_cache import cached
+
+SIGN_AT = 100.0  # px from a robot to the middle of its sign
+LEVELS = 5  # of what flies and fades
+CLODS = (3, 5, 7)  # px
+GHOST_TURNS = 48
+DARK_RED = (36, 6, 8)
+
+
+@cached
+def wrong_way(below: bool) -> Sprite:
+    """Turn round: a red disc with a bent arrow, pointing at the robot above or `below` it."""
+    ink, up = Ink(184, 184).to(92, 92), -1 if below else 1
+    ink.solid(regular(48, 54)).solid([(-18, 44 * up), (18, 44 * up), (0, 72 * up)])
+    ink.fill([(-16, 42 * up), (16, 42 * up), (0, 68 * up)], ALARM)
+    ink.disc(0, 0, 51, ALARM).disc(0, 0, 44, DARK_RED)
+    return trim(u_turn(ink, 0, -1, 0.92).sprite(0.9), 92, 92)
+
+
+@cached
+def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
+    """A red sign with the badge of the line to go back to; `words` say that the lap did not count."""
+    wide = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
+    high = 84 + 46 * len(words)
+    half_w, half_h = round(wide / 2) + 30, high // 2 + 50
+    ink, up = Ink(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
+    ink.fill([(-17, (high / 2 - 4) * up), (17, (high / 2 - 4) * up), (0, (high / 2 + 24) * up)], ALARM)
+    box = cut(-wide / 2, -high / 2, wide, high, 18)
+    ink.solid(box).fill(box, DARK_RED).line(box, ALARM, LINE, True)
+    for i, text in enumerate(words):
+        ink.text(text, BODY, 0, -high / 2 + 38 + 46 * i, WHITE, "head", "c")
+    middle = high / 2 - 42
+    badge(ink, line, -28, middle, 25)
+    ink.line([(34, middle - 22), (34, middle + 3)], WHITE, 10).disc(34, middle + 21, 6.5, WHITE)
+    sprite = trim(ink.sprite(0.8), half_w, half_h)
+    return Sprite(sprite.image, sprite.dx, sprite.dy - (high // 2 - 42) * up)
+
+
+@cached
+def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
+    """Finished: the place, over and under it a chequered band."""
+    color = PLAYERS[seat]
+    text = f"{number}{ending}"
+    wide = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
+    half_w, half_h = wide // 2 + 30, 100
+    ink, up = Ink(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
+    box = [(-wide / 2, -54), (wide / 2, -54), (wide / 2, 54), (-wide / 2, 54)]
+    ink.fill([(-14, 54 * up), (14, 54 * up), (0, 76 * up)], color)
+    ink.solid(box).line(box, color, THIN, True)
+    for row, y in ((0, -52), (1, -44), (0, 36), (1, 44)):
+        for x in range(-wide // 2 + 8 * row, wide // 2, 16):
+            ink.fill([(x, y), (x + 8, y), (x + 8, y + 8), (x, y + 8)], ICE)
+    ink.text(text, SUB, 0, 0, FOCUS if number == 1 else mix(color, WHITE, 0.6), "hero", "c")
+    return trim(ink.sprite(0.8), half_w, half_h)
+
+
+@cached
+def notice(text: str, color: Color, sign: str = "") -> Sprite:
+    """A word that rises over a robot, with a star or a flag before it."""
+    lead = 64 if sign else 0
+    wide, high = round(text_width(text, LABEL, "hero")) + lead + 80, 120
+    ink = Ink(wide, high)
+    box = cut(14, 22, wide - 28, high - 44, 14)
+    ink.solid(box).line(box, dim(color, 0.55), THIN, True)
+    if sign == "star":
+        ink.fill(star(62, high / 2, 24), color)
+    elif sign:
+        flag(ink, 62, high / 2, 20, color)
+    ink.text(text, LABEL, 40 + lead, high / 2, color, "hero")
+    return trim(ink.sprite(0.7), wide / 2, high / 2)
+
+
+@cached
+def gold_star() -> Sprite:
+    """Before a time that is the best."""
+    return trim(Ink(112, 112).to(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
+
+
+@cached
+def ghost(turn: int) -> Sprite:
+    """The best lap ever, at heading `turn` of GHOST_TURNS: a dashed outline with a star."""
+    return turned(painted(_ghost, ()), turn, GHOST_TURNS)
+
+
+def _ghost() -> pygame.Surface:
+    ink, color = master(64), mix(FOCUS, WHITE, 0.2)
+    ink.dashes(regular(72, 34), color, 5, 15, 11.7)
+    ink.fill([(52, 0), (39, 13), (39, -13)], color)
+    return ink.fill(star(0, 0, 15), color).lit(0.8)
+
+
+@cached
+def dash(seat: int, turn: int) -> Sprite:
+    """A piece of the way back to a missed line, at heading `turn` of HEADINGS."""
+    return turned(painted(_dash, (seat,)), turn, HEADINGS)
+
+
+def _dash(seat: int) -> pygame.Surface:
+    ink = master(32)
+    ink.solid([(-13, -6), (13, -6), (13, 6), (-13, 6)])
+    return ink.line([(-9, 0), (9, 0)], PLAYERS[seat], 7).sprite(0.7)
+
+
+@cached
+def tip(seat: int, turn: int) -> Sprite:
+    """Where that way ends: an arrowhead at heading `turn` of HEADINGS."""
+    return turned(painted(_tip, (seat,)), turn, HEADINGS)
+
+
+def _tip(seat: int) -> pygame.Surface:
+    ink = master(52)
+    ink.solid([(30, 0), (-22, 30), (-22, -30)])
+    return ink.fill([(24, 0), (-16, 23), (-16, -23)], PLAYERS[seat]).sprite(0.9)
+
+
+@cached
+def clods(size: int) -> tuple[Sprite, ...]:
+    """A lump of mud as it fades: the last is the brightest."""
+    whole = trim(Ink(48, 48).to(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
+    return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole
+
+
+@cached
+def splash(which: int) -> Sprite:
+    """Mud under a robot, one of three shapes."""
+    rng, ink, color = random.Random(which), Ink(160, 160).to(80, 80), dim(MUD, 0.62)
+    for _ in range(17):
+        a, r = rng.random() * math.tau, rng.uniform(38, 56)
+        ink.line([(20 * math.cos(a), 20 * math.sin(a)), (r * math.cos(a), r * math.sin(a))], color, rng.uniform(7, 15))
+    return trim(ink.disc(0, 0, 42, color).lit(0.3), 80, 80)
+
+
+@cached
+def confetti(color: Color, turn: int) -> tuple[Sprite, ...]:
+    """A square of the chequered flag, turned one of four ways, as it fades: the last is the brightest."""
+    ink = Ink(56, 56).to(28, 28, turn * math.pi / 8)
+    whole = trim(ink.fill([(-6, -6), (6, -6), (6, 6), (-6, 6)], color).lit(0.6), 28, 28)
+    return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole

@@ -1,0 +1,187 @@
+"""A track as it is painted: edges, kerbs where it bends, a dashed middle, arrows along the way, and the four lines.
+
+Everything is drawn in arena px on a sheet that the caller has placed and scaled, so that a match and a small picture of
+the track show the same.
+"""
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+from pigaming_app.games.race.course import Course, Place, half_at, leg, locate, spot
+from pigaming_app.games.race.start import BEHIND, Track
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw.ink import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
+
+EDGE: Color = (150, 178, 214)
+MUD: Color = (170, 106, 44)
+MARKS: Color = (34, 45, 64)
+ARROWS: Color = (70, 88, 116)
+TIGHT = 340.0  # px: a bend of a smaller radius has a kerb
+KERB = 26.0  # px from one block of a kerb to the next
+WIDE_LINE = 24.0  # px from the middle of a line to its rails
+BADGE = 24.0  # px
+BESIDE = (34.0, 46.0, 60.0)  # px from the edge to a badge: the first place with room is taken
+
+
+class Rib(NamedTuple):
+    """A point of the middle: px, px, which way the track goes there (rad), half its width (px), and 1 / radius."""
+
+    x: float
+    y: float
+    heading: float
+    half: float
+    bend: float  # 1/px, positive to the right
+
+
+@lru_cache(maxsize=8)
+def ribs(course: Course) -> tuple[Rib, ...]:
+    """The middle of a course, all round."""
+    n = course.count
+    headings = [
+        math.atan2(
+            course.ys[(i + 1) % n] - course.ys[i - 1],
+            course.xs[(i + 1) % n] - course.xs[i - 1],
+        )
+        for i in range(n)
+    ]
+    found = []
+    for i in range(n):
+        turn = (headings[(i + 1) % n] - headings[i - 1] + math.pi) % math.tau - math.pi
+        found.append(Rib(course.xs[i], course.ys[i], headings[i], course.half[i], turn / (2 * course.step)))
+    return tuple(found)
+
+
+def beside(rib: Rib, side: float, out: float = 0.0) -> Point:
+    """The point `out` px outside the edge; `side` 1 is the right hand of the way, -1 the left."""
+    far = side * (rib.half + out)
+    return rib.x - far * math.sin(rib.heading), rib.y + far * math.cos(rib.heading)
+
+
+def edges(course: Course) -> tuple[list[Point], list[Point]]:
+    """The left and the right edge."""
+    return [beside(rib, -1) for rib in ribs(course)], [beside(rib, 1) for rib in ribs(course)]
+
+
+def draw_track(hot: Ink, cold: Ink, track: Track) -> Steps[None]:
+    """All of it: what glows on one sheet, what is only painted on the other. The road itself is black."""
+    course = track.course
+    cold.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
+    yield
+    for edge in edges(course):
+        hot.neon(edge, EDGE, 5, True)
+        yield
+    draw_kerbs(hot, course)
+    yield
+    draw_arrows(cold, track)
+    yield
+    for seat, along in enumerate(track.lines):
+        draw_slot(cold, course, along, seat)
+        draw_line(hot, cold, frame(course, along), PLAYERS[seat])
+        x, y = sign_post(course, along)
+        badge(hot, seat, x, y, BADGE)
+        yield
+
+
+def draw_kerbs(ink: Ink, course: Course) -> None:
+    """Red and white blocks on the inside of every bend."""
+    ring = ribs(course)
+    for side in (1, -1):
+        run = 0.0
+        for a, b in zip(ring, ring[1:] + ring[:1], strict=True):
+            if a.bend * side < 1.0 / TIGHT or b.bend * side < 1.0 / TIGHT:
+                run = 0.0
+                continue
+            near, far = [beside(rib, side, -4) for rib in (a, b)], [beside(rib, side, 10) for rib in (b, a)]
+            whole = math.dist(beside(a, side, 3), beside(b, side, 3))
+            done = 0.0
+            while done < whole - 1e-6:
+                block = int((run + 1e-6) // KERB)
+                to = min(whole, done + (block + 1) * KERB - run)
+                ink.fill(_part(near, far, done / whole, to / whole), ICE if block % 2 else ALARM)
+                run, done = run + to - done, to
+
+
+def _part(near: list[Point], far: list[Point], start: float, end: float) -> list[Point]:
+    """The piece of a block between two shares of its length; `far` runs against `near`."""
+    (a, b), (d, c) = near, far
+
+    def between(p: Point, q: Point, share: float) -> Point:
+        return p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])
+
+    return [between(a, b, start), between(a, b, end), between(c, d, end), between(c, d, start)]
+
+
+def draw_arrows(ink: Ink, track: Track) -> None:
+    """Two pairs of arrowheads between any two lines: the way to drive."""
+    course = track.course
+    for i, along in enumerate(track.lines):
+        gap = (track.lines[(i + 1) % len(track.lines)] - along) % course.length
+        for share in (0.36, 0.72):
+            for back in (0.0, 26.0):
+                here = along + share * gap - back
+                k, _ = leg(course, here % course.length)
+                x, y = spot(course, here % course.length, 0.0)
+                c, s = math.cos(ribs(course)[k].heading), math.sin(ribs(course)[k].heading)
+                head = [(-12.0, -17.0), (0.0, 0.0), (-12.0, 17.0)]
+                ink.line([(x + a * c - b * s, y + a * s + b * c) for a, b in head], ARROWS, 6)
+
+
+class Frame(NamedTuple):
+    """Where a line lies: its middle (px), its way along and across the course, half its width (px)."""
+
+    x: float
+    y: float
+    c: float
+    s: float
+    half: float
+
+    def at(self, ahead: float, right: float) -> Point:
+        """A point so many px ahead of the line's middle and to its right."""
+        return self.x + ahead * self.c - right * self.s, self.y + ahead * self.s + right * self.c
+
+
+def frame(course: Course, along: float) -> Frame:
+    """The frame of a line across the course."""
+    (ax, ay), (bx, by) = spot(course, along, -1.0), spot(course, along, 1.0)
+    half = half_at(course, *leg(course, along))
+    return Frame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
+
+
+def draw_line(hot: Ink, cold: Ink, line: Frame, color: Color) -> None:
+    """Two columns of a chequered band between two bright rails."""
+    half = line.half - 3
+    cold.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], BLACK)
+    cells = 2 * round(half / 20)
+    size = 2 * half / cells
+    for row in range(cells):
+        column, side = row % 2 - 1, -half + row * size
+        a, b = column * (WIDE_LINE - 5), (column + 1) * (WIDE_LINE - 5)
+        cell = [(a, side), (b, side), (b, side + size), (a, side + size)]
+        cold.fill([line.at(*corner) for corner in cell], dim(color, 0.9))
+    for rail in (-WIDE_LINE, WIDE_LINE):
+        hot.neon([line.at(rail, -half), line.at(rail, half)], color, 5)
+
+
+def draw_slot(ink: Ink, course: Course, along: float, seat: int) -> None:
+    """The mark behind a line on which its robot begins."""
+    line, color = frame(course, along), dim(PLAYERS[seat], 0.30)
+    for side in (-1, 1):
+        corner = [(-BEHIND - 46, side * 26), (-BEHIND - 46, side * 46), (-BEHIND + 8, side * 46)]
+        ink.line([line.at(a, b) for a, b in corner], color, 4)
+
+
+@lru_cache(maxsize=32)
+def sign_post(course: Course, along: float) -> Point:
+    """Where the badge of a line stands: beside the track, where there is most room."""
+    line, place = frame(course, along), Place()
+    best, room = (0.0, 0.0), -1e9
+    for out in BESIDE:
+        for side in (1, -1):
+            x, y = line.at(0.0, side * (line.half + out))
+            locate(course, x, y, place)
+            free = min(abs(place.aside) - place.half, x, WIDTH - x, y, HEIGHT - y, 44.0)
+            if free > room + 1.0:
+                best, room = (x, y), free
+    return best

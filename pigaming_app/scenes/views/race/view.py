@@ -1,0 +1,182 @@
+"""A race on the screen: the track, robots, the ghost, mud, and what has to be said to whom."""
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import pygame
+
+from pigaming_app.games.race.state import Race, Racer
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.pitanks.hud import Y
+from pigaming_app.scenes.views.race import hud_cards as race_cards
+from pigaming_app.scenes.views.race import sprites as race_signs
+from pigaming_app.scenes.views.race.background import Raceway
+from pigaming_app.scenes.views.race.effects import Notes, Reactions, heard, spray
+from pigaming_app.scenes.views.race.events import SHOWN_FROM, Happening, Watcher
+from pigaming_app.scenes.views.race.ghost import Haunt
+from pigaming_app.scenes.views.race.hud import Cards
+from pigaming_app.scenes.views.race.prewarm import jobs, void_words
+from pigaming_app.scenes.views.race.track import Frame, frame
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.scenes.views.view import Heard, Picture, Pose, Taste, Words
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import HZ, WIDTH
+from pigaming_app.ui.draw.ink import FOCUS, THIN
+from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
+from pigaming_app.ui.widgets.caption import plate
+
+VOID_LASTS = 3.5  # s for which it is said that a lap did not count
+PLACE_LASTS = 6 * HZ  # ticks for which the place of a robot is shown that has finished
+TROUBLE_LASTS = 6.0  # s for which it is said that a ghost was dropped
+DASH, MARCH = 34.0, 70.0  # px from one dash to the next, px/s
+ENTRY, STOP = 170.0, 52.0  # px before a line: where the way back leads to, and where it ends
+SPRAYED = 60.0  # px/s from which mud flies
+
+
+class RaceView(Picture):
+    """The view of one race."""
+
+    def __init__(self, arena: Arena, state: Race, players: list[str], taste: Taste, words: Words | None = None) -> None:
+        super().__init__(state, players, taste, words, Raceway(arena.plan))
+        self.arena = arena
+        self.cards = Cards(self.ground, state, players, words)
+        self.watcher = Watcher(state)
+        self.notes = Notes()
+        self.reactions = Reactions(self.moments, self.notes, taste, words)
+        self.haunt: Haunt | None = None
+        self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
+        self.void = void_words(words)
+        self.voided = [-VOID_LASTS] * len(state.robots)
+        self.ahead(self.cards.jobs(state))
+        self.ahead(jobs(self.seats, words))
+
+    def for_real(self, folder: Path) -> None:
+        """People race here: the ghost of the track drives along, and their best laps are kept."""
+        self.haunt = Haunt(folder, self.arena, self.players)
+
+    def watch(self, state: Race) -> list[Heard]:
+        """See what the last tick did; answers what is to be heard."""
+        self.follow(state)
+        self.cards.follow(state)
+        happenings = self.watcher.look(state)
+        records = self.haunt.watch(state, happenings) if self.haunt else []
+        golden = self.haunt.golden if self.haunt else {}
+        for one in happenings:
+            fresh = golden.get(one.seat)
+            self.reactions.show(one, state, fresh if fresh and fresh[1] == state.tick else None)
+            self._note(one, state)
+        for seat in records:
+            self.reactions.record(LEFT + state.robots[seat].x, TOP + state.robots[seat].y)
+        for seat in self.seats:
+            robot = state.robots[seat]
+            if not state.racers[seat].place.on and abs(robot.linear) > SPRAYED:
+                back = robot.heading + (math.pi if robot.linear > 0.0 else 0.0)
+                spray(self.moments, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
+        return heard(happenings, state)
+
+    def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:
+        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
+        self.moments.advance(seconds)
+        self.cards.show(state, self.watcher.order)
+        under: Batch = []
+        over: Batch = []
+        light: Batch = []
+        top: Batch = []
+        poses = [self.pose(seat, blend) for seat in range(len(state.robots))]
+        for seat in self.seats:
+            if state.racers[seat].missed and not state.racers[seat].finished:
+                self._way_back(over, seat, poses[seat], self.frames[state.racers[seat].missed - 1])
+        self._ghost(light, state, blend)
+        for seat in self.seats:
+            self._robot(under, over, light, state, seat, poses[seat])
+        signed = {seat for seat in self.seats if self._sign(top, state, seat, poses[seat])}
+        self.moments.draw_light(light)
+        self.notes.draw(light, top, poses, self.moments.clock, signed)
+        self.paint(screen, under, over, light, top)
+        self._trouble(screen)
+
+    # ---- inside
+
+    def _note(self, one: Happening, state: Race) -> None:
+        """What cards and signs remember of a happening."""
+        if one.kind in ("up", "down"):
+            self.cards.moved(one.seat, one.kind == "up", state.tick)
+            if self.taste.flashes != "off":
+                x = self.cards.xs[int(one.number) - 1]
+                self.moments.bloom(x, Y, 0.4, race_cards.pulse(one.seat))
+        elif one.kind == "void":
+            self.voided[one.seat] = self.moments.clock
+
+    def _robot(self, under: Batch, over: Batch, light: Batch, state: Race, seat: int, pose: Pose) -> None:
+        x, y, heading = pose
+        robot, racer = state.robots[seat], state.racers[seat]
+        self.light_up(under, seat, pose, bool(robot.boosting))
+        if not racer.place.on:
+            put(under, race_signs.splash(state.tick // 6 % 3 if abs(robot.linear) > SPRAYED else seat % 3), x, y)
+        put(over, tank(seat, step(heading, HEADINGS)), x, y)
+        if robot.turbo < 1.0 and not racer.finished:
+            put(light, effects.timer_ring(FOCUS, math.ceil(48 * robot.turbo), self.reach(seat, 52), THIN), x, y)
+
+    def _ghost(self, light: Batch, state: Race, blend: float) -> None:
+        pose = self.haunt.pose(state, blend) if self.haunt else None
+        if pose:
+            sprite = race_signs.ghost(step(pose[2], race_signs.GHOST_TURNS))
+            put(light, sprite, LEFT + pose[0], TOP + pose[1])
+
+    def _sign(self, top: Batch, state: Race, seat: int, pose: Pose) -> bool:
+        """Put up a robot's sign, above it or, near the upper edge, below; false: it has none."""
+        racer = state.racers[seat]
+        said = bool(racer.missed) and self.moments.clock - self.voided[seat] < VOID_LASTS
+        below = pose[1] - TOP < (260.0 if said else 165.0)
+        sprite = self._sign_of(racer, seat, said, below)
+        if sprite is None or (racer.finished and not self._placed(state, racer)):
+            return False
+        half = sprite.image.get_width() / 2
+        x = min(max(pose[0], LEFT + half), LEFT + WIDTH - half)
+        put(top, sprite, x, pose[1] + (race_signs.SIGN_AT if below else -race_signs.SIGN_AT))
+        return True
+
+    def _sign_of(self, racer: Racer, seat: int, said: bool, below: bool) -> Sprite | None:
+        if racer.finished:
+            place = 1 + self.watcher.order.index(seat)
+            return race_signs.place(seat, place, self.cards.endings[place - 1], below)
+        if racer.missed:
+            return race_signs.missed(racer.missed - 1, below, self.void if said else ())
+        return race_signs.wrong_way(below) if racer.wrong > SHOWN_FROM else None
+
+    def _placed(self, state: Race, racer: Racer) -> bool:
+        """A place is shown for a while, and again in the end; in between it would hide who still races."""
+        return bool(state.over) or state.tick - racer.finish < PLACE_LASTS
+
+    def _way_back(self, over: Batch, seat: int, pose: Pose, line: Frame) -> None:
+        """Dashes that march from a robot to the side of a line on which it must be entered."""
+        x, y, _ = pose
+        entry, stop = (LEFT + line.x - ENTRY * line.c, TOP + line.y - ENTRY * line.s), self._stop(line)
+        way = [(x, y), entry, stop]
+        if math.dist((x, y), entry) < 120.0 or math.dist((x, y), stop) < 120.0:
+            way = [(x, y), stop]
+        gone, at = 0.0, 66.0 + self.moments.clock * MARCH % DASH
+        for a, b in pairwise(way):
+            length = math.dist(a, b)
+            turn = math.atan2(b[1] - a[1], b[0] - a[0])
+            last = length - 26.0 if b == stop else length
+            while at - gone < last:
+                share = (at - gone) / length
+                put(over, race_signs.dash(seat, step(turn, HEADINGS)), *_between(a, b, share))
+                at += DASH
+            gone += length
+        put(over, race_signs.tip(seat, step(math.atan2(line.s, line.c), HEADINGS)), *stop)
+
+    def _stop(self, line: Frame) -> tuple[float, float]:
+        return LEFT + line.x - STOP * line.c, TOP + line.y - STOP * line.s
+
+    def _trouble(self, screen: pygame.Surface) -> None:
+        """Say for a moment that the ghost had to be dropped."""
+        if self.haunt and self.haunt.trouble and self.words and self.moments.clock < TROUBLE_LASTS:
+            plate(self.words(f"race.ghost_{self.haunt.trouble}"), FOCUS).draw(screen, 960, 1034)
+
+
+def _between(a: tuple[float, float], b: tuple[float, float], share: float) -> tuple[float, float]:
+    return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])

@@ -1,0 +1,37 @@
+"""One picture of a match, without a window: for the command line and for tests."""
+
+from pathlib import Path
+
+import pygame
+
+from pigaming_app.games.match import Match
+from pigaming_app.scenes.views import VIEWS
+from pigaming_app.sim.world import DT
+from pigaming_app.storage.safe_files import write
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.png import png_of
+
+SIZE = (1920, 1080)
+
+
+class Still:
+    """A camera on a match: it watches some ticks, so that shots and treads are there, and takes one picture."""
+
+    def __init__(self, match: Match) -> None:
+        pygame.display.init()
+        pygame.font.init()
+        pygame.display.set_mode(SIZE)
+        self.match, self.screen = match, pygame.Surface(SIZE)
+        players = [seat.brain for seat in match.setup.seats]
+        self.view = VIEWS[match.setup.game](match.arena, match.state, players, Settings(), Words("en"))
+
+    def watch(self) -> None:
+        """See the tick that has just been played."""
+        self.view.watch(self.match.state)
+        self.view.draw(self.screen, self.match.state, 1.0, DT)
+
+    def picture(self, path: Path) -> None:
+        """Save the match as it stands as a PNG file. Raises NotSaved."""
+        self.view.draw(self.screen, self.match.state, 1.0, 0.0)
+        write(path, png_of(self.screen))

@@ -1,0 +1,262 @@
+"""What moves in a factory, as sprites: crates, forks, people; and the signs that stand for teams and states.
+
+A crate tells its state by icon and colour, its team by outline and shape (ICE round corners, FIRE cut ones), and that
+it is delivered by being filled.
+"""
+
+import math
+
+import pygame
+
+from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW, A
+from pigaming_app.ui.draw.ink import ALARM, BLACK, LINE, THIN, WHITE, Color, Ink, Points, cut, dim, regular
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
+from pigaming_app.ui.draw.surface_cache import cached
+
+TEAMS: tuple[Color, Color] = ((70, 210, 255), (255, 150, 40))
+STATES: dict[int, Color] = {
+    RAW: (255, 84, 76),
+    HALF: (84, 236, 120),
+    DONE: (104, 176, 255),
+    DAMAGED: (172, 164, 152),
+    DELIVERED: BLACK,
+}
+CRATE = 54  # px
+PERSON_TURNS, STRIDE = 36, 4  # headings, and pictures of a walk
+SUIT, SKIN, BOOTS, GOLD = (80, 205, 215), (255, 205, 160), (40, 96, 110), (255, 214, 48)
+COUNTS = 36  # pictures of a ring that fills or empties
+
+
+def state_icon(ink: Ink, state: int, x: float, y: float, r: float, color: Color) -> None:
+    """Raw: a disc. Half done: half a disc. Done and delivered: a star. Damaged: a cross."""
+    if state == RAW:
+        ink.disc(x, y, r, color)
+    elif state == HALF:
+        ink.ring(x, y, r - 2, color, max(2.0, r * 0.28))
+        ink.fill([(x - r * math.sin(i * math.pi / 20), y - r * math.cos(i * math.pi / 20)) for i in range(21)], color)
+    elif state == DAMAGED:
+        for side in (-1, 1):
+            ink.line([(x - r * 0.8, y - side * r * 0.8), (x + r * 0.8, y + side * r * 0.8)], color, r * 0.4)
+    else:
+        ink.fill(star(x, y, r * 1.2), color)
+
+
+def star(x: float, y: float, r: float) -> Points:
+    """Five rays."""
+    out = []
+    for i in range(10):
+        a, far = -math.pi / 2 + i * math.pi / 5, r if i % 2 == 0 else r * 0.44
+        out.append((x + far * math.cos(a), y + far * math.sin(a)))
+    return out
+
+
+def outline(team: int, x: float, y: float, half: float) -> Points:
+    """A crate's shape, `half` px to each side of (x, y)."""
+    corner = half * 0.52
+    if team != ICE:
+        return cut(x - half, y - half, 2 * half, 2 * half, corner)
+    points = []
+    for i in range(4):
+        sx, sy = ((1, 1), (-1, 1), (-1, -1), (1, -1))[i]
+        for k in range(6):
+            a = (i + k / 5) * math.pi / 2
+            points.append(
+                (x + sx * (half - corner) + corner * math.cos(a), y + sy * (half - corner) + corner * math.sin(a))
+            )
+    return points
+
+
+def draw_crate(ink: Ink, team: int, state: int, x: float, y: float, size: float = CRATE) -> None:
+    """A crate, its middle at (x, y)."""
+    color, half = TEAMS[team], size / 2 - 3
+    shape = outline(team, x, y, half)
+    ink.solid(shape)
+    if state == DELIVERED:
+        ink.fill(shape, color)
+        ink.line(shape, color, 5, True)
+        ink.fill(star(x, y, size * 0.34), BLACK)
+        return
+    edge = dim(color, 0.45) if state == DAMAGED else color
+    ink.fill(shape, dim(edge, 0.10)).line(shape, edge, 5, True)
+    state_icon(ink, state, x, y, size * 0.27, STATES[state])
+
+
+@cached
+def crate(team: int, state: int, tenths: int = 10) -> Sprite:
+    """A crate of a team in a state, at so many tenths of its size; it hides what is below."""
+    size = CRATE * tenths / 10
+    ink = Ink(120, 120, 3).to(60, 60)
+    draw_crate(ink, team, state, 0, 0, size)
+    return trim(ink.sprite(0.6), 60, 60)
+
+
+def emblem(ink: Ink, team: int, x: float, y: float, r: float) -> None:
+    """A snowflake for ICE, a flame for FIRE."""
+    color = TEAMS[team]
+    if team == ICE:
+        for k in range(6):
+            a = math.tau * k / 6 + math.pi / 2
+            ux, uy = math.cos(a), math.sin(a)
+            ink.line([(x, y), (x + r * ux, y + r * uy)], color, r * 0.16)
+            for side in (-1, 1):
+                b, qx, qy = a + 0.9 * side, x + 0.55 * r * ux, y + 0.55 * r * uy
+                ink.line([(qx, qy), (qx + 0.34 * r * math.cos(b), qy + 0.34 * r * math.sin(b))], color, r * 0.14)
+        return
+    ink.fill(flame(x, y, r), color)
+    ink.fill(flame(x, y + 0.38 * r, r * 0.5), (255, 226, 130))
+
+
+def flame(x: float, y: float, r: float) -> Points:
+    """A flame's outline."""
+    half = [(0.0, -1.05), (0.20, -0.62), (0.50, -0.25), (0.72, 0.22), (0.56, 0.74), (0.0, 1.0)]
+    left = [(-0.56, 0.74), (-0.72, 0.24), (-0.60, -0.18), (-0.36, -0.42), (-0.26, -0.12), (-0.14, -0.60)]
+    return [(x + r * u, y + r * v) for u, v in (*half, *left)]
+
+
+@cached
+def forks(team: int, turn: int) -> Sprite:
+    """The two prongs of a robot at heading `turn` of HEADINGS, and the ring of its team, open in front. They lie below
+    the robot and what it carries, and hide the floor."""
+    return turned(painted(_forks, (team,)), turn, HEADINGS, 24)
+
+
+def _forks(team: int) -> pygame.Surface:
+    ink = master(76, 24)
+    for side in (-20, 20):
+        ink.solid(cut(26, side - 7, 69, 14, 5)).line([(30, side), (90, side)], TEAMS[team], 8)
+    ink.arc(0, 0, 45, 0.66, math.tau - 0.66, TEAMS[team], LINE)
+    return ink.sprite(0.5)
+
+
+@cached
+def person(turn: int, stride: int, working: bool) -> Sprite:
+    """A worker from above at heading `turn` of PERSON_TURNS: yellow helmet, hands that swing or work."""
+    return turned(painted(_person, (stride, working)), turn, PERSON_TURNS)
+
+
+def _person(stride: int, working: bool) -> pygame.Surface:
+    ink, swing = master(48), 8 * math.sin(stride * math.tau / STRIDE)
+    ink.solid(regular(32, 26))
+    for side in (-1, 1):
+        if working:
+            hand = (27 + 0.4 * swing * side, 9 * side)
+            ink.line([(2, 20 * side), hand], SUIT, 10).disc(*hand, 6.5, SKIN)
+        else:
+            ink.line([(0, 9 * side), (-swing * side * 1.5, 9 * side)], BOOTS, 12)
+            ink.line([(0, 22 * side), (swing * side + 2, 24 * side)], SUIT, 10)
+            ink.disc(swing * side + 8, 24 * side, 6.5, SKIN)
+    ink.line([(-2, -17), (-2, 17)], SUIT, 20)
+    for side in (-1, 1):
+        ink.line([(-11, 12 * side), (7, 12 * side)], (255, 240, 120), 4)
+    ink.disc(3, 0, 15, SKIN)
+    for side in (-1, 1):
+        ink.disc(13, 5.5 * side, 2.8, (30, 20, 10))
+    ink.disc(-3, 0, 15.5, GOLD).arc(4.5, 0, 9, -1.3, 1.3, (255, 176, 20), 5)
+    ink.line([(-14, 0), (3, 0)], (255, 246, 200), 4)
+    return ink.sprite(0.5)
+
+
+@cached
+def progress(state: int, part: int) -> Sprite:
+    """How far a machine has come, `part` of COUNTS, in the colour of what it makes."""
+    ink = Ink(150, 150).to(75, 75)
+    if part:
+        ink.arc(0, 0, 44, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, STATES[state], 10)
+    return trim(ink.lit(0.9), 75, 75)
+
+
+@cached
+def busy(team: int, kind: int) -> Sprite:
+    """A machine of a kind while it holds a team's pallet: it wears the team's outline."""
+    ink, body = Ink(230, 230).to(115, 115), cut(-66, -66, 132, 132, 20)
+    ink.solid(cut(-69, -69, 138, 138, 21)).fill(body, dim(TEAMS[team], 0.10)).line(body, TEAMS[team], 8, True)
+    ink.ring(0, 0, 44, dim(TEAMS[team], 0.26), 10)
+    ink.text("A" if kind == A else "B", 62, 0, 0, WHITE, "hero", "c")
+    return trim(ink.sprite(0.8), 115, 115)
+
+
+@cached
+def frozen(part: int, r: int = 54) -> Sprite:
+    """The ring, of `r` px, that runs down while a robot must stand still, `part` of COUNTS left."""
+    half = r + 31
+    ink = Ink(2 * half, 2 * half).to(half, half)
+    ink.ring(0, 0, r, dim(ALARM, 0.3), 8)
+    if part:
+        ink.arc(0, 0, r, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, ALARM, 8)
+    return trim(ink.lit(0.9), half, half)
+
+
+@cached
+def awaited(seconds: int) -> Sprite:
+    """Where a new pallet will come, and in how many seconds."""
+    ink = Ink(110, 110, 3).to(55, 55)
+    ink.dashes(regular(40, 27), dim(STATES[RAW], 0.85), THIN, 8, 8)
+    ink.text(str(seconds), 40, 0, 0, WHITE, "hero", "c")
+    return trim(ink.lit(0.5), 55, 55)
+
+
+@cached
+def exclaim() -> Sprite:
+    """Watch out!"""
+    ink = Ink(120, 130, 3).to(60, 60)
+    ink.solid(cut(-30, -30, 60, 56, 10)).fill([(-10, 24), (10, 24), (-12, 44)], ALARM)
+    ink.line(cut(-30, -30, 60, 56, 10), ALARM, 5, True).line([(0, -18), (0, 2)], WHITE, 8).disc(0, 15, 5, WHITE)
+    return trim(ink.sprite(0.7), 60, 60)
+
+
+@cached
+def cross() -> Sprite:
+    """Not here."""
+    ink = Ink(110, 110, 3).to(55, 55)
+    ink.solid(regular(32, 30)).ring(0, 0, 27, ALARM, 5)
+    for side in (-1, 1):
+        ink.line([(-11, -11 * side), (11, 11 * side)], ALARM, 8)
+    return trim(ink.sprite(0.8), 55, 55)
+
+
+@cached
+def digit(number: int) -> Sprite:
+    """A big number over a robot that must wait."""
+    ink = Ink(130, 140, 3).to(65, 70)
+    ink.solid(regular(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, WHITE, "hero", "c")
+    return trim(ink.sprite(0.6), 65, 70)
+
+
+@cached
+def target(color: Color, small: bool) -> Sprite:
+    """Corners round a slot to which somebody is going."""
+    half, reach, width = (38, 12, 4) if small else (44, 22, 7)
+    ink = Ink(150, 150, 3).to(75, 75)
+    for sx in (-1, 1):
+        for sy in (-1, 1):
+            corner = [(sx * half, sy * (half - reach)), (sx * half, sy * half), (sx * (half - reach), sy * half)]
+            ink.line(corner, color, width)
+    return trim(ink.lit(0.7), 75, 75)
+
+
+@cached
+def arrow(color: Color, turn: int) -> Sprite:
+    """The head of a dashed arrow at heading `turn` of HEADINGS."""
+    return turned(painted(_arrow, (color,)), turn, HEADINGS)
+
+
+def _arrow(color: Color) -> pygame.Surface:
+    return master(32).fill([(20, 0), (-12, -19), (-12, 19)], color).lit(0.7)
+
+
+@cached
+def dash(color: Color, turn: int) -> Sprite:
+    """One dash of an arrow at heading `turn` of HEADINGS."""
+    return turned(painted(_dash, (color,)), turn, HEADINGS)
+
+
+def _dash(color: Color) -> pygame.Surface:
+    return master(24).line([(-8, 0), (8, 0)], color, 7).lit(0.6)
+
+
+@cached
+def count(number: int, team: int) -> Sprite:
+    """How many more there are, beside a warehouse."""
+    ink = Ink(160, 80, 3).to(80, 40)
+    ink.text(f"+{number}", 40, 0, 0, TEAMS[team], "hero", "c")
+    return trim(ink.lit(0.5), 80, 40)

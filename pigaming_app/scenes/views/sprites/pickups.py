@@ -1,0 +1,88 @@
+"""What lies in an arena or rises from it: pick-ups, mines, scores, small icons, single glyphs of a number."""
+
+import math
+
+import pygame
+
+from pigaming_app.ui.draw.ink import (
+    ALARM,
+    BLACK,
+    FOCUS,
+    ICE,
+    PLAYERS,
+    SUB,
+    THIN,
+    WHITE,
+    Color,
+    Ink,
+    dim,
+    font,
+    icon,
+    mix,
+    regular,
+)
+from pigaming_app.ui.draw.sprites import Sprite, faded, trim
+from pigaming_app.ui.draw.surface_cache import cached
+
+POPUP_LEVELS = 6
+
+
+@cached
+def pickup(name: str) -> Sprite:
+    """A power that lies on the floor."""
+    ink = Ink(152, 152, 3).to(76, 76)
+    frame = regular(6, 42, math.pi / 6)
+    ink.solid(frame).neon(frame, FOCUS, THIN, True)
+    icon(ink, name, 0, 0, 23, mix(FOCUS, WHITE, 0.5), 5)
+    return trim(ink.sprite(1.0), 76, 76)
+
+
+@cached
+def mine(player: int, bright: bool) -> Sprite:
+    """A mine in its owner's colour and with its number; an armed one is `bright` every other moment."""
+    ink = Ink(120, 120, 3).to(60, 60)
+    ink.solid(regular(24, 25))
+    icon(ink, "mine", 0, 0, 27, PLAYERS[player], 4)
+    ink.disc(0, 0, 12, ALARM if bright else dim(ALARM, 0.45))
+    ink.text(str(player + 1), 20, 0, 0, BLACK, "hero", "c")
+    return trim(ink.sprite(1.0 if bright else 0.7), 60, 60)
+
+
+@cached
+def small_icon(name: str, color: Color = ICE, r: int = 16, width: float = THIN) -> Sprite:
+    """An icon `r` px to each side, as light."""
+    ink = Ink(2 * r + 64, 2 * r + 64, 3)
+    icon(ink, name, r + 32, r + 32, r, color, width)
+    return trim(ink.lit(0.6), r + 32, r + 32)
+
+
+@cached
+def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
+    """A score that rises, `level` of POPUP_LEVELS there; it carries its own dark edge and reads over anything."""
+    if level < POPUP_LEVELS:
+        return faded(popup(text, player), level / POPUP_LEVELS)
+    face = font("hero", 2 * SUB)
+    edge = face.render(text, True, BLACK)
+    w, h = edge.get_width() // 2 + 64, SUB + 64
+    ink = Ink(w, h).text(text, SUB, w / 2, h / 2, PLAYERS[player], "hero", "c")
+    dark = pygame.Surface(ink.sheet.get_size(), pygame.SRCALPHA)
+    x, y = w - edge.get_width() / 2, h - face.get_ascent() + 0.7 * SUB
+    for i in range(12):
+        dark.blit(edge, (x + 10 * math.cos(i * math.tau / 12), y + 10 * math.sin(i * math.tau / 12)))
+    out = pygame.transform.smoothscale(dark, (w, h))
+    out.blit(ink.lit(0.9), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    return trim(out, w / 2, h / 2)
+
+
+@cached
+def glyph(char: str, size: int, color: Color, glow: float = 0.7) -> tuple[Sprite, float]:
+    """One digit or sign as light, from its left edge and the middle of the capitals, and how far to the next, px."""
+    advance = font("hero", size * 2).size(char)[0] / 2
+    w, h = math.ceil(advance) + 48, size + 56
+    ink = Ink(w, h).text(char, size, 24, h / 2, color, "hero")
+    return trim(ink.lit(glow), 24, h / 2), advance
+
+
+def number_width(text: str, size: int) -> float:
+    """Width of a number set in glyphs, px."""
+    return sum(glyph(char, size, ICE)[1] for char in text)

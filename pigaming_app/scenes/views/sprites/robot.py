@@ -1,0 +1,106 @@
+"""The robot of the house: a disc on two wheels, white lights ahead, red behind, a turret in the player's shape.
+
+The same drawing serves the arena, the title and the lobby.
+"""
+
+import math
+
+import pygame
+
+from pigaming_app.ui.draw.ink import (
+    ALARM,
+    BLACK,
+    ICE,
+    LINE,
+    PLAYERS,
+    THIN,
+    WHITE,
+    Ink,
+    cut,
+    dim,
+    font,
+    mix,
+    regular,
+    shape_points,
+)
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
+from pigaming_app.ui.draw.surface_cache import cached
+
+HALF, ARM = 80, 13  # px: what a turned tank covers, and where the middle of that is
+TRIANGLE_BACK = 4  # px that player 2's turret sits further back
+
+
+def draw_tank(ink: Ink, player: int) -> Ink:
+    """A robot at the origin of `ink`, heading +x, radius 36 px, without its number."""
+    color = PLAYERS[player]
+    ink.solid(regular(64, 37))
+    hull = [(34 * math.cos(a / 20), 34 * math.sin(a / 20)) for a in range(-20, 21)]
+    ink.neon(hull, color, LINE).neon([(-x, y) for x, y in hull], color, LINE)
+    for side in (-1, 1):
+        ink.solid(cut(-19, side * 33 - 10, 38, 20, 6)).fill(cut(-16, side * 33 - 7, 32, 14, 4), color)
+        for x in (-8, 0, 8):
+            ink.void([(x, side * 33 - 7), (x, side * 33 + 7)], 3, 0.3)
+        ink.disc(25, side * 15, 5, WHITE)
+        ink.line([(-26, side * 9), (-24, side * 14)], ALARM, THIN)
+    barrel = [(10, -9), (46, -9), (46, -14), (61, -14), (61, 14), (46, 14), (46, 9), (10, 9)]
+    ink.solid([(x * 1.05, y * 1.3) for x, y in barrel]).fill(barrel, mix(color, WHITE, 0.5)).void(
+        [(28, 0), (52, 0)], THIN
+    )
+    turret = [(x - _back(player), y) for x, y in shape_points(player, 23)]
+    return ink.solid([(x * 1.16, y * 1.16) for x, y in turret]).fill(turret, color)
+
+
+def robot(ink: Ink, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> Ink:
+    """A tank of seat 0..3 at (x, y), heading `angle` rad, with its number upright."""
+    draw_tank(ink.to(x, y, angle, scale), player)
+    back, size = _back(player), _number_size(player)
+    ink.to(x, y, 0, scale)
+    ink.text(str(player + 1), size, -back * math.cos(angle), -back * math.sin(angle), BLACK, "hero", "c")
+    return ink.to(0, 0)
+
+
+@cached
+def tank(player: int, turn: int) -> Sprite:
+    """A tank at heading `turn` of HEADINGS, number upright. Premultiplied: it hides the ground and glows."""
+    image, dx, dy = turned(painted(_tank, (player,)), turn, HEADINGS, ARM)
+    angle, back, face = turn * math.tau / HEADINGS, _back(player), font("hero", _number_size(player))
+    number = face.render(str(player + 1), True, BLACK)
+    x = -dx - back * math.cos(angle) - number.get_width() / 2
+    y = -dy - back * math.sin(angle) + 0.35 * _number_size(player) - face.get_ascent()
+    image.blit(number, (round(x), round(y)))
+    return Sprite(image, dx, dy)
+
+
+@cached
+def ghost(player: int) -> Sprite:
+    """A tank that blinks, in the moments in which it is not there: a dim ring and its number."""
+    ink = Ink(112, 112).to(56, 56)
+    ink.solid(regular(64, 36)).ring(0, 0, 34, dim(PLAYERS[player], 0.55), THIN)
+    ink.text(str(player + 1), 34, 0, 0, dim(PLAYERS[player], 0.8), "hero", "c")
+    return trim(ink.sprite(0.6), 56, 56)
+
+
+@cached
+def team_mark(team: int, turn: int) -> Sprite:
+    """What team mates wear behind them, at heading `turn` of 48: one bar for the first team, two for the second."""
+    return turned(painted(_team_mark, (team,)), turn, 48, -46)
+
+
+def _tank(player: int) -> pygame.Surface:
+    return draw_tank(master(HALF, ARM), player).sprite(0.9)
+
+
+def _team_mark(team: int) -> pygame.Surface:
+    ink = master(36, -46)
+    for middle in ((0.0,), (-0.28, 0.28))[min(team, 1)]:
+        half = 0.42 if team == 0 else 0.18
+        ink.arc(0, 0, 47, math.pi + middle - half, math.pi + middle + half, ICE, 5)
+    return ink.lit(0.7)
+
+
+def _back(player: int) -> int:
+    return TRIANGLE_BACK if player == 1 else 0
+
+
+def _number_size(player: int) -> int:
+    return 29 if player == 1 else 34

@@ -1,0 +1,41 @@
+"""The marks that robots leave on the floor: stamped by the way they go, ahead or back, and fading."""
+
+import math
+from collections import deque
+
+from pigaming_app.scenes.views.sprites.effects import TREAD_LEVELS, TURNS, tread
+from pigaming_app.ui.draw.sprites import Batch, put, step
+
+APART = 13.0  # px between two marks
+OVER = 10.0  # px within which no second mark is stamped: to and fro would draw crosses
+LASTS = 3.0  # seconds
+MOST = 30  # marks of each robot
+
+
+class Treads:
+    """The marks of one robot, in canvas px."""
+
+    def __init__(self, player: int) -> None:
+        self.player = player
+        self.marks: deque[tuple[float, float, float, int]] = deque(maxlen=MOST)
+        self.last: tuple[float, float] | None = None
+
+    def roll(self, x: float, y: float, heading: float, now: float) -> None:
+        """The robot is at (x, y) at `now` seconds."""
+        if self.last is None or math.dist(self.last, (x, y)) > 10 * APART:
+            self.last = x, y
+            return
+        dx, dy = x - self.last[0], y - self.last[1]
+        if dx * dx + dy * dy >= APART * APART:
+            self.last = x, y
+            if not any(abs(x - mx) + abs(y - my) < OVER for _, mx, my, _ in self.marks):
+                ahead = dx * math.cos(heading) + dy * math.sin(heading) >= 0.0
+                self.marks.append((now, x, y, step(heading if ahead else heading + math.pi, TURNS)))
+
+    def draw(self, batch: Batch, now: float) -> None:
+        """Add the marks that have not faded."""
+        marks = self.marks
+        while marks and now - marks[0][0] >= LASTS:
+            marks.popleft()
+        for born, x, y, turn in marks:
+            put(batch, tread(self.player, turn, math.ceil(TREAD_LEVELS * (1.0 - (now - born) / LASTS))), x, y)

@@ -1,0 +1,136 @@
+"""What the view of every game does: one opaque ground, then four batches of sprites, between any two ticks of a match.
+
+A view looks at the match and never touches it; what happened it finds by comparing; its random generator is its own.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+import pygame
+
+from pigaming_app.scenes.views.background import HUD_HEIGHT, LEFT, TOP, Ground
+from pigaming_app.scenes.views.particles import Moments
+from pigaming_app.scenes.views.prewarm import driving
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.tread_marks import Treads
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw.frame_budget import Ahead, Job
+from pigaming_app.ui.draw.ink import ADD, PRE
+from pigaming_app.ui.draw.sprites import Batch, put, step
+
+REAL_WIDER = 42  # px
+JUMP = 100.0  # px in a tick: a robot that was placed, not driven
+Pose = tuple[float, float, float]  # px and px on the canvas, rad
+Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
+
+
+class Words(Protocol):
+    """The texts of a language."""
+
+    def __call__(self, key: str, **values: object) -> str:
+        """The text of a key."""
+
+    def decimal(self, number: str) -> str:
+        """A number as this language writes it."""
+
+
+class Taste(Protocol):
+    """What of the settings a view wants to know."""
+
+    flashes: str  # off, soft (no shake, no light on the ground), full
+    shake: bool
+
+
+class Picture:
+    """The view of one match. `players`: for each seat "human" or the name of the AI that drives; may be changed.
+
+    A game's view is made of arena, state, players, taste and words; it fills `watch` and `draw`. `clock`: the part of
+    the HUD between the panels.
+    """
+
+    clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
+
+    def __init__(self, state: Any, players: list[str], taste: Taste, words: Words | None, ground: Ground) -> None:
+        self.players, self.taste, self.words, self.ground = players, taste, words, ground
+        self.real: frozenset[int] = frozenset()  # seats whose robots are real: they are lit, not drawn
+        self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.moments = Moments()
+        self.treads = [Treads(i) for i in range(len(state.robots))]
+        self.before = self.now = _poses(state)
+        self.jobs = Ahead([lambda: ground.surface])
+        self.jobs.then(driving(self.seats))
+
+    def for_real(self, folder: Path) -> None:
+        """People play this match: what it may leave behind, such as a best lap, is kept in this folder for data."""
+
+    def watch(self, state: Any) -> list[Heard]:
+        """See what the last tick did; answers what is to be heard."""
+        raise NotImplementedError
+
+    def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
+        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
+        raise NotImplementedError
+
+    def pose(self, seat: int, blend: float) -> Pose:
+        """Where a robot is on the canvas, `blend` of the way between two ticks; it turns the short way."""
+        old, new = self.before[seat], self.now[seat]
+        turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
+        return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
+
+    def warm(self, milliseconds: float) -> bool:
+        """Make sprites ahead for so long; true when all are there."""
+        return self.jobs.work(milliseconds)
+
+    # ---- for the views of games
+
+    def ahead(self, jobs: Iterator[Job]) -> None:
+        """More sprites to make ahead, after those of driving robots."""
+        self.jobs.then(jobs)
+
+    def follow(self, state: Any) -> None:
+        """Note where robots are after this tick."""
+        self.before, self.now = self.now, _poses(state)
+        for i, (new, old) in enumerate(zip(self.now, self.before, strict=True)):
+            if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
+                self.before = [*self.before[:i], new, *self.before[i + 1 :]]
+
+    def reach(self, seat: int, usual: int) -> int:
+        """Radius in px of a ring round a robot; a real one stands in a wide disc of its own."""
+        return usual + REAL_WIDER if seat in self.real else usual
+
+    def light_up(self, under: Batch, seat: int, pose: Pose, fast: bool) -> None:
+        """Treads, headlights and, if it is `fast`, the flame of a robot."""
+        x, y, heading = pose
+        now, marks = self.moments.clock, self.treads[seat]
+        marks.roll(x, y, heading, now)
+        marks.draw(under, now)
+        put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
+        if fast:
+            put(under, effects.flame(seat, step(heading, effects.TURNS), int(now * 30) % 2), x, y)
+
+    def paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
+        """The ground and the batches: light below robots (within the arena), what hides, light, what hides all."""
+        shaken = self.moments.offset
+        if shaken == (0, 0):
+            screen.blit(self.ground.surface, (0, 0))
+        else:
+            screen.fill((0, 0, 0))
+            screen.blit(self.ground.surface, shaken)
+        screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
+        screen.fblits(under, ADD)
+        screen.set_clip(None)
+        screen.fblits(over, PRE)
+        screen.fblits(light, ADD)
+        screen.fblits(top, PRE)
+
+
+def decimal(words: Words | None, number: str) -> str:
+    """A number with the decimal sign of the language."""
+    return words.decimal(number) if words else number
+
+
+def _poses(state: Any) -> Sequence[Pose]:
+    """Where robots are on the canvas."""
+    return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]

@@ -1,6 +1,0 @@
-"""High scores: the tables, their file, and the rows carried over from the file of version 1.3.0."""
-
-from pigaming_app.scores.book import FILE, Scores, migrations
-from pigaming_app.scores.table import DAYS, LENGTH, LETTERS, Score, Table
-
-__all__ = ["DAYS", "FILE", "LENGTH", "LETTERS", "Score", "Scores", "Table", "migrations"]

@@ -1,0 +1,159 @@
+"""Which way round the walls: flow fields on a grid of nodes 50 px apart.
+
+A field grows from a goal over the free nodes of the grid until it reaches the robot; the robot then makes for the
+farthest node down the field that it can go to in a straight line.
+"""
+
+from typing import Annotated, Any
+
+from pigaming_app.sim.grid import BLOCKED, node_at
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_KEPT, ROWS
+
+SLACK = 2  # nodes that a goal may move before the field is grown anew
+LOOK = 7  # nodes that a robot looks ahead down the field
+
+
+@record
+class Errand:
+    """Where a robot wants to go, and the field that leads there."""
+
+    wanted: int  # 0: nowhere
+    goal_x: float
+    goal_y: float
+    way_x: float  # the point to drive to now
+    way_y: float
+    straight: int  # 1: it is the goal itself
+    root: int  # the node from which the field has grown; 0: there is no field
+    walls: int  # how many walls stood then
+    reach: Annotated[list[int], NODES_KEPT, "h"]  # steps to the root, 1 at the root, 0 not reached
+    queue: Annotated[list[int], NODES_KEPT, "h"]  # the growing edge
+
+
+@kernel
+def free_node(world: Any, x: float, y: float) -> int:
+    """The free node nearest to a point, among those up to two nodes away; 0 (never free) where there is none."""
+    middle = node_at(x, y)
+    if not world.grid[middle] & BLOCKED:
+        return middle
+    best, least = 0, 1e9
+    row, column = middle // COLUMNS, middle % COLUMNS
+    for r in range(max(row - 2, 1), min(row + 3, ROWS - 1)):
+        for c in range(max(column - 2, 1), min(column + 3, COLUMNS - 1)):
+            node = r * COLUMNS + c
+            if not world.grid[node] & BLOCKED:
+                dx, dy = c * CELL - x, r * CELL - y
+                gap = dx * dx + dy * dy
+                if gap < least:
+                    best, least = node, gap
+    return best
+
+
+@kernel
+def grow(world: Any, errand: Any, root: int, until: int) -> None:
+    """Grow the field from `root`, breadth first, until it has passed the node `until` or filled its room."""
+    reach, queue, grid = errand.reach, errand.queue, world.grid
+    for node in range(NODES):
+        reach[node] = 0
+    errand.root = root
+    reach[root] = 1
+    queue[0] = root
+    head, tail = 0, 1
+    enough = 32000
+    while head < tail:
+        node = queue[head]
+        head += 1
+        steps = reach[node] + 1
+        if steps > enough:
+            return
+        if node == until:
+            enough = steps + 3
+        beside = node + 1
+        if reach[beside] == 0 and not grid[beside] & BLOCKED:
+            reach[beside] = steps
+            queue[tail] = beside
+            tail += 1
+        beside = node - 1
+        if reach[beside] == 0 and not grid[beside] & BLOCKED:
+            reach[beside] = steps
+            queue[tail] = beside
+            tail += 1
+        beside = node + COLUMNS
+        if reach[beside] == 0 and not grid[beside] & BLOCKED:
+            reach[beside] = steps
+            queue[tail] = beside
+            tail += 1
+        beside = node - COLUMNS
+        if reach[beside] == 0 and not grid[beside] & BLOCKED:
+            reach[beside] = steps
+            queue[tail] = beside
+            tail += 1
+
+
+@kernel
+def downhill(errand: Any, node: int) -> int:
+    """The neighbour nearest to the root; a diagonal one only where both nodes beside it are free too."""
+    reach = errand.reach
+    best, least = node, reach[node]
+    east, west, south, north = reach[node + 1], reach[node - 1], reach[node + COLUMNS], reach[node - COLUMNS]
+    if east and south and 0 < reach[node + COLUMNS + 1] < least:
+        best, least = node + COLUMNS + 1, reach[node + COLUMNS + 1]
+    if west and south and 0 < reach[node + COLUMNS - 1] < least:
+        best, least = node + COLUMNS - 1, reach[node + COLUMNS - 1]
+    if east and north and 0 < reach[node - COLUMNS + 1] < least:
+        best, least = node - COLUMNS + 1, reach[node - COLUMNS + 1]
+    if west and north and 0 < reach[node - COLUMNS - 1] < least:
+        best, least = node - COLUMNS - 1, reach[node - COLUMNS - 1]
+    if 0 < east < least:
+        best, least = node + 1, east
+    if 0 < west < least:
+        best, least = node - 1, west
+    if 0 < south < least:
+        best, least = node + COLUMNS, south
+    if 0 < north < least:
+        best, least = node - COLUMNS, north
+    return best
+
+
+@kernel
+def find_way(world: Any, errand: Any, x: float, y: float) -> None:
+    """Set the point that a robot at (x, y) should drive to now to get on with its errand."""
+    errand.way_x, errand.way_y, errand.straight = errand.goal_x, errand.goal_y, 1
+    if not errand.wanted or clear(world, x, y, errand.goal_x, errand.goal_y, RADIUS + 1.0):
+        return
+    root = free_node(world, errand.goal_x, errand.goal_y)
+    node = free_node(world, x, y)
+    if root == 0 or node == 0:
+        return
+    standing = 0
+    for i in range(world.wall_count):
+        if world.walls[i].health:
+            standing += 1
+    if not near_root(errand, root) or errand.walls != standing or errand.reach[node] == 0:
+        errand.walls = standing
+        grow(world, errand, root, node)
+        if errand.reach[node] == 0:  # no way there: stay on the straight line
+            return
+    errand.straight = 0
+    errand.way_x, errand.way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+    for _ in range(LOOK):
+        node = downhill(errand, node)
+        way_x, way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+        if not clear(world, x, y, way_x, way_y, RADIUS + 1.0):
+            return
+        errand.way_x, errand.way_y = way_x, way_y
+        if node == errand.root:
+            return
+
+
+@kernel
+def near_root(errand: Any, root: int) -> int:
+    """1 if the field still leads near enough to `root`: at most SLACK nodes away."""
+    if errand.root == 0:
+        return 0
+    rows = errand.root // COLUMNS - root // COLUMNS
+    columns = errand.root % COLUMNS - root % COLUMNS
+    return 1 if -SLACK <= rows <= SLACK and -SLACK <= columns <= SLACK else 0

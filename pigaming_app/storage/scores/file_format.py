@@ -1,0 +1,218 @@
+"""The text of the scores file, TOML, and what is checked when it is read.
+
+format = 2
+resets = 0                       # how often all tables were cleared
+
+[[migrated]]                     # a file of version 1.3.0
+file = "scores.toml"
+backup = "scores-1.3.0.toml"
+digest = "9f86d081…"
+when = 2026-11-22T10:00:00+00:00
+rows = { pitanks = 8, race = 4 }
+
+[[table]]
+game = "race"
+arena = "classic"
+feat = "lap"
+timed = true
+rules = "standard"
+length = 3
+people = 2
+side = 0
+rows = [{ initials = "ABC", ms = 9870, when = 2026-11-21T12:00:00+00:00 }]
+"""
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
+from datetime import date, datetime
+from typing import Any
+
+from pigaming_app.storage.parsing import SHOWN, one_line, toml_of
+from pigaming_app.storage.scores.table import LONGEST, Score, Table, is_score, local, worth_keeping
+
+FORMAT = 2
+MOST_RESETS = 10**9
+MOST_PEOPLE = 99
+MOST_LENGTH = 1000
+
+
+@dataclass(frozen=True)
+class Migrated:
+    """A file of version 1.3.0 that was carried over: its name, its backup's, when, and the new rows of each game."""
+
+    file: str
+    backup: str
+    digest: str  # SHA-256 of the file
+    when: datetime
+    rows: Mapping[str, int]
+
+
+@dataclass
+class Content:
+    """The content of a scores file."""
+
+    tables: dict[Table, list[Score]] = field(default_factory=dict)
+    resets: int = 0
+    migrated: list[Migrated] = field(default_factory=list)
+
+    def copy(self) -> "Content":
+        """A copy with lists of its own."""
+        return Content({table: [*rows] for table, rows in self.tables.items()}, self.resets, [*self.migrated])
+
+    def clear(self) -> None:
+        """Empty every table."""
+        self.tables, self.resets = {}, self.resets + 1
+
+    def trim(self, today: date) -> None:
+        """Sort every table, and drop the rows that no table shows."""
+        self.tables = {table: worth_keeping(table, rows, today) for table, rows in self.tables.items() if rows}
+
+    def rows(self) -> Counter[tuple[Table, Score]]:
+        """How often each row is there."""
+        return Counter((table, row) for table, rows in self.tables.items() for row in rows)
+
+
+@dataclass
+class Faults:
+    """Entries that were ignored: how many, and where the first one was."""
+
+    count: int = 0
+    first: str = ""
+
+    def add(self, where: str, count: int = 1) -> None:
+        """Count faulty entries."""
+        self.count += count
+        self.first = self.first or where
+
+    def sentences(self, path: object) -> list[str]:
+        """One sentence for all of them, none if there are none."""
+        if not self.count:
+            return []
+        entries = "1 entry is not a score" if self.count == 1 else f"{self.count} entries are not scores"
+        return [f"{path}: {entries} ({'' if self.count == 1 else 'first '}in {self.first}); ignored."]
+
+
+def parse(text: str) -> tuple[Content, Faults]:
+    """The content of a file and what had to be ignored in it. Raises ValueError for a file that is no scores file."""
+    found = toml_of(text)
+    if type(found.get("format")) is not int or found["format"] != FORMAT:
+        raise ValueError(f"its format is not {FORMAT}")
+    content, faults = Content(resets=_resets(found.get("resets"))), Faults()
+    for i, entry in enumerate(_list(found.get("table", []), "table", faults), 1):
+        table = _table(entry)
+        if table is None:
+            faults.add(f"table {i}")
+            continue
+        rows = content.tables.setdefault(table, [])
+        rows += read_rows(table, entry.get("rows"), one_line(f"{table.game}.{table.arena}", SHOWN), faults)
+    for entry in _list(found.get("migrated", []), "migrated", faults):
+        if migrated := _migrated(entry):
+            content.migrated.append(migrated)
+        else:
+            faults.add("migrated")
+    return content, faults
+
+
+def text_of(content: Content) -> str:
+    """The text of the file."""
+    import tomli_w
+
+    tables = [
+        {**asdict(table), "rows": [_entry(table, row) for row in rows]}
+        for table, rows in sorted(content.tables.items())
+        if rows
+    ]
+    migrated = [asdict(one) for one in content.migrated]
+    return tomli_w.dumps({"format": FORMAT, "resets": content.resets, "migrated": migrated, "table": tables})
+
+
+def read_rows(table: Table, entries: object, where: str, faults: Faults) -> list[Score]:
+    """The valid rows of a list; the others are added to `faults`."""
+    rows = []
+    for entry in _list(entries, where, faults):
+        if row := row_of(table, entry):
+            rows.append(row)
+        else:
+            faults.add(where)
+    return rows
+
+
+def row_of(table: Table, entry: object) -> Score | None:
+    """The row of an entry, None if it is not one of this table."""
+    match entry:
+        case {"initials": str(initials), "when": datetime() as when, **rest}:
+            pass
+        case _:
+            return None
+    value = rest.pop("ms" if table.timed else "score", None)
+    if rest or type(value) is not int:
+        return None
+    try:
+        row = Score(initials, value, local(when))
+    except ValueError:
+        return None
+    return row if is_score(table, row) else None
+
+
+def _list(found: object, where: str, faults: Faults) -> Iterable[Any]:
+    if isinstance(found, list):
+        return found
+    faults.add(where)
+    return []
+
+
+def _table(entry: object) -> Table | None:
+    match entry:
+        case {
+            "game": str(game),
+            "arena": str(arena),
+            "feat": str(feat),
+            "timed": bool(timed),
+            "rules": str(rules),
+            "length": int() | float() as length,
+            "people": int(people),
+            "side": int(side),
+            "rows": _,
+            **rest,
+        } if not rest:
+            pass
+        case _:
+            return None
+    short = max(map(len, (game, arena, feat, rules))) <= LONGEST
+    counted = all(type(one) is int and 0 <= one <= MOST_PEOPLE for one in (people, side))
+    measured = not isinstance(length, bool) and 0 <= length <= MOST_LENGTH
+    return Table(game, arena, feat, timed, rules, length, people, side) if short and counted and measured else None
+
+
+def _migrated(entry: object) -> Migrated | None:
+    match entry:
+        case {
+            "file": str(file),
+            "backup": str(backup),
+            "digest": str(digest),
+            "when": datetime() as when,
+            "rows": dict(rows),
+        }:
+            pass
+        case _:
+            return None
+    try:
+        counted = all(type(one) is int and one >= 0 for one in rows.values())
+        good = counted and _is_plain(file) and _is_plain(backup)
+        return Migrated(file, backup, digest, local(when), rows) if good else None
+    except ValueError:
+        return None
+
+
+def _is_plain(file: str) -> bool:
+    """Whether it is the name of a file, without a folder."""
+    return 0 < len(file) <= LONGEST and file.isprintable() and not set(file) & set("/\\:")
+
+
+def _resets(found: object) -> int:
+    return found if type(found) is int and 0 <= found <= MOST_RESETS else 0
+
+
+def _entry(table: Table, row: Score) -> Mapping[str, Any]:
+    return {"initials": row.initials, "ms" if table.timed else "score": row.score, "when": row.when}

@@ -1,0 +1,286 @@
+"""Ink is drawn large on black, shrunk (antialiasing), blurred and added to itself (glow).
+
+Nothing here runs in a steady frame: it makes the surfaces that a scene then only blits. Only tiles that were drawn on
+are shrunk, and wide blurs are made on small copies: a whole page is lit in a twentieth of a second.
+"""
+
+import math
+from functools import cached_property
+from itertools import pairwise
+from typing import Self
+
+import pygame
+
+from pigaming_app.ui.draw.frame_budget import Steps, finished
+from pigaming_app.ui.draw.theme import BLACK, BODY, CAPITALS, ICE, LINE, WHITE, Color, Points, font, mix, regular
+
+ADD, MULT, PRE = pygame.BLEND_RGB_ADD, pygame.BLEND_RGB_MULT, pygame.BLEND_PREMULTIPLIED
+
+Halos = tuple[tuple[int, int, float], ...]
+# Glow: (shrink by, gaussian radius there, strength). NEAR for sprites (reaches 24 px), WIDE for pages.
+NEAR: Halos = ((2, 3, 0.60), (4, 3, 0.70))
+WIDE: Halos = ((4, 1, 0.55), (8, 2, 0.60), (16, 3, 0.55))
+SOFT: Halos = ((4, 1, 0.60), (8, 2, 0.70))  # as NEAR, on pages
+TILE_W, TILE_H = 160, 120  # px
+
+
+class Ink:
+    """A black sheet of w x h px, drawn `ss` times larger than it will be. `to` moves, turns and scales what follows."""
+
+    def __init__(self, w: int, h: int, ss: int = 2) -> None:
+        self.w, self.h, self.ss = w, h, ss
+        self.covers: list[list[tuple[float, float]]] = []
+        self.knock: pygame.Surface | None = None
+        self.tiles: set[tuple[int, int]] = set()
+        self.to(0, 0)
+
+    @cached_property
+    def sheet(self) -> pygame.Surface:
+        """Where it is drawn; made when it is first drawn on."""
+        return pygame.Surface((self.w * self.ss, self.h * self.ss))
+
+    def to(self, x: float, y: float, angle: float = 0.0, scale: float = 1.0) -> Self:
+        """What follows is drawn round (x, y), turned by `angle` rad and `scale` times as large."""
+        self.x, self.y, self.k = x, y, scale * self.ss
+        self.c, self.s = math.cos(angle) * self.k, math.sin(angle) * self.k
+        return self
+
+    def _at(self, p: tuple[float, float]) -> tuple[float, float]:
+        x, y = p
+        return self.x * self.ss + self.c * x - self.s * y, self.y * self.ss + self.s * x + self.c * y
+
+    def _mark(self, left: float, top: float, right: float, bottom: float) -> None:
+        """Note the tiles between corners on the large sheet: they have been drawn on."""
+        w, h = TILE_W * self.ss, TILE_H * self.ss
+        columns = range(max(0, int(left // w)), min((self.w - 1) // TILE_W, int(right // w)) + 1)
+        for row in range(max(0, int(top // h)), min((self.h - 1) // TILE_H, int(bottom // h)) + 1):
+            for column in columns:
+                self.tiles.add((column, row))
+
+    def fill(self, points: Points, color: Color) -> Self:
+        """A filled polygon."""
+        box = pygame.draw.polygon(self.sheet, color, [self._at(p) for p in points])
+        self._mark(box.left, box.top, box.right, box.bottom)
+        return self
+
+    def solid(self, points: Points) -> Self:
+        """Black out what lies below: on the sheet, and, in a sprite, on whatever it is blitted over."""
+        at = [self._at(p) for p in points]
+        pygame.draw.polygon(self.sheet, BLACK, at)
+        self.covers.append(at)
+        return self
+
+    def line(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
+        """A line with round joints and ends."""
+        at = [self._at(p) for p in points]
+        w = max(1, round(width * self.k))
+        for a, b in zip(at, at[1:] + at[:1] if closed else at[1:], strict=False):
+            dx, dy = b[0] - a[0], b[1] - a[1]
+            d = math.hypot(dx, dy) or 1
+            nx, ny = -dy / d * w / 2, dx / d * w / 2
+            corners = [(a[0] + nx, a[1] + ny), (b[0] + nx, b[1] + ny), (b[0] - nx, b[1] - ny), (a[0] - nx, a[1] - ny)]
+            pygame.draw.polygon(self.sheet, color, corners)
+        for p in at:
+            pygame.draw.circle(self.sheet, color, p, w / 2)
+        xs, ys, r = [p[0] for p in at], [p[1] for p in at], w / 2 + 1
+        self._mark(min(xs) - r, min(ys) - r, max(xs) + r, max(ys) + r)
+        return self
+
+    def void(self, points: Points, width: float, keep: float = 0.0) -> Self:
+        """A black line that its neighbours' glow does not fill (only `keep` of it)."""
+        self.line(points, BLACK, width)
+        real, self.sheet = self.sheet, self._knock()
+        shade = round(255 * keep)
+        self.line(points, (shade, shade, shade), width)
+        self.sheet = real
+        return self
+
+    def _knock(self) -> pygame.Surface:
+        if self.knock is None:
+            self.knock = pygame.Surface(self.sheet.get_size())
+            self.knock.fill(WHITE)
+        return self.knock
+
+    def neon(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
+        """A line with a hotter core."""
+        self.line(points, color, width, closed)
+        return self.line(points, mix(color, WHITE, 0.4), width * 0.35, closed)
+
+    def disc(self, x: float, y: float, r: float, color: Color) -> Self:
+        """A filled circle."""
+        box = pygame.draw.circle(self.sheet, color, self._at((x, y)), r * self.k)
+        self._mark(box.left, box.top, box.right, box.bottom)
+        return self
+
+    def arc(self, x: float, y: float, r: float, start: float, end: float, color: Color, width: float = LINE) -> Self:
+        """Part of a circle, from angle `start` to `end`, rad, clockwise on the screen."""
+        n = max(2, int(abs(end - start) * r / 4) + 2)
+        angles = [start + (end - start) * i / n for i in range(n + 1)]
+        return self.line([(x + r * math.cos(a), y + r * math.sin(a)) for a in angles], color, width)
+
+    def ring(self, x: float, y: float, r: float, color: Color, width: float = LINE) -> Self:
+        """A circle's outline."""
+        return self.line(regular(max(24, int(r)), r, 0, x, y), color, width, True)
+
+    def dashes(self, points: Points, color: Color, width: float, on: float, off: float, closed: bool = True) -> Self:
+        """An outline in dashes, `on` px long and `off` px apart; corners included."""
+        points = [*points, points[0]] if closed else points
+        left, draw, run = on, True, [points[0]]
+        for a, b in pairwise(points):
+            d, done = math.dist(a, b), 0.0
+            while done < d:
+                step = min(left, d - done)
+                done, left = done + step, left - step
+                p = (a[0] + (b[0] - a[0]) * done / d, a[1] + (b[1] - a[1]) * done / d)
+                run.append(p)
+                if left <= 1e-6:
+                    if draw:
+                        self.line(run, color, width)
+                    draw, left, run = not draw, off if draw else on, [p]
+        if draw and len(run) > 1:
+            self.line(run, color, width)
+        return self
+
+    def text(
+        self, text: str, size: int, x: float, y: float, color: Color = ICE, face: str = "head", align: str = "l"
+    ) -> Self:
+        """One line of text, upright; y is the middle of its capitals; `align` is "l", "c" or "r" of x."""
+        f = font(face, round(size * self.k))
+        image = f.render(text, True, color)
+        px, py = self._at((x, y))
+        px -= {"l": 0.0, "c": 0.5, "r": 1.0}[align] * image.get_width()
+        at = round(px), round(py + CAPITALS * size * self.k / 2 - f.get_ascent())
+        box = self.sheet.blit(image, at)
+        self._mark(box.left, box.top, box.right, box.bottom)
+        if color == BLACK:  # black lettering stays black under its neighbours' glow
+            self._knock().blit(image, at)
+        return self
+
+    def _shrunk(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> Steps[None]:
+        """Blit a large sheet, shrunk, onto a surface of the real size: those runs of tiles that were drawn on."""
+        for row, first, count in runs(self.tiles):
+            box = pygame.Rect(first * TILE_W, row * TILE_H, count * TILE_W, TILE_H).clip((0, 0, self.w, self.h))
+            large = sheet.subsurface(box.x * self.ss, box.y * self.ss, box.w * self.ss, box.h * self.ss)
+            out.blit(pygame.transform.smoothscale(large, box.size), box, special_flags=flags)
+            yield
+
+    def onto(self, out: pygame.Surface) -> Steps[None]:
+        """Add the ink, without glow, to a surface of the sheet's real size."""
+        if self.tiles:
+            yield from self._shrunk(self.sheet, out, ADD)
+
+    def shrinking(self) -> Steps[pygame.Surface]:
+        """The sheet at its real size, without glow."""
+        out = pygame.Surface((self.w, self.h))
+        if self.tiles:
+            yield from self._shrunk(self.sheet, out, 0)
+        return out
+
+    def plain(self) -> pygame.Surface:
+        """As `shrinking`, at once."""
+        return finished(self.shrinking())
+
+    def knocked(self, out: pygame.Surface) -> Steps[None]:
+        """Darken what must stay black: voids and black lettering."""
+        if self.knock:
+            yield from self._shrunk(self.knock, out, MULT)
+
+    def lighting(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
+        """The sheet with its glow: blurs of it, added where the ink itself is dark, so that no hue ever clips."""
+        out = yield from self.shrinking()
+        yield from add_glow(out, [(out, halos, glow)])
+        yield from self.knocked(out)
+        return out
+
+    def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
+        """As `lighting`, at once."""
+        return finished(self.lighting(glow, halos))
+
+    def spriting(self, glow: float = 1.0) -> Steps[pygame.Surface]:
+        """Premultiplied: black where `solid` hides the ground, light everywhere else. One blit occludes and glows."""
+        light = yield from self.lighting(glow)
+        out = pygame.Surface((self.w, self.h), pygame.SRCALPHA)
+        if self.covers:
+            mask = pygame.Surface(self.sheet.get_size(), pygame.SRCALPHA)
+            for points in self.covers:
+                pygame.draw.polygon(mask, (0, 0, 0, 255), points)
+            out.blit(pygame.transform.smoothscale(mask, (self.w, self.h)), (0, 0))
+        out.blit(light, (0, 0), special_flags=ADD)
+        return out
+
+    def sprite(self, glow: float = 1.0) -> pygame.Surface:
+        """As `spriting`, at once."""
+        return finished(self.spriting(glow))
+
+
+def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:
+    """Tiles (column, row) as runs (row, first column, how many)."""
+    found: list[tuple[int, int, int]] = []
+    for column, row in sorted(tiles, key=lambda tile: (tile[1], tile[0])):
+        if found and found[-1][0] == row and found[-1][1] + found[-1][2] == column:
+            found[-1] = row, found[-1][1], found[-1][2] + 1
+        else:
+            found.append((row, column, 1))
+    return found
+
+
+def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, float]]) -> Steps[None]:
+    """Add the blurs of (light, halos, strength), all of the size of `out`, where `out` itself is dark."""
+    size = out.get_size()
+    least = min(shrink for _, halos, _ in sources for shrink, _, _ in halos)
+    soft = pygame.Surface((max(1, size[0] // least), max(1, size[1] // least)))
+    for light, halos, glow in sources:
+        small = light
+        for shrink, radius, k in halos:
+            small = pygame.transform.smoothscale(small, (max(1, size[0] // shrink), max(1, size[1] // shrink)))
+            yield
+            blur = pygame.transform.gaussian_blur(small, radius)
+            blur.fill([min(255, round(255 * k * glow))] * 3, special_flags=MULT)
+            soft.blit(pygame.transform.smoothscale(blur, soft.get_size()), (0, 0), special_flags=ADD)
+            yield
+    soft.fill((6, 6, 6), special_flags=pygame.BLEND_RGB_SUB)  # the tails: black stays black, sprites have no edge
+    soft = pygame.transform.smoothscale(soft, size)
+    yield
+    dark = pygame.transform.grayscale(out)
+    dark.blit(dark, (0, 0), special_flags=ADD)
+    yield
+    soft.blit(pygame.transform.invert(dark), (0, 0), special_flags=MULT)
+    yield
+    out.blit(soft, (0, 0), special_flags=ADD)
+
+
+class Page:
+    """A whole screen: lines glow (`hot`), titles shimmer (`warm`), body text is crisp (`cold`)."""
+
+    def __init__(self, w: int = 1920, h: int = 1080) -> None:
+        self.hot, self.warm, self.cold = Ink(w, h), Ink(w, h), Ink(w, h)
+
+    def text(
+        self, text: str, size: int, x: float, y: float, color: Color = ICE, face: str = "head", align: str = "l"
+    ) -> None:
+        """A title or a number."""
+        self.warm.text(text, size, x, y, color, face, align)
+
+    def body(self, text: str, x: float, y: float, color: Color = ICE, align: str = "l", size: int = BODY) -> None:
+        """A sentence."""
+        self.cold.text(text, size, x, y, color, "body", align)
+
+    def lighting(self) -> Steps[pygame.Surface]:
+        """The page, lit."""
+        hot = yield from self.hot.shrinking()
+        out = hot.copy()
+        sources = [(hot, WIDE, 1.0)]
+        if self.warm.tiles:
+            warm = yield from self.warm.shrinking()
+            out.blit(warm, (0, 0), special_flags=ADD)
+            sources.append((warm, SOFT, 0.45))
+        yield
+        yield from add_glow(out, sources)
+        yield from self.hot.knocked(out)
+        yield from self.warm.knocked(out)
+        yield from self.cold.onto(out)
+        return out
+
+    def done(self) -> pygame.Surface:
+        """As `lighting`, at once."""
+        return finished(self.lighting())

@@ -1,0 +1,252 @@
+"""Line icons on a square of 2 x 2, drawn in strokes: what cannot be left to a font."""
+
+import math
+from collections.abc import Callable
+
+from pigaming_app.ui.draw.glow import Ink
+from pigaming_app.ui.draw.theme import Color, Point, Points, cut
+
+
+def icon(ink: Ink, name: str, x: float, y: float, r: float, color: Color, w: float | None = None) -> Ink:
+    """Draw the icon `name` (a key of ICONS) round (x, y), `r` px to each side, in lines `w` px wide."""
+    ICONS[name](Pen(ink, x, y, r, color, w or max(3, r * 0.13)))
+    return ink
+
+
+class Pen:
+    """Draws on a square from (-1, -1) to (1, 1) that lies somewhere on a sheet."""
+
+    def __init__(self, ink: Ink, x: float, y: float, r: float, color: Color, w: float) -> None:
+        self.ink, self.x, self.y, self.r, self.color, self.w = ink, x, y, r, color, w
+
+    def at(self, points: Points) -> list[Point]:
+        """Points of the square as points of the sheet."""
+        return [(self.x + a * self.r, self.y + b * self.r) for a, b in points]
+
+    def line(self, *points: Point, closed: bool = False) -> None:
+        """A line through points of the square."""
+        self.ink.line(self.at(points), self.color, self.w, closed)
+
+    def fill(self, *points: Point) -> None:
+        """A filled polygon of the square."""
+        self.ink.fill(self.at(points), self.color)
+
+    def dot(self, x: float, y: float, r: float) -> None:
+        """A filled circle of the square."""
+        self.ink.disc(self.x + x * self.r, self.y + y * self.r, r * self.r, self.color)
+
+    def ring(self, r: float) -> None:
+        """A circle round the middle of the square."""
+        self.ink.ring(self.x, self.y, r * self.r, self.color, self.w)
+
+
+def _shield(pen: Pen) -> None:
+    outline = ((0, -0.95), (0.8, -0.6), (0.72, 0.2), (0.4, 0.68), (0, 0.98), (-0.4, 0.68), (-0.72, 0.2), (-0.8, -0.6))
+    pen.line(*outline, closed=True)
+    pen.line((-0.34, 0.0), (-0.08, 0.3), (0.4, -0.28))
+
+
+def _speed(pen: Pen) -> None:
+    for d in (-0.62, 0, 0.62):
+        pen.line((d - 0.28, -0.7), (d + 0.32, 0), (d - 0.28, 0.7))
+
+
+def _rapid(pen: Pen) -> None:
+    for d in (-0.62, 0, 0.62):
+        pen.line((-0.75, d), (0.25, d))
+        pen.dot(0.7, d, 0.17)
+
+
+def _triple(pen: Pen) -> None:
+    for a in (-0.5, 0, 0.5):
+        c, s = math.cos(a), math.sin(a)
+        pen.line((-0.8 + 0.3 * c, 0.33 * s), (-0.8 + 1.2 * c, 1.2 * s))
+        pen.dot(-0.8 + 1.65 * c, 1.65 * s, 0.17)
+
+
+def _ricochet(pen: Pen) -> None:
+    pen.line((-0.95, 0.85), (0.95, 0.85))
+    pen.line((-0.9, -0.7), (-0.1, 0.6), (0.75, -0.75))
+    pen.line((0.2, -0.72), (0.75, -0.75), (0.86, -0.2))
+
+
+def _mine(pen: Pen) -> None:
+    pen.ring(0.55)
+    for i in range(8):
+        c, s = math.cos(i * math.tau / 8), math.sin(i * math.tau / 8)
+        pen.line((0.62 * c, 0.62 * s), (0.95 * c, 0.95 * s))
+    pen.dot(0, 0, 0.2)
+
+
+def _pad(pen: Pen) -> None:
+    half = ((0.55, -0.52), (0.82, -0.34), (1.0, 0.42), (0.86, 0.66), (0.62, 0.6), (0.36, 0.26))
+    pen.line(*half, *((-x, y) for x, y in reversed(half)), closed=True)
+    pen.line((-0.62, -0.12), (-0.26, -0.12))
+    pen.line((-0.44, -0.3), (-0.44, 0.06))
+    for x, y in ((0.3, -0.12), (0.58, -0.12), (0.44, -0.28), (0.44, 0.04)):
+        pen.dot(x, y, 0.075)
+
+
+def _keys(pen: Pen) -> None:
+    pen.line(*cut(-1, -0.58, 2, 1.16, 0.14), closed=True)
+    for y in (-0.25, 0.05):
+        for x in (-0.66, -0.22, 0.22, 0.66):
+            pen.dot(x, y, 0.09)
+    pen.line((-0.4, 0.34), (0.4, 0.34))
+
+
+def _ai(pen: Pen) -> None:
+    pen.line(*cut(-0.72, -0.42, 1.44, 1.1, 0.22), closed=True)
+    pen.dot(-0.3, 0.08, 0.14)
+    pen.dot(0.3, 0.08, 0.14)
+    pen.line((0, -0.46), (0, -0.8))
+    pen.dot(0, -0.86, 0.12)
+    pen.line((-0.95, 0), (-0.95, 0.3))
+    pen.line((0.95, 0), (0.95, 0.3))
+    pen.line((-0.22, 0.42), (0.22, 0.42))
+
+
+def _check(pen: Pen) -> None:
+    pen.line((-0.8, 0.05), (-0.25, 0.6), (0.85, -0.6))
+
+
+def _crown(pen: Pen) -> None:
+    pen.line((-0.9, 0.55), (-0.9, -0.5), (-0.42, 0), (0, -0.75), (0.42, 0), (0.9, -0.5), (0.9, 0.55), closed=True)
+
+
+def _left(pen: Pen) -> None:
+    pen.line((0.35, -0.7), (-0.35, 0), (0.35, 0.7))
+
+
+def _right(pen: Pen) -> None:
+    pen.line((-0.35, -0.7), (0.35, 0), (-0.35, 0.7))
+
+
+def _up(pen: Pen) -> None:
+    pen.line((-0.7, 0.35), (0, -0.35), (0.7, 0.35))
+
+
+def _down(pen: Pen) -> None:
+    pen.line((-0.7, -0.35), (0, 0.35), (0.7, -0.35))
+
+
+def _plus(pen: Pen) -> None:
+    pen.line((-0.8, 0), (0.8, 0))
+    pen.line((0, -0.8), (0, 0.8))
+
+
+def _cross(pen: Pen) -> None:
+    pen.line((-0.6, -0.6), (0.6, 0.6))
+    pen.line((-0.6, 0.6), (0.6, -0.6))
+
+
+def _circle(pen: Pen) -> None:
+    pen.ring(0.62)
+
+
+def _square(pen: Pen) -> None:
+    pen.line((-0.56, -0.56), (0.56, -0.56), (0.56, 0.56), (-0.56, 0.56), closed=True)
+
+
+def _triangle(pen: Pen) -> None:
+    pen.line((0, -0.76), (0.7, 0.46), (-0.7, 0.46), closed=True)
+
+
+def _clock(pen: Pen) -> None:
+    pen.ring(0.88)
+    pen.line((0, -0.5), (0, 0), (0.38, 0.22))
+
+
+def _shoot(pen: Pen) -> None:
+    """A cross-hair."""
+    pen.ring(0.66)
+    for k in range(4):
+        c, s = math.cos(k * math.tau / 4), math.sin(k * math.tau / 4)
+        pen.line((0.42 * c, 0.42 * s), (1.0 * c, 1.0 * s))
+
+
+def _arrow(pen: Pen, up: float) -> None:
+    pen.line((0, 0.9 * up), (0, -0.4 * up))
+    pen.fill((0, -1.0 * up), (0.68, -0.12 * up), (-0.68, -0.12 * up))
+
+
+def _ahead(pen: Pen) -> None:
+    _arrow(pen, 1.0)
+
+
+def _behind(pen: Pen) -> None:
+    _arrow(pen, -1.0)
+
+
+def _hook(pen: Pen, side: float) -> None:
+    """An arrow that goes up, over and down on one side: it turns round."""
+    arc = [math.pi * (0.95 + 1.05 * i / 14) for i in range(15)]
+    pen.line(*((side * (0.6 * math.cos(a) - 0.08), 0.06 + 0.6 * math.sin(a)) for a in arc))
+    pen.fill((side * 0.06, 0.06), (side * 0.98, 0.06), (side * 0.52, 0.8))
+
+
+def _turn_left(pen: Pen) -> None:
+    _hook(pen, -1.0)
+
+
+def _turn_right(pen: Pen) -> None:
+    _hook(pen, 1.0)
+
+
+def _stay(pen: Pen) -> None:
+    for x in (-0.34, 0.34):
+        pen.line((x, -0.6), (x, 0.6))
+
+
+def _unknown(pen: Pen) -> None:
+    for x in (-0.6, 0.0, 0.6):
+        pen.dot(x, 0, 0.17)
+
+
+def _faster(pen: Pen) -> None:
+    for x in (-0.85, 0.0):
+        pen.fill((x, -0.66), (x + 0.85, 0.0), (x, 0.66))
+
+
+def _play(pen: Pen) -> None:
+    pen.fill((-0.45, -0.66), (0.55, 0.0), (-0.45, 0.66))
+
+
+def _fastest(pen: Pen) -> None:
+    for x in (-0.95, -0.32, 0.31):
+        pen.fill((x, -0.6), (x + 0.66, 0.0), (x, 0.6))
+
+
+ICONS: dict[str, Callable[[Pen], None]] = {
+    "shield": _shield,
+    "speed": _speed,
+    "rapid": _rapid,
+    "triple": _triple,
+    "ricochet": _ricochet,
+    "mine": _mine,
+    "pad": _pad,
+    "keys": _keys,
+    "ai": _ai,
+    "check": _check,
+    "crown": _crown,
+    "left": _left,
+    "right": _right,
+    "up": _up,
+    "down": _down,
+    "plus": _plus,
+    "cross": _cross,
+    "circle": _circle,
+    "square": _square,
+    "triangle": _triangle,
+    "clock": _clock,
+    "shoot": _shoot,
+    "ahead": _ahead,
+    "behind": _behind,
+    "turn_left": _turn_left,
+    "turn_right": _turn_right,
+    "stay": _stay,
+    "unknown": _unknown,
+    "play": _play,
+    "faster": _faster,
+    "fastest": _fastest,
+}

@@ -1,0 +1,104 @@
+"""A piece of a page, drawn with canvas coordinates, made once and then only added to the screen.
+
+Whole pages cost a quarter of a second to light; a scene that moves builds itself of panes and keeps them.
+"""
+
+from dataclasses import dataclass
+
+import pygame
+
+from pigaming_app.ui.draw.frame_budget import Steps, finished
+from pigaming_app.ui.draw.ink import Color, Ink, Page, text_width
+from pigaming_app.ui.draw.surface_cache import cached
+
+ADD = pygame.BLEND_RGB_ADD
+MARGIN = 48  # px round a pane in which its glow ends
+LEFT, RIGHT, TOP, BOTTOM = 96, 1824, 54, 1026  # the safe area
+
+
+@dataclass(frozen=True)
+class Lit:
+    """A finished piece of light and where its corner lies on the canvas."""
+
+    image: pygame.Surface
+    at: tuple[int, int]
+
+    def draw(
+        self, screen: pygame.Surface, dx: float = 0.0, dy: float = 0.0, share: float = 1.0, begin: float = 0.0
+    ) -> None:
+        """Add it to the screen, moved by (dx, dy) px; of its width only from `begin` to `share`, 0..1."""
+        w, h = self.image.get_size()
+        left, right = round(w * max(0.0, begin)), round(w * min(1.0, share))
+        if right > left:
+            place = self.at[0] + dx + left, self.at[1] + dy
+            screen.blit(self.image, place, (left, 0, right - left, h), special_flags=ADD)
+
+
+class Pane:
+    """An area of the canvas, x, y, w, h in px, to draw on with canvas coordinates."""
+
+    def __init__(self, x: float, y: float, w: float, h: float) -> None:
+        self.at = round(x) - MARGIN, round(y) - MARGIN
+        self.page = Page(round(w) + 2 * MARGIN, round(h) + 2 * MARGIN)
+        for ink in (self.page.hot, self.page.warm, self.page.cold):
+            ink.to(-self.at[0], -self.at[1])
+
+    @property
+    def hot(self) -> Ink:
+        """The sheet whose lines glow."""
+        return self.page.hot
+
+    def lighting(self) -> Steps[Lit]:
+        """The pane, lit. Costs about 0.1 µs a pixel; not for a steady frame."""
+        image = yield from self.page.lighting()
+        return Lit(image, self.at)
+
+    def done(self) -> Lit:
+        """As `lighting`, at once."""
+        return finished(self.lighting())
+
+
+@cached
+def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0.7, level: int = 8) -> Lit:
+    """One line of light whose capitals are centred on (0, 0); `level` of 8 parts of its brightness."""
+    if level < 8:
+        whole = word(text, size, color, face, glow)
+        image = whole.image.copy()
+        image.fill([255 * level // 8] * 3, special_flags=pygame.BLEND_RGB_MULT)
+        return Lit(image, whole.at)
+    w, h = round(text_width(text, size, face)) + 64, round(size * 1.5) + 48
+    ink = Ink(w, h)
+    ink.text(text, size, w / 2, h / 2, color, face, "c")
+    return Lit(ink.lit(glow), (-(w // 2), -(h // 2)))
+
+
+def fitted(text: str, size: int, width: float, face: str = "head") -> int:
+    """The largest size, `size` at most, in which a line is not wider than `width` px."""
+    wide = text_width(text, size, face)
+    return size if wide <= width else int(size * width / wide)
+
+
+def lines_of(text: str, size: int, width: float, face: str = "body") -> list[str]:
+    """A text broken into lines not wider than `width` px."""
+    lines = [""]
+    for part in text.split():
+        longer = f"{lines[-1]} {part}".strip()
+        if lines[-1] and text_width(longer, size, face) > width:
+            lines.append(part)
+        else:
+            lines[-1] = longer
+    return lines
+
+
+def span(first: int, columns: int) -> tuple[int, int]:
+    """x and width of some of the twelve columns of the page, from column `first` (0..11) on; px."""
+    return LEFT + first * 146, columns * 146 - 24
+
+
+@cached
+def backdrop() -> pygame.Surface:
+    """The dots of an arena's floor, over the whole canvas."""
+    tile = Ink(48, 48).disc(24, 12, 1.5, (22, 31, 46)).plain()
+    out = pygame.Surface((1920, 1080))
+    out.fblits([(tile, (x, y)) for x in range(0, 1920, 48) for y in range(0, 1080, 48)])
+    return out

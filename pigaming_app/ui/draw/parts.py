@@ -1,0 +1,94 @@
+"""Small parts that every screen shares: badges, buttons, hints, panels and the corners that mean focus."""
+
+from collections.abc import Sequence
+
+from pigaming_app.ui.draw.glow import Ink, Page
+from pigaming_app.ui.draw.icons import icon
+from pigaming_app.ui.draw.theme import (
+    BLACK,
+    BODY,
+    BOLD,
+    FOCUS,
+    ICE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    WHITE,
+    Color,
+    cut,
+    mix,
+    shape_points,
+    text_width,
+)
+
+ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # no font of ours has them
+SIGNS = {**ARROWS, "Cross": "cross", "Circle": "circle", "Square": "square", "Triangle": "triangle"}  # PlayStation's
+
+
+def badge(ink: Ink, player: int, x: float, y: float, r: float = 32, color: Color | None = None) -> None:
+    """Shape and number of seat 0..3, always together and upright."""
+    color = color or PLAYERS[player]
+    low, size = (0.16, 1.14) if player == 1 else (0.0, 1.3)  # the triangle sits lower and its number is smaller
+    points = [(x + py, y + r * low - px) for px, py in shape_points(player, r)]
+    ink.fill(points, color).line(points, mix(color, WHITE, 0.35), max(2, r * 0.09), True)
+    ink.text(str(player + 1), round(r * size), x, y + r * low * 1.75, BLACK, "hero", "c")
+
+
+def button_width(label: str) -> float:
+    """Width of a button, px. "<>" is drawn as two arrows; what stands in SIGNS as an icon."""
+    if len(label) == 1 or label in SIGNS:
+        return 60
+    return 104 if label == "<>" else max(60, text_width(label, BODY) + 36)
+
+
+def button(page: Page, x: float, y: float, label: str, color: Color = ICE, r: float = 30) -> float:
+    """A pad's button or a key, as it is printed on the device; x is its left edge. Returns its width."""
+    w = button_width(label)
+    if label in ARROWS or w != 60:
+        page.hot.line(cut(x, y - r + 2, w, 2 * r - 4, 10), color, THIN, True)
+    else:
+        page.hot.ring(x + r, y, r - 2, color, THIN)
+    if label == "<>":
+        icon(page.cold, "left", x + 30, y, 15, color, 5)
+        icon(page.cold, "right", x + w - 30, y, 15, color, 5)
+    elif label in SIGNS:
+        icon(page.cold, SIGNS[label], x + w / 2, y, 16, color, 5)
+    else:
+        page.cold.text(label, BODY, x + w / 2, y, color, "head", "c")
+    return w
+
+
+def hints(page: Page, items: Sequence[tuple[str, str]], y: float = 980, gap: float = 56) -> None:
+    """A centred row of (button, what it does)."""
+    widths = [button_width(label) + 18 + text_width(what, BODY, "body") for label, what in items]
+    x = (1920 - sum(widths) - gap * (len(items) - 1)) / 2
+    for (label, what), w in zip(items, widths, strict=True):
+        page.body(what, x + button(page, x, y, label) + 18, y, MIST)
+        x += w + gap
+
+
+def panel(
+    ink: Ink, x: float, y: float, w: float, h: float, color: Color = STEEL, width: float = THIN, c: float = 20
+) -> None:
+    """An outlined box of the house shape that hides what lies below it."""
+    ink.solid(cut(x, y, w, h, c)).line(cut(x, y, w, h, c), color, width, True)
+
+
+def brackets(
+    ink: Ink,
+    x: float,
+    y: float,
+    w: float,
+    h: float,
+    color: Color = FOCUS,
+    arm: float = 48,
+    c: float = 20,
+    width: float = BOLD,
+    out: float = 0,
+) -> None:
+    """Four corners round a box, `out` px outside it: focus is not only a colour."""
+    x, y, w, h = x - out, y - out, w + 2 * out, h + 2 * out
+    for sx, sy, px, py in ((1, 1, x, y), (-1, 1, x + w, y), (-1, -1, x + w, y + h), (1, -1, x, y + h)):
+        corner = [(px, py + sy * (c + arm)), (px, py + sy * c), (px + sx * c, py), (px + sx * (c + arm), py)]
+        ink.neon(corner, color, width)

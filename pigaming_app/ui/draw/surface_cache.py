@@ -1,0 +1,143 @@
+"""The cache of everything that is painted once and blitted often: one budget in bytes, least recently used goes first.
+
+`@cached` memoises a function whose result holds surfaces, in dataclasses, tuples, lists or dicts. All cached functions
+share one budget, so that what a screen needs stays and the memory of the process stays bounded. A surface counts with
+its pixels, once for all entries that hold it; a subsurface counts as the whole surface that it keeps alive.
+"""
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
+from dataclasses import fields, is_dataclass
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+import pygame
+
+from pigaming_app.ui.draw.frame_budget import budget
+
+BUDGET = 150 << 20  # bytes; a match needs 140 MB, and what only its start needs is least recently used
+
+Args = ParamSpec("Args")
+Result = TypeVar("Result")
+
+
+class Entry:
+    """One result of a cached function, the surfaces that it keeps alive, and the game for whose matches it was made.
+
+    `used`: how many results had been kept in all when it was used last.
+    """
+
+    __slots__ = ("game", "key", "surfaces", "table", "used", "value")
+
+    def __init__(self, table: "dict[Hashable, Entry]", key: Hashable, value: object, game: str | None) -> None:
+        self.table, self.key, self.value, self.game = table, key, value, game
+        self.used = 0
+        self.surfaces = tuple({id(surface): surface for surface in surfaces_in(value)}.values())
+
+
+class SurfaceCache:
+    """Results of functions, `bytes` of pixels in all: never more than `budget`.
+
+    Uses between two new results are not ordered among each other: a frame that makes nothing then costs one lookup for
+    each sprite, as with functools.cache.
+    """
+
+    def __init__(self, budget: int) -> None:
+        self.budget = budget
+        self.bytes = 0
+        self._kept = 0  # results since the start
+        self._order: OrderedDict[Entry, None] = OrderedDict()  # least recently used first
+        self._holders: dict[int, int] = {}  # by id of a surface: how many entries keep it alive
+        self._game: str | None = None  # for whose match results are made now
+
+    def __len__(self) -> int:
+        return len(self._order)
+
+    def cached(self, make: Callable[Args, Result]) -> Callable[Args, Result]:
+        """Memoise a function of hashable arguments. A result larger than the whole budget is not kept."""
+        table: dict[Hashable, Entry] = {}
+        use = self._order.move_to_end
+
+        @wraps(make)
+        def found_or_made(*args: Args.args, **named: Args.kwargs) -> Result:
+            key: Hashable = (args, *named.items()) if named else args
+            entry = table.get(key)
+            if entry is not None:
+                if entry.used != self._kept:
+                    entry.used = self._kept
+                    use(entry)
+                return entry.value  # type: ignore[return-value]  # it was made by `make`
+            budget.claim()
+            value = make(*args, **named)
+            budget.note()
+            self._keep(Entry(table, key, value, self._game))
+            return value
+
+        return found_or_made
+
+    @contextmanager
+    def made_for(self, game: str) -> Iterator[None]:
+        """Results that are made within belong to matches of a game."""
+        before, self._game = self._game, game
+        try:
+            yield
+        finally:
+            self._game = before
+
+    def release_matches(self) -> None:
+        """Drop whatever was made for a match, of any game."""
+        for entry in [entry for entry in self._order if entry.game is not None]:
+            self._drop(entry)
+
+    def clear(self) -> None:
+        """Drop everything."""
+        for entry in list(self._order):
+            self._drop(entry)
+
+    def _keep(self, entry: Entry) -> None:
+        if sum(map(pixel_bytes, entry.surfaces)) > self.budget:
+            return
+        if entry.key in entry.table:  # another thread was faster
+            self._drop(entry.table[entry.key])
+        self._kept += 1
+        entry.used = self._kept
+        self._order[entry] = None
+        entry.table[entry.key] = entry
+        for surface in entry.surfaces:
+            holders = self._holders.get(id(surface), 0)
+            self._holders[id(surface)] = holders + 1
+            self.bytes += 0 if holders else pixel_bytes(surface)
+        while self.bytes > self.budget:
+            self._drop(next(iter(self._order)))
+
+    def _drop(self, entry: Entry) -> None:
+        del self._order[entry], entry.table[entry.key]
+        for surface in entry.surfaces:
+            self._holders[id(surface)] -= 1
+            if not self._holders[id(surface)]:
+                del self._holders[id(surface)]
+                self.bytes -= pixel_bytes(surface)
+
+
+def surfaces_in(value: object) -> Iterator[pygame.Surface]:
+    """Every surface that a value keeps alive; instead of a subsurface, the surface whose pixels it shares."""
+    if isinstance(value, pygame.Surface):
+        yield value.get_abs_parent()
+    elif isinstance(value, dict):
+        yield from surfaces_in(tuple(value.values()))
+    elif isinstance(value, tuple | list | set | frozenset):
+        for part in value:
+            yield from surfaces_in(part)
+    elif is_dataclass(value):
+        for field in fields(value):
+            yield from surfaces_in(getattr(value, field.name))
+
+
+def pixel_bytes(surface: pygame.Surface) -> int:
+    """Bytes of a surface's pixels."""
+    return surface.get_pitch() * surface.get_height()
+
+
+surfaces = SurfaceCache(BUDGET)  # of this process
+cached = surfaces.cached

@@ -1,0 +1,232 @@
+"""Gamepads that come and go: those SDL knows by its game-controller mappings, and any other as a plain joystick.
+
+A pad is known by SDL's instance id, which no other pad gets until the arcade ends; a pad that was pulled out is
+forgotten at once and never read again.
+"""
+
+from collections.abc import Iterator
+from typing import Protocol
+
+import pygame
+from pygame._sdl2 import controller
+
+from pigaming_app.ui.input.events import Act, Drive
+from pigaming_app.ui.input.filters import Change, StickDirection, Trigger, outside_dead_zone
+
+_FULL = 32767.0  # SDL's largest axis value
+_BUTTONS = {
+    pygame.CONTROLLER_BUTTON_A: Act.FIRE,
+    pygame.CONTROLLER_BUTTON_B: Act.BACK,
+    pygame.CONTROLLER_BUTTON_X: Act.EXTRA,
+    pygame.CONTROLLER_BUTTON_Y: Act.ALT,
+    pygame.CONTROLLER_BUTTON_START: Act.START,
+    pygame.CONTROLLER_BUTTON_DPAD_UP: Act.UP,
+    pygame.CONTROLLER_BUTTON_DPAD_DOWN: Act.DOWN,
+    pygame.CONTROLLER_BUTTON_DPAD_LEFT: Act.LEFT,
+    pygame.CONTROLLER_BUTTON_DPAD_RIGHT: Act.RIGHT,
+}
+_STICK = (pygame.CONTROLLER_AXIS_LEFTX, pygame.CONTROLLER_AXIS_LEFTY)
+_SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
+_PLAIN_SHOULDERS = (4, 5)
+_PLAIN = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT)  # the first four buttons of a plain joystick
+_DIRECTIONS = {Act.UP: "↑", Act.DOWN: "↓", Act.LEFT: "←", Act.RIGHT: "→"}
+_SHARED = {Act.LEAVE: Act.BACK, Act.BRAIN: Act.ALT}  # one button for both; BRAIN only in a pause
+_PRINTED = {
+    "Xbox": {Act.FIRE: "A", Act.BACK: "B", Act.EXTRA: "X", Act.ALT: "Y", Act.START: "START"},
+    "PlayStation": {
+        Act.FIRE: "Cross",
+        Act.BACK: "Circle",
+        Act.EXTRA: "Square",
+        Act.ALT: "Triangle",
+        Act.START: "OPTIONS",
+    },
+    "Nintendo": {Act.FIRE: "A", Act.BACK: "B", Act.EXTRA: "X", Act.ALT: "Y", Act.START: "+"},
+    "Joystick": {Act.FIRE: "1", Act.BACK: "2", Act.EXTRA: "3", Act.ALT: "4", Act.START: "START"},
+}
+_MAKERS = {
+    "PlayStation": ("playstation", "dualshock", "dualsense", "sony", "ps3", "ps4", "ps5"),
+    "Nintendo": ("nintendo", "switch", "joy-con", "pro controller"),
+}
+
+
+class Pad(Protocol):
+    """A pad that is plugged in. `kind` is one of Xbox, PlayStation, Nintendo and Joystick."""
+
+    kind: str
+
+    def changes(self, event: pygame.Event) -> Iterator[Change]:
+        """What an event of this pad means."""
+
+    def drive(self) -> Drive:
+        """How the pad is held now."""
+
+    def attached(self) -> bool:
+        """Whether its cable is still in, as far as the system knows."""
+
+
+class MappedPad:
+    """A pad SDL has a mapping for; every such pad has the buttons of an Xbox pad in the same places.
+
+    Changes are read off the events alone: in a long frame a button or stick may be back before anybody looks at it.
+    """
+
+    def __init__(self, index: int) -> None:
+        self._pad = controller.Controller(index)
+        self._stick = StickDirection()
+        self._at = {axis: self._axis(axis) for axis in _STICK}
+        self._triggers = {
+            pygame.CONTROLLER_AXIS_TRIGGERRIGHT: Trigger(),
+            pygame.CONTROLLER_AXIS_TRIGGERLEFT: Trigger(None),
+        }
+        self._shoulders: set[int] = set()
+        self.kind = _kind(self._pad.name)
+
+    def changes(self, event: pygame.Event) -> Iterator[Change]:
+        if event.type in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):
+            down = event.type == pygame.CONTROLLERBUTTONDOWN
+            if event.button in _BUTTONS:
+                yield Change(_BUTTONS[event.button], down)
+            elif event.button in _SHOULDERS:
+                yield from _both(self._shoulders, event.button, down, _SHOULDERS)
+                if event.button == pygame.CONTROLLER_BUTTON_RIGHTSHOULDER:
+                    yield Change(None, down, "shoulder")
+        elif event.type == pygame.CONTROLLERAXISMOTION:
+            if event.axis in _STICK:
+                self._at[event.axis] = max(-1.0, event.value / _FULL)
+                yield from self._stick.moved(*(self._at[axis] for axis in _STICK))
+            elif event.axis in self._triggers:
+                yield from self._triggers[event.axis].moved(event.value / _FULL)
+
+    def attached(self) -> bool:
+        return bool(self._pad.attached())
+
+    def drive(self) -> Drive:
+        if not self.attached():
+            return Drive()
+        held = self._pad.get_button
+        x, y = outside_dead_zone(self._axis(pygame.CONTROLLER_AXIS_LEFTX), self._axis(pygame.CONTROLLER_AXIS_LEFTY))
+        return Drive(
+            float(held(pygame.CONTROLLER_BUTTON_DPAD_UP) - held(pygame.CONTROLLER_BUTTON_DPAD_DOWN)) or -y,
+            float(held(pygame.CONTROLLER_BUTTON_DPAD_RIGHT) - held(pygame.CONTROLLER_BUTTON_DPAD_LEFT)) or x,
+            held(pygame.CONTROLLER_BUTTON_A) or self._axis(pygame.CONTROLLER_AXIS_TRIGGERRIGHT) > 0.5,
+            held(pygame.CONTROLLER_BUTTON_B)
+            or held(pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
+            or self._axis(pygame.CONTROLLER_AXIS_TRIGGERLEFT) > 0.5,
+        )
+
+    def _axis(self, axis: int) -> float:
+        return max(-1.0, self._pad.get_axis(axis) / _FULL)
+
+
+class PlainPad:
+    """A pad without a mapping: axes 0 and 1, hat 0 and the buttons in the order most makers number them."""
+
+    kind = "Joystick"
+
+    def __init__(self, joystick: "pygame.joystick.JoystickType") -> None:
+        self._pad = joystick
+        self._stick = StickDirection()
+        self._hat: dict[Act, bool] = {}
+        self._shoulders: set[int] = set()
+        self._axes = joystick.get_numaxes() >= 2
+        self._at = [joystick.get_axis(0), joystick.get_axis(1)] if self._axes else [0.0, 0.0]
+        count = joystick.get_numbuttons()
+        self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start comes behind them
+        start = 9 if self._shoulders_too else min(7, count - 1)
+        self._acts = dict(enumerate(_PLAIN)) | ({start: Act.START} if start >= len(_PLAIN) else {})
+
+    def changes(self, event: pygame.Event) -> Iterator[Change]:
+        if event.type in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP):
+            yield from self._button(event.button, event.type == pygame.JOYBUTTONDOWN)
+        elif event.type == pygame.JOYAXISMOTION:
+            if event.axis < 2 and self._axes:
+                self._at[event.axis] = event.value
+                yield from self._stick.moved(*self._at)
+        elif event.type == pygame.JOYHATMOTION and event.hat == 0:
+            yield from self._hat_moved(*event.value)
+
+    def drive(self) -> Drive:
+        pad = self._pad
+        x, y = outside_dead_zone(pad.get_axis(0), pad.get_axis(1)) if self._axes else (0.0, 0.0)
+        right, up = pad.get_hat(0) if pad.get_numhats() else (0, 0)
+        return Drive(
+            float(up) or -y,
+            float(right) or x,
+            self._held(0) or (self._shoulders_too and self._held(7)),
+            self._held(1) or self._held(5) or (self._shoulders_too and self._held(6)),
+        )
+
+    def attached(self) -> bool:
+        return True  # a plain joystick that is gone reads as one at rest
+
+    def _button(self, button: int, down: bool) -> Iterator[Change]:
+        if button in self._acts:
+            yield Change(self._acts[button], down)
+        elif button in _PLAIN_SHOULDERS:
+            yield from _both(self._shoulders, button, down, _PLAIN_SHOULDERS)
+        if button == _PLAIN_SHOULDERS[1] or (self._shoulders_too and button == 6):
+            yield Change(None, down, str(button))
+        elif self._shoulders_too and button == 7:
+            yield Change(Act.FIRE, down, str(button))
+
+    def _held(self, button: int) -> bool:
+        return button < self._pad.get_numbuttons() and bool(self._pad.get_button(button))
+
+    def _hat_moved(self, right: int, up: int) -> Iterator[Change]:
+        now = {Act.UP: up > 0, Act.DOWN: up < 0, Act.LEFT: right < 0, Act.RIGHT: right > 0}
+        for act, down in now.items():
+            if down != self._hat.get(act, False):
+                yield Change(act, down, "hat")
+        self._hat = now
+
+
+class Pads:
+    """The pads that are plugged in, by instance id."""
+
+    def __init__(self) -> None:
+        self.plugged: dict[int, Pad] = {}
+        try:
+            controller.init()
+            pygame.joystick.init()
+        except pygame.error:
+            return  # a system without a joystick service: keys and mouse still play
+        self.look()
+
+    def look(self) -> list[int]:
+        """Open every pad that is not open yet; the instance ids of those."""
+        found = []
+        for index in range(pygame.joystick.get_count()):
+            try:
+                joystick = pygame.joystick.Joystick(index)
+                number = joystick.get_instance_id()
+                if number not in self.plugged:
+                    known = controller.is_controller(index)
+                    self.plugged[number] = MappedPad(index) if known else PlainPad(joystick)
+                    found.append(number)
+            except pygame.error:
+                continue  # pulled out again between the event and now
+        return found
+
+    def forget(self, number: int) -> bool:
+        """A pad was pulled out; true if it was known."""
+        return self.plugged.pop(number, None) is not None
+
+
+def label(kind: str, act: Act) -> str:
+    """What is printed on the button of a kind of pad that means `act`; empty if none does."""
+    return _DIRECTIONS.get(act) or _PRINTED[kind].get(_SHARED.get(act, act), "")
+
+
+def _both(held: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[Change]:
+    """The all-stop, when the second button of a pair goes down or the first of both comes up."""
+    together = held.issuperset(pair)
+    (held.add if down else held.discard)(button)
+    if together or held.issuperset(pair):
+        yield Change(Act.STOP, down, "shoulders")
+
+
+def _kind(name: str) -> str:
+    for kind, marks in _MAKERS.items():
+        if any(mark in name.lower() for mark in marks):
+            return kind
+    return "Xbox"

@@ -1,0 +1,42 @@
+"""Buttons that count only after they have been held for a while; every device holds its own."""
+
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device, Press
+
+
+class Holds:
+    """Presses that are still held down. `needed`: seconds until one counts."""
+
+    def __init__(self, controls: Controls, needed: float) -> None:
+        self.controls, self.needed = controls, needed
+        self._held: dict[Device, tuple[Press, float]] = {}
+
+    def begin(self, press: Press) -> None:
+        """A button went down."""
+        self._held[press.device] = (press, 0.0)
+
+    def update(self, seconds: float) -> list[Press]:
+        """Let time pass; the presses that have now been held long enough. Whatever was let go is forgotten."""
+        done = []
+        for device, (press, since) in list(self._held.items()):
+            self._held[device] = (press, since + seconds)
+            if not self.controls.holds(device, press.act):
+                del self._held[device]
+            elif since + seconds >= self.needed:
+                del self._held[device]
+                done.append(press)
+        return done
+
+    def clear(self) -> None:
+        """Forget all of them."""
+        self._held.clear()
+
+    @property
+    def shares(self) -> dict[Device, float]:
+        """How much of the time has passed for each device that holds a button, 0..1."""
+        return {device: min(1.0, since / self.needed) for device, (_, since) in self._held.items()}
+
+    @property
+    def share(self) -> float:
+        """The largest of the shares, 0 if nothing is held."""
+        return max(self.shares.values(), default=0.0)

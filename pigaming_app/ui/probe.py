@@ -1,0 +1,77 @@
+"""What pygame finds on this machine: displays, sound, pads, fonts. It opens no window.
+
+The doctor runs this file as a process of its own, because a display server or a sound driver may hang or crash.
+Every look prints one line of JSON as soon as it is done: its name, what it found, and what was wrong.
+"""
+
+import json
+import os
+from collections.abc import Callable
+
+import pygame
+from pygame._sdl2 import controller
+
+from pigaming_app.ui.draw.theme import font
+from pigaming_app.ui.sounds import Sounds
+
+_UNSEEN = ("dummy", "offscreen")  # SDL's drivers that paint into memory only
+
+
+def displays() -> tuple[str, str]:
+    """The displays that are there, with size and rate; or why there is none."""
+    try:
+        pygame.display.init()
+    except pygame.error as error:
+        return "", str(error)
+    driver = pygame.display.get_driver()
+    if driver in _UNSEEN:
+        asked = "SDL_VIDEODRIVER" in os.environ
+        return "", f"SDL_VIDEODRIVER asks for {driver}" if asked else "no screen is connected to this session"
+    sizes, rates = pygame.display.get_desktop_sizes(), pygame.display.get_desktop_refresh_rates()
+    each = (f"{w} × {h} at {rate} Hz" for (w, h), rate in zip(sizes, rates, strict=True))
+    return f"{', '.join(each)} (by {driver})", ""
+
+
+def sound() -> tuple[str, str]:
+    """What plays the sounds, or why nothing does."""
+    sounds = Sounds()
+    there = sounds.wait()
+    sounds.close()
+    return ("there is a sound device", "") if there else ("", sounds.trouble)
+
+
+def pads() -> tuple[str, str]:
+    """The pads that are plugged in, by name; or those that SDL has no mapping for, as what is wrong."""
+    pygame.joystick.init()
+    controller.init()
+    names = {index: pygame.joystick.Joystick(index).get_name() for index in range(pygame.joystick.get_count())}
+    plain = [name for index, name in names.items() if not controller.is_controller(index)]
+    return ", ".join(names.values()), f"not known to SDL: {', '.join(plain)}" if plain else ""
+
+
+def fonts() -> tuple[str, str]:
+    """Whether the arcade's fonts can be read and have the letters of both languages."""
+    try:
+        faces = [font(face, 40) for face in ("head", "hero", "body")]
+    except (OSError, pygame.error) as error:
+        return "", str(error)
+    whole = all(None not in face.metrics("Aéãçõ") for face in faces)
+    return ("all there", "") if whole else ("", "letters are missing")
+
+
+LOOKS: dict[str, Callable[[], tuple[str, str]]] = {"displays": displays, "sound": sound, "pads": pads, "fonts": fonts}
+
+
+def main() -> None:
+    """Look at everything; a look that fails is one line too."""
+    print(json.dumps(["pygame", f"pygame-ce {pygame.ver}, SDL {'.'.join(map(str, pygame.get_sdl_version()))}", ""]))
+    for name, look in LOOKS.items():
+        try:
+            found, wrong = look()
+        except Exception as error:  # whatever a driver does, the other looks are wanted
+            found, wrong = "", str(error)
+        print(json.dumps([name, found, wrong]), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,100 @@
+"""The row at the foot of a page: which button of the device used last does what. The mouse clicks on it."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import pygame
+
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.ui.draw.ink import (
+    BLACK,
+    BODY,
+    MIST,
+    STEEL,
+    THIN,
+    button,
+    button_width,
+    cut,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Act, Device, Press
+
+ROOM = 1760  # px for the whole row
+GAPS = (56, 44, 32, 24)
+HIGH = 34  # px from the middle of the row to the edge of what can be clicked
+
+
+class Prompts:
+    """A row of (act, key of its text), centred on the line y px of the canvas, not wider than `room` px.
+
+    `solid`: the row lies on a black plate. `voice`: the device whose buttons are named, if not the one used last.
+    """
+
+    def __init__(
+        self,
+        house: House,
+        items: Sequence[tuple[Act, str]],
+        y: int = 980,
+        room: int = ROOM,
+        solid: bool = False,
+        voice: Callable[[], Device] | None = None,
+    ) -> None:
+        self.house, self.items, self.y, self.room, self.solid = house, tuple(items), y, room, solid
+        self.voice = voice
+
+    @property
+    def said(self) -> tuple[tuple[str, str], ...]:
+        """The labels and texts of the moment; an act without a button is left out."""
+        words = self.house.words
+        return tuple((words.printed(self._label(act)), words(key)) for act, key in self.items if self._label(act))
+
+    @property
+    def acts(self) -> list[Act]:
+        """What each of the hints stands for."""
+        return [act for act, _ in self.items if self._label(act)]
+
+    def meant(self, press: Press) -> Press:
+        """A click on one of the hints as the press that it stands for; any other press as it is."""
+        if press.act is not Act.CLICK or press.at is None or abs(press.at[1] - self.y) > HIGH:
+            return press
+        for act, (left, right) in zip(self.acts, places(self.said, self.room), strict=True):
+            if left <= press.at[0] <= right:
+                return replace(press, act=act)
+        return press
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Add the row to the screen."""
+        if self.solid:
+            ends = places(self.said, self.room)
+            outline = cut(ends[0][0] - 40, self.y - 46, ends[-1][1] - ends[0][0] + 80, 92)
+            pygame.draw.polygon(screen, BLACK, outline)
+            pygame.draw.polygon(screen, STEEL, outline, THIN)
+        row(self.said, self.y, self.room).draw(screen)
+
+    def _label(self, act: Act) -> str:
+        """What is printed on the button; RIGHT stands for left and right."""
+        return "<>" if act is Act.RIGHT else self.house.controls.label(self.voice() if self.voice else None, act)
+
+
+def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
+    """The left and right end of each hint, px."""
+    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in said]
+    fitting = [gap for gap in GAPS if sum(widths) + gap * (len(widths) - 1) <= room]
+    gap = fitting[0] if fitting else GAPS[-1]
+    x, out = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
+    for width in widths:
+        out.append((x, x + width))
+        x += width + gap
+    return out
+
+
+@cached
+def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> Lit:
+    """The whole row, lit."""
+    ends = places(said, room)
+    pane = Pane(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
+    for (label, text), (left, _) in zip(said, ends, strict=True):
+        pane.page.body(text, left + button(pane.page, left, y, label) + 18, y, MIST)
+    return pane.done()

@@ -1,0 +1,154 @@
+"""What the pages are built of: small pieces of light, each made once for each thing that it can show, then only added.
+
+Every function here and in the pages that makes light is a pure function of what it shows, and keeps what it made.
+Pieces lie round (0, 0) and are drawn where they are needed.
+"""
+
+import math
+
+import pygame
+
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.ink import (
+    BODY,
+    FOCUS,
+    ICE,
+    LINE,
+    MIST,
+    STEEL,
+    THIN,
+    TITLE,
+    Color,
+    Ink,
+    button,
+    button_width,
+    cut,
+    dim,
+    icon,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, fitted
+from pigaming_app.ui.draw.sprites import Sprite
+from pigaming_app.ui.draw.surface_cache import cached
+
+LEVELS = 8  # brightnesses kept of what pulses
+
+
+def pulse(seconds: float, low: int = 4) -> int:
+    """The level, `low` to LEVELS, of what calls for a press, once a second."""
+    return round(low + (LEVELS - low) * (0.5 + 0.5 * math.cos(math.tau * seconds)))
+
+
+def dimmed(lit: Lit, share: float) -> Lit:
+    """A piece of light at `share` of its brightness, 0..1."""
+    image = lit.image.copy()
+    image.fill([round(255 * share)] * 3, special_flags=pygame.BLEND_RGB_MULT)
+    return Lit(image, lit.at)
+
+
+@cached
+@sliced
+def heading(title: str, right: str = "", color: Color = ICE) -> Steps[Lit]:
+    """The head of a page, with a line below it and a fact at its right end."""
+    pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
+    size = fitted(title, TITLE, 1000)
+    pane.page.text(title, size, LEFT, 112, color)
+    if right:
+        room = RIGHT - LEFT - 60 - text_width(title, size)
+        pane.page.body(right, RIGHT, 112, MIST, "r", fitted(right, BODY, room, "body"))
+    pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
+    yield
+    return (yield from pane.lighting())
+
+
+@cached
+def text(
+    said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
+) -> Lit:
+    """One line, its capitals round y = 0; all but sentences shimmer. It shrinks where it would be wider than `room`."""
+    size = fitted(said, size, room, face)
+    edge = 4 if face == "body" else 32  # px for the glow
+    w, h = round(text_width(said, size, face)) + 2 * edge, 2 * size + 2 * edge
+    ink = Ink(w, h).text(said, size, edge, h / 2, color, face)
+    left = -edge - round((w - 2 * edge) * {"l": 0.0, "c": 0.5, "r": 1.0}[align])
+    return Lit(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
+
+
+@cached
+def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> Lit:
+    """An icon round (0, 0), `r` px to each side."""
+    if level < LEVELS:
+        return dimmed(sign(name, r, color, w), level / LEVELS)
+    pane = Pane(-r, -r, 2 * r, 2 * r)
+    icon(pane.hot, name, 0, 0, r, color, w)
+    return pane.done()
+
+
+@cached
+def calling(said: str, label: str, size: int, level: int = LEVELS) -> Lit:
+    """A yellow line that asks for a press; {button} in it is the button. Round (0, 0)."""
+    if level < LEVELS:
+        return dimmed(calling(said, label, size), level / LEVELS)
+    before, hole, after = said.partition("{button}")
+    wide = button_width(label) + 36 if hole else 0
+    size = fitted(before.strip() + after.strip(), size, 1500 - wide)
+    ends = [text_width(part.strip(), size) for part in (before, after)]
+    x = -(sum(ends) + wide) / 2
+    pane = Pane(x, -size, -2 * x, 2 * size)
+    pane.page.text(before.strip(), size, x, 0, FOCUS)
+    if hole:
+        button(pane.page, x + ends[0] + 18, 0, label, FOCUS)
+    pane.page.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
+    return pane.done()
+
+
+def calling_width(said: str, label: str, size: int) -> float:
+    """Width of such a line, px."""
+    return calling(said, label, size).image.get_width() - 96
+
+
+def chip_width(said: str) -> int:
+    """Width of a chip, px."""
+    return round(text_width(said, BODY)) + 48
+
+
+@cached
+def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
+    """A box with a word, its upper left at (0, 0). `state`: off, on, focus (on and in focus), ready (calls)."""
+    edge = {"off": STEEL, "on": ICE, "focus": FOCUS, "ready": FOCUS}[state]
+    pane = Pane(0, 0, w, high)
+    pane.hot.line(cut(0, 0, w, high, 12), edge, THIN, True)
+    color = {"off": MIST, "ready": FOCUS}.get(state, ICE)
+    pane.page.cold.text(said, fitted(said, BODY, w - 24), w / 2, high / 2, color, "head", "c")
+    return pane.done()
+
+
+@cached
+def button_light(label: str) -> Lit:
+    """A button as it is printed on the device, its left edge at x = 0."""
+    pane = Pane(0, -32, button_width(label), 64)
+    button(pane.page, 0, 0, label)
+    return pane.done()
+
+
+def blacked(screen: pygame.Surface, *boxes: pygame.Rect) -> pygame.Surface:
+    """Hide the dots of the floor inside boxes of the house shape."""
+    for box in boxes:
+        pygame.draw.polygon(screen, (0, 0, 0), cut(box.x, box.y, box.w, box.h, 20))
+    return screen
+
+
+def glow_bar(screen: pygame.Surface, box: pygame.Rect, color: Color = FOCUS) -> None:
+    """A breath of colour inside a row in focus."""
+    screen.fill(dim(color, 0.09), box, pygame.BLEND_RGB_ADD)
+
+
+def stamp(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
+    """Blit a premultiplied sprite where it belongs."""
+    screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=pygame.BLEND_PREMULTIPLIED)
+
+
+def switched(before: float, wanted: bool, seconds: float, duration: float) -> float:
+    """A share, 0..1, on its way to 1 (wanted) or 0."""
+    step = seconds / duration
+    return min(1.0, before + step) if wanted else max(0.0, before - step)

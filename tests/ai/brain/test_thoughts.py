@@ -1,0 +1,321 @@
+"""What brains show of themselves: true to what they do, plain, and without any effect on the match."""
+
+from math import isfinite, pi
+
+import pytest
+
+from pigaming_app.ai import BRAINS, make
+from pigaming_app.ai.brain.kind import Thinker
+from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
+from pigaming_app.ai.factory import foreman
+from pigaming_app.ai.pitanks import fsm
+from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Learned, Table, player
+from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.ai.race import racer
+from pigaming_app.games import GAMES
+from pigaming_app.games.factory.state import INPUT, RAW, A
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.record import digest
+from pigaming_app.sim.world import ROBOTS
+from pigaming_app.ui.i18n import texts
+
+ALL = [(game, name) for game in GAMES for name in BRAINS[game]]
+KEPT = 0.9  # of a table's best move, for the second best
+
+
+def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Thinker:
+    """A player who knows of every state that one move is worth most, and the next one nearly as much."""
+    table = Table()
+    for name, value in vars(Recipe()).items():
+        setattr(table.knobs, name, value)
+    for k in range(0, len(table.q), ACTIONS):
+        table.q[k + best], table.q[k + (best + 1) % ACTIONS] = reward, KEPT * reward
+        table.n[k + best] = 7
+    return Thinker(player("taught", Learned(table)), seed=1)
+
+
+def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> Match:
+    """A match with these brains on its first seats."""
+    rules = GAMES[game]
+    seats = [*brains, *["off"] * (ROBOTS - len(brains))]
+    one, two, three, four = (Seat(brain, team) for brain, team in zip(seats, rules.teams, strict=True))
+    setup = Setup(game, "", (one, two, three, four), 2.0, seed, variant or rules.variants[0], rules.default_goal)
+    match = Match(setup, arena=load(game))
+    for seat, brain in enumerate(brains):
+        match.sit(seat, make(game, brain, seed * ROBOTS + seat))
+    return match
+
+
+def load(game: str):
+    from pigaming_app.games import arenas
+
+    return arenas.load(game, arenas.arenas(game)[0])
+
+
+def thoughts(match: Match, seat: int = 0) -> Thoughts:
+    brain = match.brains[seat]
+    assert isinstance(brain, Thinker)
+    told = brain.explain(match.state, seat)
+    assert told is not None
+    return told
+
+
+def run(match: Match, ticks: int) -> Match:
+    for _ in range(ticks):
+        match.tick()
+    return match
+
+
+# ------------------------------------------------------------------------------------------------------- all of them
+
+
+@pytest.mark.parametrize(("game", "name"), ALL)
+def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
+    """Asked on every tick, on every seat: the same match, to the last bit of every mind."""
+    others = (["hard"] if name == "easy" else ["easy"]) * 3
+    watched, alone = play(game, name, *others), play(game, name, *others)
+    for tick in range(400):
+        for seat in range(ROBOTS):
+            thoughts(watched, seat)
+        watched.tick()
+        alone.tick()
+        if tick % 20 == 0:
+            assert digest(watched.state) == digest(alone.state)
+    assert digest(watched.state) == digest(alone.state)
+    for one, other in zip(watched.brains, alone.brains, strict=True):
+        assert digest(one.mind) == digest(other.mind)
+
+
+@pytest.mark.parametrize(("game", "name"), ALL)
+def test_everything_told_is_plain_finite_and_has_words(game, name):
+    words, match = texts("en"), play(game, name, "hard", name, "normal", seed=3)
+    for tick in range(1500):
+        if tick % 3 == 0:
+            for seat in (0, 2):
+                check(thoughts(match, seat), words)
+        match.tick()
+
+
+def check(told: Thoughts, words: dict[str, str]) -> None:
+    words[f"brain.{told.doing}"].format(**told.names)
+    if told.because:
+        words[f"brain.because_{told.because}"].format(**told.names)
+    assert len(told.rose) == PETALS
+    assert all(-1.0 <= value <= 1.0 for value in told.rose)
+    assert all(0.0 <= value <= 1.0 for value in told.wishes.values())
+    assert all(-1.0 <= value <= 1.0 for value in told.moves.values())
+    assert all(isfinite(value) for value in told.facts.values())
+    assert all(isfinite(sight.x) and isfinite(sight.y) for sight in told.sights)
+    assert not (told.wishes and told.moves)
+    if told.chosen:
+        assert told.chosen in told.wishes or told.chosen in told.moves
+
+
+def test_no_text_is_written_that_no_brain_says():
+    """Each key of the table [brain] stands in the sources of a brain, or of the overlay."""
+    from pigaming_app import ASSETS
+
+    package = ASSETS.parent / "pigaming_app"
+    files = [*(package / "ai").glob("*.py"), *(package / "scenes" / "brain").glob("*.py"), package / "scenes/match.py"]
+    sources = "\n".join(file.read_text(encoding="utf-8") for file in files)
+    keys = [key.removeprefix("brain.") for key in texts("en") if key.startswith("brain.")]
+    assert len(keys) > 40
+    for key in keys:
+        said = key.removeprefix("because_")
+        assert f'"{said}"' in sources or f'"brain.{said}"' in sources, key
+
+
+def test_before_its_first_look_nobody_knows_anything():
+    for game, name in ALL:
+        if name not in ("idle", "random"):
+            assert thoughts(play(game, name, "easy")).doing == "starts"
+
+
+def test_a_rose_points_where_it_is_told_to():
+    assert max(range(PETALS), key=lambda k: towards(pi / 2)[k]) == 4 == petal(pi / 2)
+    assert petal(-0.05) == 0
+    assert petal(-pi / 8) == PETALS - 1
+    both = blend(towards(0.0), towards(pi, -2.0))
+    assert (both[0], both[8]) == (1.0, -1.0)
+
+
+# ------------------------------------------------------------------------------------------------------------ PiTanks
+
+
+@pytest.mark.parametrize(("lead", "state", "because"), [(3, fsm.DEFEND, "ahead"), (-3, fsm.ATTACK, "behind")])
+def test_who_leads_hides_and_who_is_behind_hunts(lead, state, because):
+    match = play("pitanks", "normal", "idle", variant="plain")
+    match.state.robots[0].score = lead
+    run(match, 20)
+    told = thoughts(match)
+    assert told.facts["state"] == state
+    assert told.facts["lead"] == lead
+    assert told.because == because
+    assert told.chosen == ("cover" if lead > 0 else "attack")
+    assert told.wishes[str(told.chosen)] == 1.0
+
+
+def test_the_pull_out_of_cover_grows_while_nobody_shows():
+    match = run(play("pitanks", "easy", "idle", variant="plain"), 20)
+    mind = match.brains[0].mind
+    for waited, pull in ((0, 0.0), (mind.patience // 2, 0.5), (mind.patience, 1.0), (3 * mind.patience, 1.0)):
+        mind.unseen = waited
+        wishes = thoughts(match).wishes
+        assert (wishes["attack"], wishes["cover"]) == pytest.approx((pull, 1.0 - pull))
+    mind.seen, mind.state, mind.unseen = 0, fsm.ATTACK, mind.patience + 1
+    assert (thoughts(match).doing, thoughts(match).because) == ("hunt", "nobody")
+
+
+def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_be():
+    match = run(play("pitanks", "hard", "hard", seed=2), 60)
+    mind, told = match.brains[0].mind, thoughts(match)
+    seen = {sight.kind: sight for sight in told.sights}
+    assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.sight.others[0].x, mind.sight.others[0].y)
+    if GOAL in seen:
+        assert (seen[GOAL].x, seen[GOAL].y) == (mind.eyes.errand.goal_x, mind.eyes.errand.goal_y)
+    assert told.names["player"] == 2
+
+
+def test_it_says_that_it_dodges_exactly_when_it_would():
+    match = run(play("pitanks", "normal", "idle", variant="plain"), 10)
+    view, said = match.brains[0].mind.sight, []
+    for threat, bearing in ((9.0, 0.0), (0.5, pi / 2), (0.5, 0.0), (0.69, 0.4)):
+        view.threat, view.threat_bearing, view.threat_side = threat, bearing, 5.0
+        action = match.state.actions[0]
+        action.linear = 0.25
+        before = digest(match.state)
+        said.append((thoughts(match).doing == "dodge", thoughts(match).rose[petal(bearing)] < 0.5))
+        assert digest(match.state) == before
+        fsm.dodge(view, action)
+        assert said[-1][0] == (action.linear != 0.25)
+    assert (True, True) in said
+
+
+def test_it_knows_that_it_is_stuck():
+    match = run(play("pitanks", "normal", "idle"), 20)
+    mind = match.brains[0].mind
+    mind.held_up = fsm.HELD_UP_TICKS // 2
+    assert thoughts(match).wishes["free"] == pytest.approx(0.5)
+    mind.state = fsm.BREAK_FREE
+    told = thoughts(match)
+    assert (told.doing, told.because, told.chosen) == ("free", "stuck", "free")
+
+
+# --------------------------------------------------------------------------------------------------------------- race
+
+
+def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
+    match = run(play("race", "hard", "easy"), 100)
+    mind = match.brains[0].mind
+    mind.sight.past, mind.sight.return_x, mind.sight.return_y = 2 * racer.SLACK, 321.0, 123.0
+    told = thoughts(match)
+    assert (told.doing, told.because, told.chosen) == ("return", "missed", "back")
+    assert [(sight.x, sight.y) for sight in told.sights if sight.kind == GOAL] == [(321.0, 123.0)]
+
+
+def test_who_has_finished_is_not_stuck_though_nothing_moves_it_any_more():
+    match = run(play("race", "hard", "easy"), 100)
+    mind = match.brains[0].mind
+    mind.sight.finished, mind.state = 1, racer.BREAK_FREE
+    assert (thoughts(match).doing, thoughts(match).because) == ("done", "finish")
+
+
+def test_a_driver_makes_way_to_the_side_on_which_it_passes():
+    match = run(play("race", "hard", "easy"), 100)
+    mind = match.brains[0].mind
+    mind.sight.past, own = -100.0, mind.line * mind.sight.ahead.ideal
+    for aside, doing in ((-60.0, "pass_left"), (60.0, "pass_right"), (0.0, None)):
+        mind.lane = own + aside
+        told = thoughts(match)
+        assert (told.doing == doing) if doing else not told.doing.startswith("pass")
+
+
+# ------------------------------------------------------------------------------------------------------------ factory
+
+
+def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
+    match = play("factory", "hard", "hard", "hard", "hard")
+    told = []
+    for _ in range(1500):
+        match.tick()
+        view, mind = match.brains[0].mind.sight, match.brains[0].mind
+        slot = view.slots[mind.target]
+        busy = mind.near or mind.freeing > 0 or mind.resting > 0 or view.frozen
+        if view.carries == RAW + 1 and mind.carried == view.carries and slot.kind == INPUT and not busy:
+            assert slot.makes == A
+            told.append(thoughts(match))
+    assert told
+    for one in told:
+        assert (one.doing, one.because, one.chosen, one.names["machine"]) == ("bring", "raw", "put", "A")
+        goal = [sight for sight in one.sights if sight.kind == GOAL]
+        assert len(goal) == 1
+
+
+def test_a_frozen_driver_waits():
+    match = run(play("factory", "normal", "normal", "normal", "normal"), 60)
+    match.brains[0].mind.sight.frozen = 50
+    told = thoughts(match)
+    assert (told.doing, told.because, told.chosen) == ("frozen", "bumped", "wait")
+    assert told.wishes["wait"] == 1.0
+    assert max(told.rose) <= 0.0, "it wants to go nowhere"
+    assert foreman.PERIOD == 5
+
+
+# ------------------------------------------------------------------------------------------------------------- tables
+
+
+def test_a_table_shows_its_state_its_values_and_the_move_it_drew():
+    match = play("pitanks", "idle", "idle", variant="classic")
+    match.sit(0, taught())
+    run(match, 6)
+    told = thoughts(match)
+    mind = match.brains[0].mind
+    assert told.chosen == tuple(int(part) for part in MOVES[mind.move])
+    assert told.doing == "shoot"
+    assert told.moves[(1, 1, 1)] == 1.0
+    assert len(told.moves) == ACTIONS
+    here = state(*(int(told.facts[name]) for name in ("opponent", "wall", "bullet")))
+    assert here == mind.state
+    assert told.facts["bullet"] == NONE
+    assert {sight.kind for sight in told.sights} == {OPPONENT, WALL}
+    assert (told.because, told.names["count"]) == ("tried", 7)
+    assert told.names["percent"] == 100, "10 against 9 at a temperature of 1/50"
+
+
+def test_what_a_table_has_never_seen_it_says():
+    match = play("pitanks", "idle", "idle", variant="classic")
+    empty = taught(reward=0.0)
+    empty.known.n[:] = [0] * len(empty.known.n)
+    match.sit(0, empty)
+    told = thoughts(run(match, 6))
+    assert told.because == "new"
+    assert set(told.moves.values()) == {0.0}
+    assert told.rose == [0.0] * SECTORS
+    assert told.names["percent"] == round(100 / ACTIONS)
+
+
+def test_the_rose_of_a_table_says_where_it_would_have_the_opponent():
+    match = play("pitanks", "idle", "idle", variant="classic")
+    brain = taught(reward=0.0)
+    match.sit(0, brain)
+    run(match, 6)
+    wall = int(thoughts(match).facts["wall"])
+    brain.known.q[state(3, wall, NONE) * ACTIONS + 5] = 8.0
+    for k in range(state(9, wall, NONE) * ACTIONS, state(9, wall, NONE) * ACTIONS + ACTIONS):
+        brain.known.q[k] = -2.0
+    rose = thoughts(match).rose
+    assert rose[3] == 1.0
+    assert rose[9] == pytest.approx(-0.5), "the root of a quarter"
+    assert sum(abs(value) for value in rose) == pytest.approx(1.5)
+
+
+def test_a_bullet_that_comes_is_among_what_a_table_sees():
+    match = play("pitanks", "idle", "hard", variant="classic", seed=4)
+    match.sit(0, taught())
+    kinds = set()
+    for _ in range(1500):
+        match.tick()
+        kinds |= {sight.kind for sight in thoughts(match).sights}
+    assert BULLET in kinds

@@ -1,0 +1,149 @@
+"""Who is better: the interval is Wilson's, and nobody is favoured by seed or side."""
+
+from math import sqrt
+
+import pytest
+
+from pigaming_app.ai.experiments import league
+from pigaming_app.ai.experiments.league import duel, wilson
+from pigaming_app.games import GAMES
+from pigaming_app.games.setup import ChoiceError
+
+
+def test_hundred_wins_of_hundred_say_at_least_96_percent():
+    low, high = wilson(100, 100)
+    assert low == pytest.approx(0.963, abs=5e-4)
+    assert high == 1.0
+
+
+def test_no_win_is_the_mirror_of_all_wins():
+    low, high = wilson(0, 100)
+    assert low == 0.0
+    assert high == pytest.approx(1 - 0.963, abs=5e-4)
+
+
+def test_half_of_hundred_is_ten_percent_either_way():
+    # Wilson at 1/2: z sqrt(n + z^2) / (2 (n + z^2))
+    z = 1.959964
+    low, high = wilson(50, 100)
+    assert high - 0.5 == pytest.approx(z / (2 * sqrt(100 + z * z)))
+    assert low + high == pytest.approx(1.0)
+
+
+def test_more_matches_say_more():
+    widths = [high - low for low, high in (wilson(n // 2, n) for n in (10, 100, 1000))]
+    assert widths == sorted(widths, reverse=True)
+
+
+@pytest.mark.parametrize("brain", ["random", "fsm"])
+def test_a_duel_with_oneself_is_even(brain):
+    """Both sides of a pair are the same match, so what one wins on one side it loses on the other."""
+    result = duel("pitanks", brain, brain, matches=8, seed=5, minutes=0.5, variant="plain", fast=False)
+    assert result.wins == result.losses
+    assert result.mean_score_left == result.mean_score_right
+    assert result.wins + result.ties + result.losses == 8
+
+
+class Rigged:
+    """A batch in which whoever sits on the first seat wins by 3 to 1."""
+
+    seen: list[tuple[list[str], list[int]]]
+
+    def __init__(self, setups, kinds, fast):
+        self.setups = setups
+        self.seen.append(([kind.name for kind in kinds], [setup.seed for setup in setups]))
+
+    def play(self, ticks):
+        assert ticks == 2 * 60 * 50
+
+    def ticks(self):
+        return 1
+
+    def ended(self):
+        states = []
+        for setup in self.setups:
+            state = GAMES[setup.game].state()
+            for robot, seat, score in zip(state.robots, setup.seats, (3, 1, 0, 0), strict=True):
+                robot.present, robot.team, robot.score = int(seat.brain != "off"), seat.team, score
+            states.append(state)
+        return states
+
+
+def test_each_seed_is_played_from_both_sides(monkeypatch):
+    monkeypatch.setattr(league, "Batch", Rigged)
+    Rigged.seen = []
+    result = duel("pitanks", "easy", "hard", matches=6, seed=7, fast=False)
+    assert Rigged.seen == [(["easy", "hard"], [7, 8, 9]), (["hard", "easy"], [7, 8, 9])]
+    assert (result.wins, result.losses, result.ties) == (3, 3, 0)
+    assert result.mean_score_left == result.mean_score_right == 2.0
+
+
+def test_left_and_right_swapped_is_the_same_duel_seen_from_the_other_side():
+    one = duel("pitanks", "random", "idle", matches=8, seed=3, minutes=0.5, variant="plain", fast=False)
+    other = duel("pitanks", "idle", "random", matches=8, seed=3, minutes=0.5, variant="plain", fast=False)
+    assert (one.wins, one.ties, one.losses) == (other.losses, other.ties, other.wins)
+    assert one.mean_score_left == other.mean_score_right
+    assert one.wilson95 == wilson(one.wins, 8)
+
+
+def test_compiled_or_plain_the_scores_are_the_same():
+    plain, fast = (
+        duel("pitanks", "fsm", "random", matches=4, seed=11, minutes=0.5, variant="plain", fast=fast)
+        for fast in (False, True)
+    )
+    assert (plain.wins, plain.ties, plain.losses) == (fast.wins, fast.ties, fast.losses)
+    assert plain.mean_score_left == fast.mean_score_left
+
+
+def test_a_brain_that_is_not_there_is_refused():
+    with pytest.raises(ChoiceError, match="no seat 'genius'"):
+        duel("pitanks", "genius", "random", matches=2, seed=1)
+
+
+# ------------------------------------------------------------------------------------------------------------- leagues
+
+
+def test_a_league_is_every_pairs_duel_over_the_same_seeds(monkeypatch):
+    monkeypatch.setattr(league, "Batch", Rigged)
+    Rigged.seen = []
+    found = league.league("pitanks", ["easy", "hard", "idle"], matches=4, seed=7, fast=False)
+    pairs = [("easy", "hard"), ("easy", "idle"), ("hard", "idle")]
+    assert [(one.left, one.right) for one in found.duels] == pairs
+    both = [([a, b], [7, 8]) for left, right in pairs for a, b in ((left, right), (right, left))]
+    assert Rigged.seen == both
+    assert [(one.wins, one.ties, one.losses, one.mean_score) for one in found.standings] == [(4, 0, 4, 2.0)] * 3
+    assert [one.rating.rating for one in found.standings] == [0.0] * 3
+
+
+@pytest.mark.parametrize(("game", "minutes"), [("pitanks", 0.5), ("race", 0.5), ("factory", 1.5)])
+def test_a_league_puts_who_plays_before_who_stands_still(game, minutes):
+    found = league.league(game, ["idle", "hard", "random"], matches=2, seed=1, minutes=minutes, fast=False)
+    assert found.standings[0].brain == "hard"
+    assert {one.brain for one in found.standings} == {"idle", "hard", "random"}
+    for standing in found.standings:
+        assert standing.rating.low <= standing.rating.rating <= standing.rating.high
+        assert standing.wins + standing.ties + standing.losses == 4
+    alone = duel(game, "idle", "hard", matches=2, seed=1, minutes=minutes, fast=False)
+    first = found.duels[0]
+    assert (alone.wins, alone.ties, alone.losses) == (first.wins, first.ties, first.losses)
+    assert alone.mean_score_right == first.mean_score_right
+
+
+@pytest.mark.parametrize(
+    ("brains", "said"),
+    [
+        ([], "two brains or more"),
+        (["hard"], "two brains or more"),
+        (["hard", "idle", "hard"], "'hard' is named twice"),
+        (["hard", "genius"], "no brain 'genius'"),
+    ],
+)
+def test_what_is_no_league_is_refused(brains, said):
+    with pytest.raises(ChoiceError, match=said):
+        league.league("pitanks", brains, matches=2, seed=1)
+
+
+@pytest.mark.parametrize("matches", [0, -3, 10**9])
+def test_more_matches_than_fit_into_memory_and_none_at_all_are_refused(matches):
+    with pytest.raises(ChoiceError, match="--matches"):
+        league.duel("pitanks", "idle", "idle", matches=matches, seed=1)

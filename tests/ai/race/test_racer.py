@@ -1,0 +1,206 @@
+"""The hand-written driver: as fast as it is meant to be, past whoever is in the way, never stuck, never lost."""
+
+import re
+from collections import deque
+from math import hypot, pi
+
+import pytest
+
+from pigaming_app.ai import make
+from pigaming_app.ai.experiments.league import duel
+from pigaming_app.games.arenas import arenas, load, parse
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.race.course import spot
+from pigaming_app.sim.record import digest
+from pigaming_app.sim.world import DT, HZ
+from tests.bench.reference_lap import MIXTURES, STUCK, STUCK_PX, TARGETS
+
+TRACKS = arenas("race")
+REFERENCE = {"classic": 9.25, "hairpin": 10.71, "kidney": 9.34, "technical": 11.26}  # s, of tests.bench.reference_lap
+
+
+def race(brains, track="classic", seed=1, laps=3):
+    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
+    match = Match(Setup("race", track, (one, two, three, four), 10.0, seed, "standard", laps))
+    for seat, brain in enumerate(brains):
+        if brain != "off":
+            match.sit(seat, make("race", brain, seed * 4 + seat))
+    return match
+
+
+def the_other_way_round(track):
+    """A track with its corners in the opposite order, and new lines."""
+    source = load("race", track).source
+    head, *corners = source.split("[[corner]]")
+    turned = "[[corner]]".join([head, *(corner.rstrip() + "\n\n" for corner in reversed(corners))])
+    return parse("race", re.sub(r"lines = .*", "lines = [0.1, 0.35, 0.6, 0.85]", turned), "turned.toml")
+
+
+def alone(strength, track="classic", laps=3):
+    return race((strength, "off", "off", "off"), track, laps=laps)
+
+
+@pytest.mark.parametrize("track", TRACKS)
+@pytest.mark.parametrize("strength", TARGETS)
+def test_each_strength_is_as_fast_as_it_is_meant_to_be(strength, track):
+    """Flying laps without turbo against the fastest lap there is, which has none either."""
+    match = alone(strength, track, laps=5)
+    match.state.robots[0].turbo = match.state.rules.turbo_refill = 0.0
+    while not match.over:
+        match.tick()
+    laps = match.game.times(match.state, 0)[1:]
+    low, high = TARGETS[strength]
+    assert low <= REFERENCE[track] / (sum(laps) / len(laps)) <= high
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_turbo_is_used_well(track):
+    match = alone("hard", track)
+    while not match.over:
+        match.tick()
+    assert REFERENCE[track] / match.game.times(match.state, 0)[1] > 1.05
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_a_hard_driver_stays_on_the_course(track):
+    match = alone("hard", track, laps=2)
+    while not match.over:
+        match.tick()
+        assert match.state.racers[0].place.on
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_courses_can_be_driven_anticlockwise(track):
+    arena = the_other_way_round(track)
+    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hard", "normal", "easy", "hard")))
+    match = Match(Setup("race", track, (one, two, three, four), 10.0, 1, "standard", 2), arena=arena)
+    for seat, brain in enumerate(("hard", "normal", "easy", "hard")):
+        match.sit(seat, make("race", brain, seat))
+    while not match.over:
+        match.tick()
+        assert not any(racer.missed for racer in match.state.racers)
+    assert all(racer.finished for racer in match.state.racers)
+    best = match.game.facts(match.state, 0)["best"]
+    assert best == pytest.approx(REFERENCE[track] / 1.09, rel=0.06)
+
+
+@pytest.mark.parametrize("mixture", MIXTURES)
+@pytest.mark.parametrize("track", TRACKS)
+def test_nobody_misses_a_line_or_is_stuck_and_all_finish(track, mixture):
+    match = race(mixture, track, seed=11)
+    trails = [deque(maxlen=STUCK) for _ in range(4)]
+    while not match.over:
+        match.tick()
+        for robot, racer, action, trail in zip(
+            match.state.robots, match.state.racers, match.state.actions, trails, strict=True
+        ):
+            assert not racer.missed
+            if action.linear == 0.0 or racer.finished:
+                trail.clear()
+                continue
+            trail.append((robot.x, robot.y))
+            if len(trail) == STUCK:
+                x, y = trail[0]
+                assert max(hypot(a - x, b - y) for a, b in trail) >= STUCK_PX
+    assert all(racer.finished for racer in match.state.racers)
+
+
+@pytest.mark.parametrize("strength", TARGETS)
+def test_every_strength_thinks_without_changing_anything_but_its_action(strength):
+    match = race((strength,) * 4)
+    brain = make("race", strength, 1)
+    action = match.state.actions[0]
+    before = digest(match.state)
+    brain.think(match.state, 0)
+    action.linear = action.angular = 0.0
+    action.fire = action.turbo = 0
+    assert digest(match.state) == before
+
+
+def test_hard_beats_easy():
+    result = duel("race", "hard", "easy", matches=4, seed=100, minutes=10.0, variant="standard", fast=False)
+    assert result.wins == 4
+
+
+# ----------------------------------------------------------------------------------------------------------- in the way
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_it_drives_round_robots_that_stand_on_the_course(track):
+    match = race(("hard", "idle", "idle", "idle"), track)
+    while not match.over:
+        match.tick()
+    free = alone("hard", track)
+    while not free.over:
+        free.tick()
+    assert match.state.racers[0].finish < 1.2 * free.state.racers[0].finish
+
+
+@pytest.mark.parametrize(("slower", "faster"), [("easy", "hard"), ("normal", "hard"), ("easy", "normal")])
+def test_it_overtakes_whoever_is_slower(slower, faster):
+    """The slower begins a line ahead. Without having to pass it the faster would win by 8 s at least."""
+    match = race((slower, "off", "off", faster), laps=9)
+    ahead, behind = match.state.racers[0], match.state.racers[3]
+    while not match.over:
+        match.tick()
+    assert (ahead.finish - behind.finish) * DT > 4.0
+
+
+# ---------------------------------------------------------------------------------------------------------- recovering
+
+
+def goes_on(match, seat=0, seconds=8.0):
+    """Whether a robot drives at least 300 px of the course within that time."""
+    before = match.state.racers[seat].progress
+    for _ in range(round(seconds * HZ)):
+        match.tick()
+    return match.state.racers[seat].progress > before + 300.0
+
+
+@pytest.mark.parametrize("strength", TARGETS)
+@pytest.mark.parametrize("heading", [0.0, 0.5 * pi, pi, 1.5 * pi])
+def test_it_gets_free_whichever_way_it_stands_in_a_corner(strength, heading):
+    match = alone(strength)
+    match.tick()
+    robot = match.state.robots[0]
+    robot.x, robot.y, robot.heading = 1564.0, 36.0, heading
+    assert goes_on(match, seconds=10.0)
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_it_turns_round_when_it_faces_the_wrong_way(track):
+    match = alone("normal", track)
+    for _ in range(2 * HZ):
+        match.tick()
+    robot = match.state.robots[0]
+    robot.heading = (robot.heading + pi) % (2 * pi)
+    assert goes_on(match)
+    assert match.state.racers[0].wrong == 0
+
+
+@pytest.mark.parametrize("track", TRACKS)
+@pytest.mark.parametrize("past", [30.0, 200.0, 700.0])
+def test_it_goes_back_to_a_line_that_it_has_been_carried_over(track, past):
+    """As when somebody who has missed one hands over."""
+    match = alone("hard", track, laps=1)
+    state = match.state
+    while state.racers[0].passed < 1:
+        match.tick()
+    state.robots[0].x, state.robots[0].y = spot(state.course, (state.lines[1].along + past) % state.course.length, 0.0)
+    while not match.over and match.seconds < 60.0:
+        match.tick()
+    assert state.racers[0].finished
+    assert state.racers[0].void == 0
+
+
+@pytest.mark.parametrize("track", TRACKS)
+@pytest.mark.parametrize("place", [(800, 430), (400, 300), (1200, 600)])
+def test_it_finds_its_way_from_the_middle_of_the_infield(track, place):
+    match = alone("easy", track, laps=1)
+    for _ in range(3 * HZ):
+        match.tick()
+    match.state.robots[0].x, match.state.robots[0].y = place
+    while not match.over and match.seconds < 120.0:
+        match.tick()
+    assert match.state.racers[0].finished

@@ -1,0 +1,341 @@
+"""From a bare Python to the arcade: what is used, what is installed, and what is said when that cannot be."""
+
+import ast
+import errno
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+import venv
+from pathlib import Path
+
+import pytest
+
+from main import too_old
+from pigaming_app.boot import environment as install
+from pigaming_app.boot import interpreter as start
+
+ROOT = Path(__file__).resolve().parents[2]
+BARE = sys._base_executable
+FILES = ("main.py", "pyproject.toml", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
+FILES += ("pigaming_app/boot/interpreter.py", "pigaming_app/boot/environment.py", "pigaming_app/storage/__init__.py")
+FILES += ("pigaming_app/storage/safe_files.py", "pigaming_app/storage/parsing.py")
+JOB = """
+import sys
+
+def main(args):
+    print(sys.prefix, *args)
+    return int(args[-1]) if args and args[-1].isdigit() else 0
+"""
+PIP = """
+import os, sys, time
+from pathlib import Path
+
+if "--version" in sys.argv:
+    sys.exit()
+wanted = [word for word in sys.argv[2:] if not word.startswith("-")]
+with open(Path(__file__).parent / "calls", "a") as calls:
+    print(*wanted, file=calls)
+mood = os.environ.get("MOOD", "")
+if mood == "slow":
+    time.sleep(1.5)
+elif mood and (mood.partition(":")[0] in " ".join(wanted)):
+    sys.exit("ERROR: " + mood.partition(":")[2])
+"""
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """The files that the start needs, with a job that only says where it runs and what it was told."""
+    clone = tmp_path / "clone"
+    for name in FILES:
+        (clone / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, clone / name)
+    (clone / "pigaming_app" / "cli.py").write_text(JOB)
+    return clone
+
+
+@pytest.fixture
+def furnished(clone):
+    """The same, with an empty .venv in which pip only pretends."""
+    venv.create(clone / ".venv", symlinks=os.name != "nt")
+    pip = start.site_packages(clone / ".venv") / "pip"
+    pip.mkdir()
+    (pip / "__main__.py").write_text(PIP)
+    return clone
+
+
+def surroundings(clone, **extra):
+    mine = ("PIP_", "PYTHON", "VIRTUAL_ENV", "PIGAMING")
+    clean = {name: value for name, value in os.environ.items() if not name.startswith(mine)}
+    return {**clean, "PIGAMING_HOME": str(clone.parent / "home"), **extra}
+
+
+def started(clone, *arguments, python=BARE, **extra):
+    """A start that came to its end."""
+    command = [python, str(clone / "main.py"), *arguments]
+    return subprocess.run(
+        command, cwd=clone.parent, env=surroundings(clone, **extra), capture_output=True, text=True, timeout=120
+    )
+
+
+def calls(clone):
+    """What pip was asked for, call by call: names only."""
+    said = (start.site_packages(clone / ".venv") / "pip" / "calls").read_text().splitlines()
+    return [set(re.sub(r"[<>][^ ]*", "", line).split()) for line in said]
+
+
+def refused(ended):
+    """The last line on standard error of a start that could not be; all that it said are plain lines."""
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert all(line.startswith("PiGaming: ") for line in ended.stderr.splitlines())
+    return ended.stderr.splitlines()[-1]
+
+
+# An old Python
+
+
+def test_an_old_python_is_told_what_is_needed():
+    assert too_old((3, 9)) == "PiGaming needs Python 3.11 or newer; this is 3.9"
+    assert too_old((3, 11)) is None
+    assert too_old((4, 0)) is None
+
+
+def test_an_old_python_can_read_as_far_as_that():
+    ast.parse((ROOT / "main.py").read_text(), feature_version=(3, 8))
+
+
+# All is there
+
+
+def test_a_second_start_goes_straight_into_the_environment(furnished):
+    assert started(furnished).returncode == 0
+    again = started(furnished, "play", "--seed", "3")
+    assert again.stdout == f"{furnished / '.venv'} play --seed 3\n"
+    assert again.stderr == ""
+    assert calls(furnished) == [{"pygame-ce", "numpy", "platformdirs", "tomli-w"}]
+
+
+def test_the_exit_code_is_that_of_the_job(furnished):
+    assert started(furnished, "fail", "7").returncode == 7
+
+
+def test_a_clone_that_was_moved_starts_all_the_same(furnished):
+    started(furnished)
+    moved = furnished.rename(furnished.with_name("elsewhere"))
+    assert started(moved).stdout == f"{moved / '.venv'}\n"
+    assert len(calls(moved)) == 1
+
+
+def test_a_python_that_has_every_package_is_used_as_it_is(clone, tmp_path):
+    packages = tmp_path / "site-packages"
+    for name in ("pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0"):
+        (packages / f"{name}.dist-info").mkdir(parents=True)
+    assert started(clone, PYTHONPATH=str(packages)).stdout == f"{Path(BARE).resolve().parent.parent}\n"
+    assert not (clone / ".venv").exists()
+
+
+def test_a_python_with_both_pygames_is_not_used(furnished, tmp_path):
+    packages = tmp_path / "site-packages"
+    for name in ("pygame-2.6.1", "pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0"):
+        (packages / f"{name}.dist-info").mkdir(parents=True)
+    ended = started(furnished, PYTHONPATH=str(packages))
+    assert ended.stdout == f"{furnished / '.venv'}\n"
+    assert "both pygame and pygame-ce" in ended.stderr
+
+
+def test_an_environment_with_both_pygames_is_named(furnished):
+    started(furnished)
+    for name in ("pygame-2.6.1", "pygame_ce-2.5.9"):
+        (start.site_packages(furnished / ".venv") / f"{name}.dist-info").mkdir()
+    assert f"{furnished / '.venv'} holds both pygame and pygame-ce" in started(furnished).stderr
+
+
+# What a job needs
+
+
+def test_the_tests_fetch_their_tools_and_the_compiler(furnished):
+    started(furnished, "test")
+    assert calls(furnished)[-1] >= {"pygame-ce", "pytest", "hypothesis", "ruff", "mypy", "numba"}
+    started(furnished, "duel")
+    assert len(calls(furnished)) == 2  # the tools, then with the compiler: a duel needs nothing more
+
+
+def test_a_duel_goes_on_without_the_compiler(furnished):
+    ended = started(furnished, "duel", "pitanks", MOOD="numba:No matching distribution found for numba")
+    assert ended.stdout == f"{furnished / '.venv'} duel pitanks\n"
+    assert "Going on without numba." in ended.stderr
+
+
+def test_who_only_asks_how_a_duel_works_waits_for_no_compiler(furnished):
+    started(furnished, "duel", "--help")
+    assert "numba" not in calls(furnished)[-1]
+
+
+def test_other_requirements_are_installed_when_the_list_has_changed(furnished):
+    started(furnished)
+    project = furnished / "pyproject.toml"
+    project.write_text(project.read_text().replace('"numpy>=', '"tqdm>=4", "numpy>='))
+    started(furnished)
+    assert "tqdm" in calls(furnished)[-1]
+
+
+# The first start
+
+
+def test_offline_one_line_says_what_to_do_and_nothing_is_lost(clone):
+    offline = {"PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull, "PIP_NO_CACHE_DIR": "1"}
+    assert "is not to be had: if this machine is online" in refused(started(clone, "doctor", **offline))
+    again = started(clone, "doctor", **offline)
+    assert "first start" not in again.stderr  # the environment itself is there already
+
+
+def test_without_the_venv_module_its_package_is_named(tmp_path, monkeypatch):
+    monkeypatch.setattr(install.importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(start.Trouble, match="apt install python3-venv"):
+        install.make(tmp_path / "venv")
+
+
+def test_a_full_disk_is_said(furnished):
+    full = "numpy:Could not install packages due to an OSError: [Errno 28] No space left on device"
+    assert refused(started(furnished, MOOD=full)) == f"PiGaming: {install.NO_ROOM}"
+
+
+def test_a_network_that_is_down_is_said(furnished):
+    down = "numpy:WARNING: Retrying (Retry(total=4)) after connection broken: Temporary failure in name resolution"
+    assert "connect this machine to the internet" in refused(started(furnished, MOOD=down))
+
+
+def test_stopped_while_installing_it_goes_on_next_time(furnished):
+    command = [BARE, str(furnished / "main.py")]
+    running = subprocess.Popen(
+        command, env=surroundings(furnished, MOOD="slow"), stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    until(lambda: (start.site_packages(furnished / ".venv") / "pip" / "calls").exists())
+    os.killpg(running.pid, signal.SIGINT)
+    said = running.communicate(timeout=30)[1]
+    assert running.returncode == 130
+    assert said.splitlines()[-1] == "PiGaming: stopped. Start it again, and it goes on from there."
+    assert "Traceback" not in said
+    assert started(furnished).returncode == 0
+
+
+def test_of_two_starts_at_once_one_installs_and_the_other_waits(furnished):
+    both = [
+        subprocess.Popen(
+            [BARE, str(furnished / "main.py")],
+            env=surroundings(furnished, MOOD="slow"),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        for _ in range(2)
+    ]
+    said = [one.communicate(timeout=60) for one in both]
+    assert [out for out, _ in said] == [f"{furnished / '.venv'}\n"] * 2
+    assert sum("waiting for it" in err for _, err in said) == 1
+    assert len(calls(furnished)) == 1
+
+
+def test_a_lock_that_a_dead_start_left_behind_holds_nobody(furnished):
+    (furnished / ".venv.lock").write_text("")
+    assert "waiting" not in started(furnished).stderr
+
+
+def test_an_environment_whose_python_has_gone_does_not_work(furnished):
+    place = furnished / ".venv"
+    started(furnished)
+    assert install.works(place)
+    start.python_of(place).unlink()
+    start.python_of(place).symlink_to("/nowhere/python3.11")
+    assert not install.works(place)
+    assert start.ready(place) == set()
+
+
+def test_an_environment_left_half_made_does_not_work(tmp_path):
+    venv.create(tmp_path, symlinks=os.name != "nt")
+    shutil.rmtree(tmp_path / "lib")
+    assert not install.works(tmp_path)
+
+
+def test_another_python_below_an_environment_is_noticed(furnished):
+    started(furnished)
+    stamp = furnished / ".venv" / "ready"
+    stamp.write_text(stamp.read_text().replace("python3", "python2"))
+    started(furnished)
+    assert len(calls(furnished)) == 2
+
+
+def test_in_a_read_only_folder_the_environment_goes_to_the_user(tmp_path, monkeypatch):
+    beside, own = tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"
+    monkeypatch.setattr(install, "places", lambda: [beside, own])
+    monkeypatch.setattr(install, "open", no_writing_below(tmp_path / "clone"), raising=False)
+    place, lock = install._claimed()
+    lock.close()
+    assert place == own
+
+
+def test_where_nothing_can_be_written_both_folders_are_named(tmp_path, monkeypatch):
+    monkeypatch.setattr(install, "places", lambda: [tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"])
+    monkeypatch.setattr(install, "open", no_writing_below(tmp_path), raising=False)
+    with pytest.raises(start.Trouble, match=r"neither .*clone nor .*home can be written"):
+        install._claimed()
+
+
+def test_a_project_file_that_is_missing_is_said_in_one_line(clone):
+    (clone / "pyproject.toml").unlink()
+    assert "pyproject.toml cannot be read" in refused(started(clone))
+
+
+# Small things
+
+
+@pytest.mark.parametrize(
+    ("requirement", "version", "lacking"),
+    [
+        ("numpy>=2.2,<3", "2.2.0", False),
+        ("numpy>=2.2,<3", "2.10", False),
+        ("numpy>=2.2,<3", "2.1.9", True),
+        ("numpy>=2.2,<3", "3.0.0", True),
+        ("numpy>=2.2,<3", "2.5.8.dev1", False),
+        ("numpy", "0.1", False),
+        ("numba>=0.61", "2.2", True),
+    ],
+)
+def test_a_version_fits_or_not(requirement, version, lacking):
+    assert start.lacks({"numpy": version}, requirement) is lacking
+
+
+def test_the_project_file_says_only_what_the_start_understands():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    extras = project["optional-dependencies"]
+    for one in [*project["dependencies"], *(one for extra in extras.values() for one in extra)]:
+        assert re.fullmatch(r"[a-z0-9-]+>=[\d.]+,<[\d.]+", one)
+    assert {name for groups in (start.NEEDED, start.WISHED) for names in groups.values() for name in names} | set(
+        start.MEANT.values()
+    ) <= set(extras)
+
+
+def test_no_registry_is_named():
+    for name in FILES:
+        assert not re.search(r"https?://|pypi|index-url", (ROOT / name).read_text())
+
+
+def no_writing_below(folder):
+    def opened(path, *how, **more):
+        if folder in Path(path).parents:
+            raise OSError(errno.EROFS, "Read-only file system", str(path))
+        return open(path, *how, **more)
+
+    return opened
+
+
+def until(done, seconds=20.0):
+    end = time.monotonic() + seconds
+    while not done():
+        assert time.monotonic() < end
+        time.sleep(0.02)

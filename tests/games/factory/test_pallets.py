@@ -1,0 +1,175 @@
+"""Pallets: whatever anybody does, none is lost, doubled, in two places, or carried by the others."""
+
+from random import Random
+
+import pytest
+
+from pigaming_app.ai import make
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.factory.rules import may_lift
+from pigaming_app.games.factory.state import (
+    BY_WORKER,
+    DAMAGED,
+    DELIVERED,
+    DONE,
+    ENTRY,
+    EXIT,
+    HALF,
+    IN_MACHINE,
+    IN_SLOT,
+    INPUT,
+    ON_ROBOT,
+    OUTPUT,
+    RAW,
+    SHIPPED,
+    WAITING,
+    A,
+    B,
+)
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.world import HZ
+from tests.games.factory.shop import Shop
+
+FLOORS = arenas("factory")
+STEPS = {
+    (RAW, HALF),
+    (HALF, DONE),
+    (DONE, DELIVERED),
+    (RAW, DAMAGED),
+    (HALF, DAMAGED),
+    (DONE, DAMAGED),
+    (DAMAGED, RAW),
+}
+PAIRS, TWO = ("hard", "random", "normal", "easy"), ("hard", "easy", "off", "off")
+
+
+class Watch:
+    """Looks at all pallets of a match after every tick."""
+
+    def __init__(self, state):
+        self.state = state
+        self.there = [p for p, pallet in enumerate(state.pallets) if pallet.exists]
+        self.before = [pallet.state for pallet in state.pallets]
+        self.teams = [state.pallets[p].team for p in self.there]
+        self.seen = set()
+
+    def look(self):
+        """Every promise about pallets holds right now, and since the last look."""
+        state = self.state
+        assert [p for p, pallet in enumerate(state.pallets) if pallet.exists] == self.there
+        assert [state.pallets[p].team for p in self.there] == self.teams
+        assert self.held() == {p: (state.pallets[p].place, state.pallets[p].at) for p in self.there if self.shown(p)}
+        for p in self.there:
+            self.look_at(p)
+        for team in (0, 1):
+            out = [p for p in self.there if state.pallets[p].state == DELIVERED and state.pallets[p].team == team]
+            assert state.delivered[team] == len(out)
+
+    def shown(self, p):
+        """Whether something holds pallet p."""
+        place = self.state.pallets[p].place
+        assert place in (IN_SLOT, ON_ROBOT, IN_MACHINE, BY_WORKER, WAITING, SHIPPED)
+        return place not in (WAITING, SHIPPED)
+
+    def held(self):
+        """Where each pallet is, told by what holds it."""
+        state, where = self.state, {}
+        for place, holders in (
+            (IN_SLOT, state.slots),
+            (ON_ROBOT, state.loads),
+            (IN_MACHINE, state.machines),
+            (BY_WORKER, state.workers),
+        ):
+            for at, holder in enumerate(holders):
+                if holder.pallet:
+                    assert holder.pallet - 1 not in where, "two hold it"
+                    where[holder.pallet - 1] = place, at
+        return where
+
+    def look_at(self, p):
+        """A pallet is where its state and team allow, and has not changed but as it may."""
+        pallet = self.state.pallets[p]
+        if pallet.state != self.before[p]:
+            step = self.before[p], pallet.state
+            assert step in STEPS
+            self.seen.add(step)
+            self.before[p] = pallet.state
+        if pallet.place == ON_ROBOT:
+            assert self.state.robots[pallet.at].present
+            assert self.state.robots[pallet.at].team == pallet.team
+        elif pallet.place == IN_SLOT:
+            slot = self.state.slots[pallet.at]
+            assert slot.team in (-1, pallet.team)
+            assert (slot.kind == EXIT) == (pallet.state == DELIVERED)
+            assert slot.kind != ENTRY or pallet.state in (RAW, HALF, DONE, DAMAGED)
+        elif pallet.place == IN_MACHINE:
+            assert pallet.state in (RAW, HALF)
+        elif pallet.place == SHIPPED:
+            assert pallet.state == DELIVERED
+        elif pallet.place == WAITING:
+            assert pallet.state in (RAW, HALF, DONE)
+
+
+@pytest.mark.parametrize("brains", [PAIRS, TWO])
+@pytest.mark.parametrize("pallets", [2, 5, 8])
+@pytest.mark.parametrize("floor", FLOORS)
+def test_pallets_keep_their_promises_while_drivers_of_all_kinds_play(floor, pallets, brains):
+    one, two, three, four = (Seat(brain, i % 2) for i, brain in enumerate(brains))
+    match = Match(Setup("factory", floor, (one, two, three, four), 5.0, pallets, "standard", pallets))
+    for seat, brain in enumerate(brains):
+        if brain != "off":
+            match.sit(seat, make("factory", brain, seat + 10 * pallets))
+    watch = Watch(match.state)
+    assert len(watch.there) == 2 * pallets
+    while not match.over and match.seconds < 75.0:
+        match.tick()
+        watch.look()
+    assert {(RAW, HALF), (HALF, DONE), (DONE, DELIVERED)} <= watch.seen
+
+
+def likely(shop, seat, chance):
+    """A slot at which there is something to do for a robot: mostly the right one, at times a wrong machine, or any."""
+    load = shop.loads[seat]
+    luck = chance.random()
+    if luck < 0.15:
+        return chance.randrange(len(shop.slots))
+    if not load.pallet:
+        full = [s for s in range(len(shop.slots)) if may_lift(shop.state, seat, s)]
+        return chance.choice([s for s in full if shop.slots[s].kind == OUTPUT] or full or [0])
+    state = shop.pallets[load.pallet - 1].state
+    free = [s for s, slot in enumerate(shop.slots) if slot.kind == INPUT and not slot.pallet]
+    if free and luck < (0.6 if state == DONE else 0.25):  # few are ever done, so that these go astray more often
+        return chance.choice(free)
+    exit_slot = shop.slot(EXIT, seat % 2, -1, chance.randrange(4))
+    return {RAW: shop.input_of(A), HALF: shop.input_of(B), DONE: exit_slot}.get(state, 0)
+
+
+def jump(shop, present, chance, seconds):
+    """Robots jump from slot to slot and press fire, watched; all changes of state that were seen."""
+    watch = Watch(shop.state)
+    for _ in range(seconds * HZ):
+        for seat in present:
+            if chance.random() < 0.1:
+                shop.match.brains[seat].fire = 1 - shop.match.brains[seat].fire
+                shop.stand(seat, likely(shop, seat, chance), heading=chance.uniform(-3.0, 3.0))
+        shop.tick()
+        watch.look()
+        if shop.state.over:
+            break
+    return watch.seen
+
+
+@pytest.mark.parametrize("present", [(0, 1, 2, 3), (0, 1)])
+@pytest.mark.parametrize("pallets", [2, 3, 4, 5, 6, 7, 8])
+@pytest.mark.parametrize("floor", FLOORS)
+def test_pallets_keep_their_promises_while_robots_jump_from_slot_to_slot_and_press_fire(floor, pallets, present):
+    """Whatever can be lifted and put anywhere soon is, right or wrong."""
+    seen = jump(Shop(floor, pallets, present), present, Random(f"{floor} {pallets} {present}"), 40)
+    assert (RAW, HALF) in seen
+
+
+def test_all_that_can_become_of_a_pallet_does_so_while_robots_jump():
+    """The test above would be worth little if some of the ways were never gone."""
+    chance = Random(5)
+    assert set().union(*(jump(Shop("hall", 8, seed=k), range(4), chance, 60) for k in range(16))) == STEPS

@@ -1,0 +1,355 @@
+"""Laps are counted right whatever robots do: against an oracle that sees nothing but the paths they drove.
+
+The oracle is written another way than the rules: it takes the whole path of a robot when all is over, cuts it with each
+of the four lines by the orientation of triangles, and matches what was crossed, greedily, against the lines in order.
+"""
+
+from itertools import pairwise
+from math import atan2, cos, hypot, pi, sin
+from random import Random
+
+import pytest
+
+from pigaming_app.ai import make
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.race.course import spot
+from tests.games.rails import Ride
+
+TRACKS = arenas("race")
+
+
+# ---------------------------------------------------------------------------------------------------------- the oracle
+
+
+def area(a, b, c):
+    """Twice the area of a triangle, positive if it runs clockwise on the screen."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def cuts(path, left, right, carried):
+    """(when, way) of each time that a path crosses the line from left to right: when in steps, way 1 is forwards.
+
+    Before the line is where (left, right, point) runs clockwise; the line itself belongs to what is behind it.
+    """
+    found = []
+    for step, (a, b) in enumerate(pairwise(path)):
+        if hypot(b[0] - a[0], b[1] - a[1]) > carried:
+            continue
+        was, now = area(left, right, a) > 0.0, area(left, right, b) > 0.0
+        if was == now:
+            continue
+        to_left, to_right = area(a, b, left), area(a, b, right)
+        if (to_left > 0.0) == (to_right > 0.0):
+            continue
+        share = area(left, right, a) / (area(left, right, a) - area(left, right, b))
+        found.append((step + share, 1 if was else -1))
+    return found
+
+
+def judged(path, lines, seat, laps, carried):
+    """What a path is worth: lines crossed in order, lap times in ticks, laps that did not count, the missed line."""
+    ends = [((line.ax, line.ay), (line.bx, line.by)) for line in lines]
+    events = sorted((when, line, way) for line, (a, b) in enumerate(ends) for when, way in cuts(path, a, b, carried))
+    wanted = [(seat + i) % 4 for i in range(4 * laps + 1)]  # in order, all the way to the finish
+    passed, own_at, void, missed = 0, [], 0, 0
+    undone = []  # lines gone back over since the last that counted, the nearest last
+    for when, line, way in events:
+        if passed == len(wanted):
+            break
+        if way > 0 and line == wanted[passed]:
+            if line == seat:
+                own_at.append(when)
+            passed, missed, undone = passed + 1, 0, []
+        elif way < 0:
+            if line == (wanted[passed] - 1 - len(undone)) % 4:
+                undone.append(line)
+        elif undone and line == undone[-1]:
+            undone.pop()
+        elif passed:
+            missed, undone = 1 + wanted[passed], []
+            void += line == seat
+    return passed, [b - a for a, b in pairwise(own_at)], void, missed
+
+
+def agree(match, paths):
+    """Raises AssertionError where the rules and the oracle differ about any robot."""
+    state = match.state
+    for seat, path in enumerate(paths):
+        racer = state.racers[seat]
+        passed, laps, void, missed = judged(path, state.lines, seat, state.rules.laps, state.rules.carried)
+        assert (racer.passed, racer.void, racer.missed) == (passed, void, missed), f"robot {seat}"
+        assert state.robots[seat].score == len(laps)
+        assert list(match.game.times(state, seat)) == pytest.approx([lap / 50 for lap in laps])
+        assert racer.finished == (passed == 4 * state.rules.laps + 1)
+
+
+# -------------------------------------------------------------------------------------------------- robots that drive
+
+
+class Wild:
+    """A driver that does all sorts of things for a while each, with an able one that races in between."""
+
+    def __init__(self, seat, seed):
+        self.random, self.able = Random(seed * 7 + seat), make("race", "hard", seed)
+        self.left, self.mood = 0, "race"
+        self.x = self.y = 0.0
+
+    def think(self, state, seat):
+        action, robot, random = state.actions[seat], state.robots[seat], self.random
+        if self.left == 0:
+            self.left = random.randrange(20, 250)
+            self.mood = random.choice(("race", "race", "race", "cut", "back", "dance", "park", "spin", "ram"))
+            self.x, self.y = random.uniform(40, 1560), random.uniform(40, 860)
+            line = state.lines[random.randrange(4)]
+            if self.mood in ("dance", "park"):
+                share = random.uniform(-0.1, 1.1)  # at the ends of lines as well
+                self.x, self.y = line.ax + share * (line.bx - line.ax), line.ay + share * (line.by - line.ay)
+        self.left -= 1
+        if self.mood == "race":
+            self.able.think(state, seat)
+            return
+        if self.mood == "ram":
+            other = state.robots[(seat + 1) % 4]
+            self.x, self.y = other.x, other.y
+        away, bearing = hypot(self.x - robot.x, self.y - robot.y), atan2(self.y - robot.y, self.x - robot.x)
+        turn = (bearing - robot.heading + pi) % (2 * pi) - pi
+        if self.mood == "back":  # backwards
+            turn = (turn + 2 * pi) % (2 * pi) - pi
+        action.angular = max(-1.0, min(1.0, 2.0 * turn))
+        action.linear = (1.0 if abs(turn) < 1.0 else 0.0) * (-1.0 if self.mood == "back" else 1.0)
+        action.fire, action.turbo = 0, int(random.random() < 0.5)
+        if self.mood == "spin":
+            action.linear, action.angular = random.choice((-1.0, 0.0, 1.0)), random.choice((-1.0, 1.0))
+        if away < 30.0 and self.mood == "park":
+            action.linear = 0.0
+        if away < 30.0 and self.mood == "dance":
+            action.linear = random.choice((-1.0, 1.0))
+
+
+@pytest.mark.parametrize("track", TRACKS)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_wild_robots_that_push_each_other(track, seed):
+    one, two, three, four = (Seat("idle", seat) for seat in range(4))
+    match = Match(Setup("race", track, (one, two, three, four), 3.0, seed, "standard", 2))
+    for seat in range(4):
+        match.sit(seat, Wild(seat, seed))
+    paths = [[] for _ in range(4)]
+    while not match.over and match.state.tick < 4000:
+        for robot, path in zip(match.state.robots, paths, strict=True):
+            path.append((robot.x, robot.y))
+        match.tick()
+    agree(match, paths)
+
+
+# ------------------------------------------------------------------------------------------------ robots that are moved
+
+
+@pytest.mark.parametrize("track", TRACKS)
+@pytest.mark.parametrize("seed", range(4))
+def test_any_path_at_all(track, seed):
+    """Random walks over the lines, sideways too, along the course and back, through the infield, and carried about."""
+    ride = Ride(track, laps=9)
+    random = Random(seed)
+    paths = [[pose[:2]] for pose in ride.rails.poses]
+    walkers = [walk(random, ride, seat) for seat in range(4)]
+    for _ in range(4000):
+        for seat, walker in enumerate(walkers):
+            x, y = next(walker)
+            ride.put(seat, x, y)
+            paths[seat].append((x, y))
+        ride.match.tick()
+    ride.match.tick()
+    agree(ride.match, paths)
+    assert any(racer.passed > 5 for racer in ride.racers), "some of them got round"
+
+
+def walk(random, ride, seat):
+    """The points of a walk without end, from where the robot stands."""
+    x, y, _ = ride.rails.poses[seat]
+    yield x, y
+    along, course = ride.lines[seat].along, ride.course
+    while True:
+        mood = random.choice(("on", "on", "on", "off", "back", "line", "cut", "carried"))
+        if mood in ("on", "off", "back"):
+            goal = along + random.uniform(100, 0.7 * course.length) * (-1 if mood == "back" else 1)
+            aside = random.uniform(-1, 1) * (60 if mood != "off" else 200)
+            while (goal - along) * (1 if mood != "back" else -1) > 0:
+                along += (8.0 if mood != "back" else -8.0) * random.uniform(0.5, 1.5)
+                k = int(along / course.step) % course.count
+                tx, ty = (
+                    course.xs[(k + 1) % course.count] - course.xs[k],
+                    course.ys[(k + 1) % course.count] - course.ys[k],
+                )
+                to = course.xs[k] - aside * ty / course.step, course.ys[k] + aside * tx / course.step
+                x, y = nearer((x, y), to, 12.0)
+                yield x, y
+        elif mood == "line":
+            line = ride.lines[random.randrange(4)]
+            share = random.uniform(-0.2, 1.2)
+            mid = line.ax + share * (line.bx - line.ax), line.ay + share * (line.by - line.ay)
+            if hypot(mid[0] - x, mid[1] - y) > 500:
+                continue
+            for _ in range(100):
+                angle = random.uniform(0, 2 * pi)
+                x, y = nearer((x, y), (mid[0] + 20 * cos(angle), mid[1] + 20 * sin(angle)), 12.0)
+                yield x, y
+            along = line.along
+        elif mood == "cut":
+            to = random.uniform(40, 1560), random.uniform(40, 860)
+            for _ in range(40):
+                x, y = nearer((x, y), to, 12.0)
+                yield x, y
+        elif random.random() < 0.2:
+            x, y = random.uniform(40, 1560), random.uniform(40, 860)
+            yield x, y
+
+
+def nearer(at, to, most):
+    """At most so many px from one point towards another."""
+    way = hypot(to[0] - at[0], to[1] - at[1])
+    share = min(1.0, most / way) if way else 0.0
+    return at[0] + share * (to[0] - at[0]), at[1] + share * (to[1] - at[1])
+
+
+# ------------------------------------------------------------------------------------------- what the issue names, told
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_laps_driven_properly_count(track):
+    ride = Ride(track, present=(2,), laps=2)
+    ride.lap(2)
+    assert ride.state.robots[2].score == 1
+    ride.lap(2, aside=30.0)
+    assert ride.racers[2].finished
+    assert not ride.racers[2].void
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_a_lap_driven_backwards_counts_nothing_and_takes_nothing(track):
+    ride = Ride(track, present=(0,))
+    ride.lap(0)
+    own = ride.lines[0].along
+    passed = ride.racers[0].passed
+    ride.along(0, own + ride.course.length + 30.0, own + 60.0)
+    assert (ride.racers[0].passed, ride.state.robots[0].score) == (passed, 1)
+    ride.along(0, own + 60.0, own + ride.course.length + 30.0)
+    assert ride.state.robots[0].score == 2
+    assert ride.racers[0].void == 0, "coming forward again over what it went back over is no miss"
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_going_to_and_fro_over_the_own_line_is_no_lap(track):
+    ride = Ride(track, present=(1,))
+    own = ride.lines[1].along
+    for _ in range(10):
+        ride.along(1, own - 30.0, own + 30.0)
+        ride.along(1, own + 30.0, own - 30.0)
+    assert ride.state.robots[1].score == 0
+    assert ride.racers[1].passed == 1
+    assert not ride.racers[1].missed
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_cutting_through_the_middle_is_no_lap_and_says_so(track):
+    """Over the own line, through the infield, over the own line from before: the lap does not count."""
+    ride = Ride(track, present=(0,))
+    own, second, last = (ride.lines[i].along for i in (0, 1, 3))
+    ride.along(0, own - 30.0, own + 60.0)
+    x, y = ride.rails.poses[0][:2]
+    ride.along(0, last - 60.0, own + (ride.course.length if own < last else 0.0) + 30.0)
+    assert (x, y) != ride.rails.poses[0][:2]
+    assert ride.state.robots[0].score == 0
+    assert ride.racers[0].missed == 2
+    assert ride.racers[0].void == 1
+    ride.along(0, second - 30.0, second + 30.0)
+    assert not ride.racers[0].missed
+    ride.along(0, second + 30.0, own + (ride.course.length if own < second else 0.0) + 30.0)
+    assert ride.state.robots[0].score == 1, "whoever goes back and does it properly has it"
+
+
+LINE_OF_TRACK = [(track, seat) for track in TRACKS for seat in range(4)]
+
+
+def round_the_end(ride, seat, side):
+    """From behind a line back to before it, round one of its ends; the line is not crossed."""
+    line = ride.lines[seat]
+    out = (ride.course.half[0] + 60.0) * side
+    ride.along(seat, line.along + 50.0, line.along + 51.0, aside=out)
+    ride.along(seat, line.along + 51.0, line.along - 51.0, aside=out)
+    ride.along(seat, line.along - 51.0, line.along - 50.0)
+
+
+def carry(ride, seat, along):
+    """Lift a robot and put it down elsewhere on the course."""
+    ride.put(seat, *spot(ride.course, along % ride.course.length, 0.0))
+    ride.match.tick()
+
+
+@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
+def test_who_crosses_only_the_own_line_again_and_again_has_missed_the_next(track, seat):
+    """Round either end of the line, through the mud, and carried: the sign is up after the second crossing."""
+    for way in (1.0, -1.0, 0.0):
+        ride = Ride(track, present=(seat,))
+        racer, own = ride.racers[seat], ride.lines[seat].along
+        ride.along(seat, own - 50.0, own + 50.0)
+        for void in (1, 2, 3):
+            assert racer.missed == (0 if void == 1 else 1 + (seat + 1) % 4)
+            if way:
+                round_the_end(ride, seat, way)
+            else:
+                carry(ride, seat, own - 50.0)
+            ride.along(seat, own - 50.0, own + 50.0)
+            assert (racer.passed, racer.void, ride.state.robots[seat].score) == (1, void, 0)
+            assert racer.missed == 1 + (seat + 1) % 4
+        ahead = ride.lines[(seat + 1) % 4].along
+        ride.along(seat, ahead - 30.0, ahead + 30.0)
+        assert (racer.passed, racer.missed) == (2, 0)
+
+
+@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
+@pytest.mark.parametrize("skipped", [(1,), (2,), (3,), (1, 2), (2, 3), (1, 3), (1, 2, 3), ()])
+def test_the_first_line_left_out_is_the_one_to_go_back_to(track, seat, skipped):
+    """Carried over some of the lines of a lap: a lap with all of them counts, any other does not and shows which."""
+    ride = Ride(track, present=(seat,))
+    racer, own = ride.racers[seat], ride.lines[seat].along
+    for step in range(4):
+        along = ride.lines[(seat + step) % 4].along
+        if step not in skipped:
+            carry(ride, seat, along - 30.0)
+            ride.along(seat, along - 30.0, along + 30.0)
+    assert bool(racer.missed) == any(step - 1 in skipped for step in (2, 3) if step not in skipped)
+    carry(ride, seat, own - 30.0)
+    ride.along(seat, own - 30.0, own + 30.0)
+    assert ride.state.robots[seat].score == (0 if skipped else 1)
+    assert racer.missed == (1 + (seat + skipped[0]) % 4 if skipped else 0)
+    assert racer.void == (1 if skipped else 0)
+
+
+@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
+def test_at_the_start_and_over_the_own_line_and_back_no_sign_is_shown(track, seat):
+    ride = Ride(track, present=(seat,))
+    racer, own = ride.racers[seat], ride.lines[seat].along
+    ride.along(seat, own - 55.0, own + 40.0)
+    assert (racer.passed, racer.missed) == (1, 0)
+    for _ in range(3):
+        ride.along(seat, own + 40.0, own - 150.0)
+        assert not racer.missed
+        ride.along(seat, own - 150.0, own + 40.0)
+        assert (racer.passed, racer.missed, racer.void) == (1, 0, 0)
+
+
+def test_parking_on_the_line_is_one_crossing():
+    ride = Ride(present=(0,))
+    line = ride.lines[0]
+    ride.along(0, line.along - 40.0, line.along - 1.0)
+    x, y = (line.ax + line.bx) / 2, (line.ay + line.by) / 2
+    ride.to(0, x, y)
+    for _ in range(100):
+        ride.match.tick()
+    assert ride.racers[0].passed <= 1
+    ride.along(0, line.along - 1.0, line.along + 1.0)
+    ride.along(0, line.along + 1.0, line.along - 1.0)
+    ride.along(0, line.along - 1.0, line.along + 40.0)
+    assert ride.racers[0].passed == 1

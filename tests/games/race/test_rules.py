@@ -1,0 +1,384 @@
+"""Every rule of Robot Race, told with robots on rails or on their own wheels."""
+
+from math import pi
+
+import pytest
+
+from pigaming_app.ai import make
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.race.course import spot
+from pigaming_app.sim.world import DT, HZ
+from tests.games.rails import Ride
+
+TRACKS = arenas("race")
+
+
+def race(brains=("idle",) * 4, arena="classic", laps=3, minutes=10.0, seed=1):
+    """A race on wheels."""
+    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
+    match = Match(Setup("race", arena, (one, two, three, four), minutes, seed, "standard", laps))
+    for i, brain in enumerate(brains):
+        if brain != "off":
+            match.sit(i, make("race", brain, seed * 4 + i))
+    return match
+
+
+class Stick:
+    """A driver that holds the stick the way it is."""
+
+    def __init__(self, linear=1.0, angular=0.0, turbo=0):
+        self.linear, self.angular, self.turbo = linear, angular, turbo
+
+    def think(self, state, seat):
+        action = state.actions[seat]
+        action.linear, action.angular, action.fire, action.turbo = self.linear, self.angular, 0, self.turbo
+
+
+# -------------------------------------------------------------------------------------------------------------- ground
+
+
+def test_robots_drive_1_25_times_as_fast_as_elsewhere():
+    match = race()
+    match.sit(0, Stick())
+    for _ in range(HZ):
+        match.tick()
+    assert match.state.robots[0].linear == pytest.approx(1.25 * 260.0, rel=1e-4)
+
+
+def test_mud_slows_to_a_third_on_the_tick_the_centre_leaves_the_course_and_not_after_it_is_back():
+    ride = Ride(present=(0,))
+    ride.match.sit(0, Stick())
+    line, robot, edge = ride.lines[0], ride.state.robots[0], 0.5
+    right = (line.bx - line.ax, line.by - line.ay)
+    width = (right[0] ** 2 + right[1] ** 2) ** 0.5
+    for away, speed in ((-edge, 325.0), (edge, 325.0 / 3), (-edge, 325.0)):
+        ride.put(0, line.bx + away * right[0] / width, line.by + away * right[1] / width)
+        ride.match.tick()
+        assert robot.ask_linear == pytest.approx(speed)
+
+
+def test_mud_slows_driving_back_and_turbo_too_and_no_turning():
+    ride = Ride(present=(0,))
+    ride.match.sit(0, Stick(-1.0, 1.0, 1))
+    ride.put(0, 800, 430)
+    ride.match.tick()
+    robot = ride.state.robots[0]
+    assert not ride.racers[0].place.on
+    assert robot.ask_linear == pytest.approx(-325.0 * 1.3 / 3)
+    assert robot.ask_angular == pytest.approx(3.0)
+
+
+def test_turbo_is_a_meter_of_two_seconds():
+    match = race()
+    match.sit(0, Stick(0.0, 0.0, 1))
+    robot = match.state.robots[0]
+    burnt = 0
+    while robot.boosting or not burnt:
+        match.tick()
+        burnt += robot.boosting
+    assert burnt == pytest.approx(2 * HZ, abs=1)
+    match.sit(0, Stick(0.0, 0.0, 0))
+    for _ in range(4 * HZ):
+        match.tick()
+    assert robot.turbo == pytest.approx(1.0)
+
+
+# --------------------------------------------------------------------------------------------------------------- lines
+
+
+def test_the_first_crossing_of_the_own_line_begins_the_first_lap():
+    ride = Ride(present=(0,))
+    own = ride.lines[0].along
+    assert ride.racers[0].passed == 0
+    ride.along(0, own - 30.0, own + 30.0)
+    assert ride.racers[0].passed == 1
+    assert ride.state.robots[0].score == 0
+
+
+def test_before_the_own_line_nothing_is_missed():
+    ride = Ride(present=(0,))
+    ride.along(0, ride.before(0, 2), ride.lines[2].along + 50.0)
+    assert (ride.racers[0].passed, ride.racers[0].missed, ride.racers[0].void) == (0, 0, 0)
+
+
+def test_a_missed_line_is_named_and_must_be_gone_back_to():
+    """Round line 2 on the outside: crossing line 3 tells, and so does the lap that then does not count."""
+    ride = Ride(present=(0,))
+    one, two, three, _ = (line.along for line in ride.lines)
+    racer = ride.racers[0]
+    ride.along(0, one - 30.0, two - 100.0)
+    ride.along(0, two - 100.0, two + 100.0, aside=140.0)
+    assert racer.missed == 0, "nothing is told before a later line is crossed"
+    ride.along(0, two + 100.0, three + 30.0)
+    assert racer.missed == 2
+    ride.along(0, three + 30.0, one + ride.course.length + 30.0)
+    assert (racer.void, ride.state.robots[0].score, racer.missed) == (1, 0, 2)
+    ride.along(0, one + ride.course.length + 30.0, two + ride.course.length + 30.0)
+    assert (racer.missed, racer.passed) == (0, 2)
+    ride.along(0, two + 30.0, one + ride.course.length + 30.0)
+    assert ride.state.robots[0].score == 1
+
+
+def test_only_the_width_of_the_course_is_the_line():
+    ride = Ride(present=(0,))
+    own = ride.lines[0].along
+    ride.along(0, own - 100.0, own + 100.0, aside=ride.course.half[0] + 20.0)
+    assert ride.racers[0].passed == 0
+
+
+def test_a_robot_that_is_carried_over_a_line_has_not_crossed_it():
+    ride = Ride(present=(0,))
+    own = ride.lines[0].along
+    ride.along(0, own - 60.0, own - 25.0)
+    for step, passed in ((50.0, 0), (-50.0, 0)):
+        ride.put(0, *spot(ride.course, own + step / 2, 0.0))
+        ride.match.tick()
+        assert ride.racers[0].passed == passed
+    ride.along(0, own - 25.0, own + 25.0)
+    assert ride.racers[0].passed == 1
+
+
+# --------------------------------------------------------------------------------------------------------------- times
+
+
+def tick_at(ride, seat, along):
+    """One tick that ends there."""
+    ride.put(seat, *spot(ride.course, along, 0.0))
+    ride.match.tick()
+
+
+def test_times_have_the_share_of_the_tick():
+    """From 2 px before the line to 6 px behind it in one tick: it was crossed after a quarter of it."""
+    ride = Ride(present=(0,), laps=1)
+    own = ride.lines[0].along
+    tick_at(ride, 0, own - 10.0)
+    tick_at(ride, 0, own - 2.0)
+    began = ride.state.tick
+    tick_at(ride, 0, own + 6.0)
+    racer = ride.racers[0]
+    assert racer.lap_began == pytest.approx(began - 1 + 0.25, abs=0.01)
+    ride.along(0, own + 6.0, own + ride.course.length - 6.0)
+    tick_at(ride, 0, own - 6.0)
+    ended = ride.state.tick
+    tick_at(ride, 0, own + 2.0)
+    assert racer.finished
+    assert racer.finish == pytest.approx(ended - 1 + 0.75, abs=0.01)
+    assert racer.last_lap == racer.best_lap == racer.laps[0] == pytest.approx(ended - began + 0.5, abs=0.02)
+    assert GAMES["race"].times(ride.state, 0) == pytest.approx((racer.laps[0] * DT,))
+
+
+def test_the_time_of_the_race_counts_from_go_not_from_the_line():
+    ride = Ride(present=(0,), laps=1)
+    for _ in range(100):
+        ride.match.tick()
+    ride.lap(0)
+    racer = ride.racers[0]
+    assert racer.finish > 100 + racer.laps[0]
+
+
+def test_splits_are_timed_at_every_line_and_compared_with_the_best_lap():
+    ride = Ride(present=(1,), laps=9)
+    racer = ride.racers[1]
+    one, two, three, four = (ride.lines[i].along for i in (1, 2, 3, 0))
+    length = ride.course.length
+    ride.along(1, one - 30.0, two + 30.0)
+    assert racer.splits[0] == 0
+    assert racer.splits[1] == pytest.approx((two - one) / 8.0, rel=0.03)
+    assert racer.delta_at == 0, "there is nothing to compare with yet"
+    ride.along(1, two + 30.0, one + length + 30.0)
+    assert racer.best_splits[1:3] == pytest.approx([(two - one) / 8.0, (three - one) / 8.0], rel=0.03)
+    assert racer.splits == [0, 0, 0, 0]
+    first = racer.best_lap
+    for _ in range(50):
+        ride.match.tick()
+    ride.along(1, one + 30.0, two + 30.0)
+    assert racer.delta == pytest.approx(50, abs=2)
+    assert racer.delta_at == pytest.approx(ride.state.tick, abs=6)
+    ride.along(1, two + 30.0, one + length + 30.0)
+    assert racer.last_lap == pytest.approx(first + 50, abs=3)
+    assert racer.delta == pytest.approx(50, abs=3)
+    assert (racer.best_lap, racer.best_splits[1]) == (first, pytest.approx((two - one) / 8.0, rel=0.03))
+    assert four < length
+
+
+# --------------------------------------------------------------------------------------------------------------- order
+
+
+def test_the_order_goes_by_progress_between_the_lines_too():
+    ride = Ride()
+    for seat, way in enumerate((100.0, 300.0, 200.0, 0.0)):
+        own = ride.lines[seat].along
+        ride.along(seat, own - 30.0, own + way)
+    ride.match.tick()
+    assert [racer.rank for racer in ride.racers] == [3, 1, 2, 4]
+    assert [racer.progress for racer in ride.racers] == pytest.approx([100, 300, 200, 0], abs=9)
+
+
+def test_at_the_start_all_are_level_and_the_seats_decide():
+    match = race()
+    assert [racer.rank for racer in match.state.racers] == [1, 2, 3, 4]
+    match.tick()
+    assert [racer.rank for racer in match.state.racers] == [1, 2, 3, 4]
+    assert {racer.progress for racer in match.state.racers} == {-55.0}
+
+
+def test_what_lies_behind_a_missed_line_is_no_progress():
+    ride = Ride(present=(0, 1))
+    one, two, three, _ = (line.along for line in ride.lines)
+    ride.along(0, one - 30.0, one + 60.0)
+    ride.along(0, two + 60.0, three + 60.0)
+    assert ride.racers[0].missed
+    assert ride.racers[0].progress == pytest.approx(two - one, abs=0.1)
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_progress_grows_all_the_way_and_shrinks_all_the_way_back(track):
+    ride = Ride(track, present=(3,), laps=9)
+    own, racer = ride.lines[3].along, ride.racers[3]
+    ride.along(3, own - 50.0, own - 40.0)
+    for goal in range(-30, int(2.5 * ride.course.length), 60):
+        ride.along(3, own + goal - 60, own + goal)
+        assert racer.progress == pytest.approx(goal, abs=ride.course.step)
+    for goal in range(int(2.4 * ride.course.length), int(ride.course.length), -60):
+        ride.along(3, own + goal + 60, own + goal)
+        assert racer.progress == pytest.approx(goal, abs=ride.course.step)
+
+
+def test_who_has_finished_first_stands_first_then_progress_counts():
+    ride = Ride(laps=1)
+    ride.lap(2)
+    ride.lap(0)
+    ride.along(3, ride.lines[3].along - 30.0, ride.lines[3].along + 500.0)
+    ride.match.tick()
+    assert [racer.rank for racer in ride.racers] == [2, 4, 1, 3]
+    outcome = ride.match.outcome()
+    assert [row.seat for row in outcome.rows] == [2, 0, 3, 1]
+    assert [row.place for row in outcome.rows] == [1, 2, 3, 4]
+    assert outcome.winners == (2,)
+    first, second, third, _ = outcome.rows
+    assert first.facts["total"] < second.facts["total"]
+    assert third.facts == {"laps": 0, "best": 0, "total": 0}
+    assert set(first.feats) == {"lap", "race"}
+    assert first.feats["race"] == round(1000 * first.facts["total"])
+    assert third.feats == {}
+    assert first.times == pytest.approx((first.facts["best"],))
+    assert tuple(first.facts) == GAMES["race"].columns
+
+
+def test_a_best_lap_without_a_finish_is_a_feat_of_its_own():
+    ride = Ride(present=(0,), laps=2)
+    ride.lap(0)
+    assert set(GAMES["race"].feat(ride.state, 0)) == {"lap"}
+
+
+# ----------------------------------------------------------------------------------------------------------- wrong way
+
+
+def test_driving_against_the_way_counts_until_it_ends():
+    match = race(("idle", "off", "off", "off"))
+    match.sit(0, Stick(-1.0))
+    racer = match.state.racers[0]
+    for _ in range(40):
+        match.tick()
+    assert 25 < racer.wrong <= 40
+    match.sit(0, Stick(1.0))
+    for _ in range(20):
+        match.tick()
+    assert racer.wrong == 0
+
+
+def test_who_goes_back_to_a_missed_line_is_not_told_off():
+    ride = Ride(present=(0,))
+    one, two, three, _ = (line.along for line in ride.lines)
+    ride.along(0, one - 30.0, one + 60.0)
+    ride.along(0, two + 60.0, three + 60.0)
+    ride.state.robots[0].linear = 300.0
+    x, y = spot(ride.course, three, 0.0)
+    tangent = ride.rails.poses[0][2]
+    for _ in range(30):
+        ride.put(0, x, y, (tangent + pi) % (2 * pi))
+        ride.match.tick()
+    assert ride.racers[0].missed == 2
+    assert ride.racers[0].wrong == 0
+
+
+# ----------------------------------------------------------------------------------------------------------------- end
+
+
+def test_the_others_race_on_for_thirty_seconds_after_the_first():
+    ride = Ride(laps=1)
+    ride.lap(1)
+    first = ride.state.first
+    assert first == pytest.approx(ride.racers[1].finish, abs=1)
+    while not ride.match.over:
+        ride.match.tick()
+    assert ride.state.tick - first == pytest.approx(30 * HZ, abs=1)
+
+
+def test_when_all_have_finished_it_is_over_at_once():
+    ride = Ride(present=(0, 2), laps=1)
+    ride.lap(0)
+    assert not ride.match.over
+    own = ride.lines[2].along
+    ride.along(2, own - 30.0, own + ride.course.length - 10.0)
+    assert not ride.match.over
+    ride.along(2, own + ride.course.length - 10.0, own + ride.course.length + 8.0)
+    assert ride.match.over
+
+
+def test_the_clock_ends_a_race_in_which_nobody_finishes():
+    match = race(minutes=0.1)
+    while not match.over:
+        match.tick()
+    assert match.state.tick == 6 * HZ
+    assert match.outcome().winners == (), "nobody got anywhere: all are level"
+
+
+def test_who_has_finished_rolls_on_for_a_second_and_a_half_and_then_stops():
+    ride = Ride(present=(0, 1), laps=1)
+    ride.match.sit(0, Stick(1.0, 0.5, 1))
+    ride.lap(0)
+    robot, racer = ride.state.robots[0], ride.racers[0]
+    assert racer.finished
+    assert robot.ask_linear > 0
+    while robot.ask_linear:
+        ride.match.tick()
+    assert ride.state.tick - racer.finish == pytest.approx(1.5 * HZ, abs=2)
+    assert (robot.ask_angular, robot.boosting) == (0, 0)
+
+
+def test_what_is_driven_after_the_finish_counts_no_more():
+    ride = Ride(present=(0, 1), laps=1)
+    ride.lap(0)
+    finish = ride.racers[0].finish
+    ride.lap(0)
+    assert (ride.state.robots[0].score, ride.racers[0].finish, ride.racers[0].passed) == (1, finish, 5)
+
+
+@pytest.mark.parametrize("laps", [1, 3, 9])
+def test_one_to_nine_laps_can_be_chosen(laps):
+    assert laps in GAMES["race"].goals
+    ride = Ride(present=(0, 1), laps=laps)
+    for lap in range(laps):
+        assert not ride.racers[0].finished
+        ride.lap(0)
+        assert ride.state.robots[0].score == lap + 1
+    assert ride.racers[0].finished
+    assert len(GAMES["race"].times(ride.state, 0)) == laps
+
+
+def test_three_laps_if_nobody_says_otherwise():
+    assert Ride(laps=0).state.rules.laps == GAMES["race"].default_goal == 3
+
+
+@pytest.mark.parametrize("seats", [("hard", "off", "off", "off"), ("off", "normal", "easy", "off")])
+def test_empty_seats_leave_their_lines_but_nothing_else(seats):
+    match = race(seats, laps=1)
+    while not match.over:
+        match.tick()
+    assert len(match.state.lines) == 4
+    assert {row.seat for row in match.outcome().rows} == {i for i, brain in enumerate(seats) if brain != "off"}
+    assert all(row.facts["total"] > 0 for row in match.outcome().rows)

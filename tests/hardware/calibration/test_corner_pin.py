@@ -1,0 +1,60 @@
+"""The corner pin puts the picture's corners where they are wanted, and refuses corners into which nothing fits."""
+
+import numpy as np
+import pytest
+
+from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, Warp, crooked
+
+ASKEW = (40.0, 20.0, 1880.0, 60.0, 1900.0, 1060.0, 10.0, 1000.0)
+
+
+def picture() -> "np.ndarray[tuple[int, ...], np.dtype[np.uint8]]":
+    page = np.zeros((1080, 1920, 4), np.uint8)
+    page[...] = 200
+    return page
+
+
+def test_straight_corners_change_nothing() -> None:
+    before = np.random.default_rng(1).integers(0, 255, (1080, 1920, 4), dtype=np.uint8)
+    after = np.zeros_like(before)
+    Warp(STRAIGHT).draw(before, after)
+    assert np.array_equal(before, after)
+
+
+def test_the_picture_fills_its_quadrangle_and_nothing_else() -> None:
+    shown = np.full((1080, 1920, 4), 99, np.uint8)
+    Warp(ASKEW).draw(picture(), shown)
+    for x, y in np.array(ASKEW).reshape(4, 2):
+        inwards = np.sign((960 - x, 540 - y)).astype(int) * 4
+        assert shown[int(y) + inwards[1], int(x) + inwards[0], 0] == 200
+        assert shown[max(0, int(y) - inwards[1]), max(0, int(x) - inwards[0]), 0] == 0
+
+
+def test_a_window_of_another_size_shows_the_same_larger() -> None:
+    shown = np.zeros((2160, 3840, 4), np.uint8)
+    Warp(ASKEW, (3840, 2160)).draw(picture(), shown)
+    assert shown[48, 88, 0] == 200
+    assert shown[32, 72, 0] == 0
+
+
+def test_the_mouse_points_at_what_is_seen_under_it() -> None:
+    warp = Warp(ASKEW, (960, 540))
+    assert warp.back((20.0, 10.0)) == pytest.approx((0.0, 0.0), abs=1e-6)
+    assert warp.back((950.0, 530.0)) == pytest.approx((1920.0, 1080.0), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        (0, 0, 1920, 0, 0, 1080, 1920, 1080),  # crossed
+        (1920, 0, 0, 0, 0, 1080, 1920, 1080),  # seen from behind
+        (0, 0, 960, 540, 1920, 1080, 0, 1080),  # on a line
+        (0, 0, 100, 0, 100, 50, 0, 50),  # tiny
+        (0, 0, float("nan"), 0, 1920, 1080, 0, 1080),
+        (0, 0, 1920, 0),
+    ],
+)
+def test_corners_into_which_nothing_fits_are_refused(corners: tuple[float, ...]) -> None:
+    assert crooked(corners)
+    with pytest.raises(ValueError, match="fits"):
+        Warp(corners)

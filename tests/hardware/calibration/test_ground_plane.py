@@ -1,0 +1,157 @@
+"""Where things on the mat are, and calibrations that must not be believed."""
+
+from dataclasses import replace
+from math import hypot, pi
+
+import numpy as np
+import pytest
+
+from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, measured, nominal, read, written
+from pigaming_app.hardware.calibration.lens import Lens
+from pigaming_app.hardware.signals import Mark
+
+SIZE = (1920, 1080)
+BENT = Lens(SIZE, -0.45, 0.2, (970.0, 530.0))
+
+
+def edge_on(ground, robot, x, y, height, edge=50.0):
+    """The mark of an upright marker, `edge` mm wide, `height` mm above a place."""
+    half = 0.5 * edge / ground.mm
+    corners = np.array([(x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)])
+    return Mark(robot, ground.seen_at(corners, height))
+
+
+def test_straightening_undoes_bending_all_over_the_picture():
+    x, y = np.meshgrid(np.linspace(0, 1919, 9), np.linspace(0, 1079, 7))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    assert np.abs(BENT.bend(BENT.straighten(points)) - points).max() < 1e-3
+
+
+def test_a_lens_that_bends_inwards_shows_straight_points_nearer_to_its_centre():
+    seen = BENT.bend(np.array([[1700.0, 900.0]]))[0]
+    assert hypot(*(seen - BENT.centre)) < hypot(1700.0 - 970.0, 900.0 - 530.0)
+
+
+def test_a_lid_is_seen_beside_its_place_by_the_height_rule():
+    """Similar triangles: 70 mm up under a camera at 2500 mm, 1000 px away, appears 1000 * 70 / 2430 px further out."""
+    ground = measured(nominal(), (0.0, 0.0), 2500.0)
+    apparent = ground.on_mat(ground.seen_at(np.array([[1000.0, 0.0]]), 70.0))[0]
+    assert apparent == pytest.approx([1000.0 + 1000.0 * 70.0 / 2430.0, 0.0])
+
+
+def test_what_is_seen_comes_back_to_where_it_is():
+    ground = replace(nominal(), lens=BENT)
+    places = np.array([[10.0, 20.0], [1590.0, 30.0], [800.0, 450.0], [15.0, 880.0]])
+    assert np.abs(ground.at_height(ground.seen_at(places, 70.0), 70.0) - places).max() < 1e-3
+
+
+def test_a_marker_on_a_lid_is_a_robot_and_its_top_is_ahead():
+    ground = nominal()
+    (fix,) = ground.fixes([edge_on(ground, 2, 300.0, 700.0, 70.0)], 5.0)
+    assert fix.robot == 2
+    assert fix.captured == 5.0
+    assert (fix.x, fix.y) == pytest.approx((300.0, 700.0))
+    assert fix.heading == pytest.approx(0.0)
+
+
+def test_a_marker_in_a_hand_is_no_robot():
+    """Half a metre above the mat it looks a quarter larger."""
+    ground = nominal()
+    assert ground.fixes([edge_on(ground, 0, 500.0, 500.0, 570.0)], 0.0) == ["size"]
+
+
+def test_a_marker_of_another_size_is_no_robot():
+    ground = nominal()
+    assert ground.fixes([edge_on(ground, 0, 500.0, 500.0, 70.0, edge=40.0)], 0.0) == ["size"]
+
+
+def test_a_tilted_marker_is_no_robot():
+    ground = nominal()
+    mark = edge_on(ground, 0, 500.0, 500.0, 70.0)
+    squeezed = mark.corners.mean(axis=0) + (mark.corners - mark.corners.mean(axis=0)) * (1.0, 0.75)
+    assert ground.fixes([Mark(0, squeezed)], 0.0) == ["tilted"]
+
+
+def test_a_mat_that_was_measured_wrongly_shows_in_the_size_of_a_marker():
+    right, wrong = nominal(width_mm=2112.0), nominal(width_mm=1900.0)
+    mark = edge_on(right, 0, 800.0, 400.0, 70.0)
+    assert right.edge_mm(mark) == pytest.approx(50.0)
+    assert wrong.edge_mm(mark) == pytest.approx(50.0 * 1900.0 / 2112.0)
+
+
+def test_no_marks_are_no_fixes():
+    assert nominal().fixes([], 0.0) == []
+
+
+def calibrated() -> Ground:
+    return replace(nominal(), display="2: 1920 × 1080", lens=BENT, mean_mm=0.31, max_mm=0.62)
+
+
+def test_a_calibration_survives_its_file():
+    assert read(written(calibrated()), "2: 1920 × 1080", SIZE) == calibrated()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("version = 1", "version = 7", "version 7"),
+        ("height = 2500.0", "height = 2400.0", "changed by hand"),
+        ("k1 = -0.45", "k1 = -0.4", "changed by hand"),
+        ("[lens]", "[lens", "cannot be read"),
+        ("check =", "cheque =", "changed by hand"),
+        ("version = 1\n", "", "version None"),
+    ],
+)
+def test_a_file_that_is_not_as_it_was_written_is_refused_in_one_sentence(old, new, reason):
+    text = written(calibrated())
+    assert old in text
+    with pytest.raises(NoGround, match=reason) as refused:
+        read(text.replace(old, new), "2: 1920 × 1080", SIZE)
+    assert "\n" not in str(refused.value)
+    assert str(refused.value).endswith("calibrate again.")
+
+
+def test_a_calibration_of_another_display_is_refused():
+    with pytest.raises(NoGround, match="made on display 2: 1920 × 1080, not 1: 1280 × 720"):
+        read(written(calibrated()), "1: 1280 × 720", SIZE)
+
+
+def test_a_calibration_of_another_camera_size_is_refused():
+    with pytest.raises(NoGround, match="1920 x 1080 px, not 1280 x 720"):
+        read(written(calibrated()), "2: 1920 × 1080", (1280, 720))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        replace(calibrated(), height=10.0),
+        replace(calibrated(), width_mm=1.0),
+        replace(calibrated(), lens=Lens((4, 4))),
+    ],
+)
+def test_numbers_that_cannot_be_are_refused_even_if_the_check_fits(wrong):
+    with pytest.raises(NoGround, match="cannot be used"):
+        read(written(wrong), "2: 1920 × 1080", SIZE)
+
+
+def test_a_plane_that_maps_everything_to_a_line_is_refused():
+    text = written(calibrated())
+    flat = replace(calibrated(), foot=(1.0, 2.0))
+    object.__setattr__(flat, "plane", (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))
+    assert written(flat) != text
+    with pytest.raises(NoGround, match="cannot be used"):
+        read(written(flat), "2: 1920 × 1080", SIZE)
+
+
+def test_garbage_is_refused():
+    for text in ("", "\x00\x01", "version = 1", "version = 1\ncheck = 3\n[lens]\n"):
+        with pytest.raises(NoGround):
+            read(text, "", SIZE)
+
+
+def test_a_heading_is_where_the_top_of_the_marker_points():
+    ground = nominal()
+    mark = edge_on(ground, 1, 800.0, 400.0, 70.0)
+    turned = Mark(1, np.roll(mark.corners, -1, axis=0))
+    (fix,) = ground.fixes([turned], 0.0)
+    assert abs(fix.heading) == pytest.approx(pi / 2.0)

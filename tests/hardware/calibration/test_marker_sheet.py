@@ -1,0 +1,71 @@
+"""The page of markers: that it is to scale can be read in the file."""
+
+import re
+
+import numpy as np
+import pytest
+
+cv2 = pytest.importorskip("cv2")
+
+from pigaming_app.hardware.calibration.marker_sheet import CELLS, cells, sheet  # noqa: E402
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers  # noqa: E402
+
+MM = 72.0 / 25.4  # PDF points
+
+
+def filled(page):
+    """The black boxes of a page, points: (left, bottom, wide, high)."""
+    return [tuple(map(float, found)) for found in re.findall(rb"([\d.]+) ([\d.]+) ([\d.]+) ([\d.]+) re f", page)]
+
+
+def painted(boxes, scale=2.0):
+    """The boxes as a picture of A4, `scale` px to a point."""
+    picture = np.full((round(842 * scale), round(595 * scale)), 255, np.uint8)
+    for left, bottom, wide, high in boxes:
+        top = 841.89 - bottom - high
+        picture[
+            round(top * scale) : round((top + high) * scale), round(left * scale) : round((left + wide) * scale)
+        ] = 0
+    return picture
+
+
+@pytest.mark.parametrize("edge", [50.0, 40.0])
+def test_the_markers_are_as_large_as_they_should_be(edge):
+    found = sorted(Markers(range(50)).everywhere(painted(filled(sheet(edge)))), key=lambda mark: mark.number)
+    assert [mark.number for mark in found] == list(ROBOT_IDS)
+    for mark in found:
+        sides = np.sqrt(((mark.corners - np.roll(mark.corners, 1, axis=0)) ** 2).sum(axis=1))
+        assert sides / 2.0 / MM == pytest.approx([edge] * 4, abs=0.5)
+        assert mark.corners[0, 1] < mark.corners[2, 1]  # the top of each is up, where its triangle is
+
+
+def test_a_cell_is_a_sixth_of_a_marker():
+    assert {round(wide / MM * CELLS, 2) for _, _, wide, _ in filled(sheet())} == {50.0}
+
+
+def test_the_rim_of_a_marker_is_black():
+    for number in ROBOT_IDS:
+        inside = cells(number)[1:-1, 1:-1].sum()
+        assert cells(number).sum() - inside == 20
+
+
+def test_the_ruler_is_a_hundred_millimetres():
+    ticks = re.findall(rb"([\d.]+) ([\d.]+) m ([\d.]+) ([\d.]+) l S", sheet())
+    upright = sorted({float(x) for x, _, to, _ in ticks if x == to})
+    assert len(upright) == 101
+    assert (upright[-1] - upright[0]) / MM == pytest.approx(100.0, abs=0.01)
+
+
+def test_the_table_of_the_file_points_at_its_objects():
+    page = sheet()
+    begins = [int(found) for found in re.findall(rb"(\d{10}) 00000 n", page)]
+    assert [page[begin:].split(b" ", 1)[0] for begin in begins] == [b"1", b"2", b"3", b"4", b"5"]
+    assert page[int(page.rsplit(b"startxref\n", 1)[1].split()[0]) :].startswith(b"xref")
+    length = int(re.search(rb"/Length (\d+)", page)[1])
+    assert page.index(b"\nendstream") - page.index(b"stream\n") - len(b"stream\n") == length
+
+
+@pytest.mark.parametrize("edge", [0.0, 500.0])
+def test_what_does_not_fit_is_refused(edge):
+    with pytest.raises(ValueError, match="20 to 60 mm"):
+        sheet(edge)

@@ -1,0 +1,106 @@
+"""Robots find to their places, whoever stands in the way."""
+
+from math import hypot, pi
+
+import pytest
+
+from pigaming_app.games.arenas import load
+from pigaming_app.hardware.control.path_planner import apart, floor_with, way_to
+from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.sim.robot import RADIUS
+from tests.floor import floor
+from tests.hardware.mat import STARTS, Mat
+
+YARD = [(wall.ax, wall.ay, wall.bx, wall.by) for wall in load("pitanks", "courtyard").walls]
+GANG = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # two walls 110 px apart: half more than a robot
+
+
+def gathered(mat, goals, walls=(), seconds=60.0):
+    """Let robots take these places; how long it took, in s, or None."""
+    world = floor(walls, [(robot.x, robot.y, robot.heading) for robot in mat.robots])
+    plant = RealPlant(world, mat.rig)
+    plant.summon(goals)
+    for tick in range(round(seconds / 0.02)):
+        if plant.take_places():
+            return 0.02 * tick
+        mat.pass_time()
+        for i, one in enumerate(mat.robots):
+            for other in mat.robots[:i]:
+                assert hypot(one.x - other.x, one.y - other.y) > 2.0 * RADIUS - 2.0
+    return None
+
+
+def at(mat, robot, goal):
+    one = mat.robots[robot]
+    turned = abs((one.heading - goal[2] + pi) % (2 * pi) - pi)
+    return hypot(one.x - goal[0], one.y - goal[1]) < 20.0 and turned < 0.25
+
+
+def test_two_robots_change_places():
+    mat = Mat([(400.0, 450.0, 0.0), (1000.0, 450.0, pi), *STARTS[2:]])
+    goals = {0: (1000.0, 450.0, 0.0), 1: (400.0, 450.0, 0.0)}
+    assert gathered(mat, goals) is not None
+    assert all(at(mat, robot, goal) for robot, goal in goals.items())
+
+
+def test_four_robots_change_places_all_round():
+    mat = Mat()
+    goals = {i: STARTS[(i + 1) % 4] for i in range(4)}
+    assert gathered(mat, goals) is not None
+    assert all(at(mat, robot, goal) for robot, goal in goals.items())
+
+
+def test_two_robots_pass_a_gate_one_after_the_other():
+    mat = Mat([(300.0, 300.0, 0.0), (300.0, 600.0, 0.0), *STARTS[1:3]])
+    goals = {0: (900.0, 300.0, 0.0), 1: (900.0, 600.0, 0.0)}
+    assert gathered(mat, goals, GANG) is not None
+    assert all(at(mat, robot, goal) for robot, goal in goals.items())
+
+
+def test_a_robot_that_stands_in_a_wall_gets_out_first():
+    mat = Mat([(590.0, 300.0, 0.5), *STARTS[1:]])
+    goals = {0: (300.0, 300.0, 0.0)}
+    assert gathered(mat, goals, GANG) is not None
+    assert at(mat, 0, goals[0])
+
+
+def test_a_robot_gets_round_the_end_of_a_wall_that_holds_it():
+    mat = Mat([(833.0, 204.6, 2.26), (1370.0, 840.0, 4.88), (142.4, 778.8, 2.88), (1304.4, 188.2, 0.93)])
+    assert gathered(mat, {0: (1414.0, 276.3, 0.27)}, YARD, seconds=20.0) is not None
+
+
+def test_a_robot_beside_a_wall_sets_out_across_its_heading():
+    mat = Mat([(700.1, 192.0, 1.28), (1191.3, 565.6, 1.87), (1546.4, 220.5, 3.58), (281.7, 744.1, 5.46)])
+    assert gathered(mat, {0: (448.6, 653.8, 5.17)}, YARD, seconds=20.0) is not None
+
+
+def test_a_robot_whose_place_is_taken_waits():
+    mat = Mat([(400.0, 450.0, 0.0), (1000.0, 450.0, pi), *STARTS[2:]])
+    assert gathered(mat, {0: (1000.0, 450.0, 0.0)}, seconds=12.0) is None
+    assert mat.robots[1].x == 1000.0
+    assert hypot(mat.robots[0].x - 400.0, mat.robots[0].y - 450.0) < 1.0, "it does not drive about"
+
+
+def test_a_robot_in_its_place_stays_when_it_is_nudged_and_comes_back_when_it_is_carried_off():
+    mat = Mat()
+    world = floor(poses=STARTS)
+    plant = RealPlant(world, mat.rig)
+    plant.summon({0: STARTS[0], 1: (1200.0, 200.0, 2.4)})
+    plant.take_places()
+    mat.robots[0].x += 15.0
+    plant.take_places()
+    assert plant.places[0].there
+    mat.robots[0].x += 100.0
+    for _ in range(1500):
+        if plant.take_places():
+            break
+        mat.pass_time()
+    assert mat.robots[0].x == pytest.approx(STARTS[0][0], abs=20.0)
+
+
+def test_a_way_keeps_clear_of_walls_and_ends_at_the_goal():
+    world = floor(GANG)
+    way = way_to(floor_with(world, 4.0), (300.0, 200.0), (900.0, 200.0))
+    assert way[-1] == (900.0, 200.0)
+    assert any(apart(point, (600.0, 450.0)) < 60.0 for point in way)
+    assert way_to(floor_with(world, 30.0), (300.0, 200.0), (900.0, 200.0)) == []

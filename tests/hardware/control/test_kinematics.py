@@ -1,0 +1,47 @@
+"""From what a game asks for to what the wheels are told."""
+
+import pytest
+
+from pigaming_app.hardware.control.kinematics import LEVELS, Kinematics
+from pigaming_app.hardware.control.motion_model import Wear
+from pigaming_app.hardware.control.rig import UNMEASURED
+from pigaming_app.sim.drivetrain import NOMINAL
+
+WORN = Wear(0.93, 1.05, 1.02, 0.01, 8.0)
+ASKED = [(260.0, 0.0), (-150.0, 1.0), (0.0, 2.5), (200.0, -1.5)]
+
+
+@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("drivetrain", [NOMINAL, UNMEASURED])
+def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(asked, drivetrain):
+    kinematics = Kinematics(drivetrain)
+    ran = [kinematics.goes(kinematics.wheels(asked)) for _ in range(200)]
+    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(asked[0], abs=1.0)
+    assert sum(angular for _, angular in ran) / 200 == pytest.approx(asked[1], abs=0.02)
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_what_is_learnt_of_the_wheels_is_made_up_for(asked):
+    kinematics = Kinematics(UNMEASURED)
+    kinematics.wear = WORN
+    ran = [kinematics.goes(kinematics.wheels(asked)) for _ in range(200)]
+    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(asked[0], abs=1.0)
+    assert sum(angular for _, angular in ran) / 200 == pytest.approx(asked[1], abs=0.02)
+    told = [kinematics.wheels(asked) for _ in range(200)]
+    if asked == (260.0, 0.0):
+        assert sum(one.left for one in told) > sum(one.right for one in told)
+
+
+def test_every_share_is_on_a_level_and_rest_is_rest():
+    kinematics = Kinematics(UNMEASURED)
+    for asked in ASKED:
+        for share in kinematics.wheels(asked):
+            assert share * LEVELS == pytest.approx(round(share * LEVELS))
+    assert kinematics.wheels((0.0, 0.0)) == (0.0, 0.0)
+    assert kinematics.stand() == (0.0, 0.0)
+
+
+def test_an_absurd_gain_is_not_believed():
+    kinematics = Kinematics(NOMINAL)
+    kinematics.wear = Wear(0.01, 0.01, 1.0, 0.0, 0.0)
+    assert kinematics.goes(kinematics.wheels((100.0, 0.0)))[0] == pytest.approx(100.0, rel=0.1)

@@ -1,0 +1,141 @@
+"""Robots that do not do as they are told, and those that do, though weak, uneven or late."""
+
+from dataclasses import replace
+from math import pi
+from random import Random
+
+import pytest
+
+from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.signals import Wheels
+from pigaming_app.sim.drivetrain import Wheel
+from pigaming_app.sim.robot import RADIUS
+from tests.floor import floor
+from tests.hardware.mat import TRUE, Mat
+
+MM = 1.32  # of a px
+ASIDE = ((1500.0, 100.0, 3.0), (100.0, 100.0, 0.0))
+BESIDE = RADIUS + 5.0  # px from the edge: where virtual walls let a robot come to rest
+WIRED = {
+    "reversed": lambda left, right: Wheels(-left, -right),
+    "swapped": lambda left, right: Wheels(right, left),
+    "one reversed": lambda left, right: Wheels(-left, right),
+    "held": lambda left, right: Wheels(0.0, 0.0),
+}
+
+
+class Wired:
+    """A mat whose first robot makes something else of its commands, or wears the lid of the second."""
+
+    def __init__(self, poses, fault):
+        self.mat = Mat(poses)
+        if fault == "lids":
+            self.mat.radio = [1, 0, 2, 3]
+        elif fault:
+            self._rewire(self.mat.robots[0], WIRED[fault])
+        world = floor([], [(robot.x, robot.y, robot.heading) for robot in self.mat.robots])
+        self.plant = RealPlant(world, self.mat.rig)
+        self.out = -1e9  # mm by which the edge of a robot has been out of the arena
+        self.named = None  # s
+
+    def _rewire(self, robot, wiring):
+        roll = robot.roll
+
+        def rewired():
+            told, robot.told = robot.told, robot.told and wiring(*robot.told)
+            roll()
+            robot.told = told
+
+        robot.roll = rewired
+
+    def drive(self, ask, seconds):
+        """As in a match, and in the pause that a fault makes."""
+        mat, plant = self.mat, self.plant
+        for tick in range(round(seconds / 0.02)):
+            for robot, seen in zip(plant.world.robots, plant.sense(), strict=True):
+                robot.x, robot.y, robot.heading = seen.x, seen.y, seen.heading
+            if plant.safety.pauses:
+                plant.watch()
+            else:
+                plant.drive(ask(0.02 * tick), 0.02)
+            if self.named is None and any(fault.name == "disobeys" for fault in plant.faults):
+                self.named = 0.02 * tick
+            mat.pass_time()
+            for robot in mat.robots:
+                edges = (robot.x, 1600.0 - robot.x, robot.y, 900.0 - robot.y)
+                self.out = max(self.out, MM * (RADIUS - min(edges)))
+        return self
+
+
+def ahead(speed, turn=0.0):
+    """Stand, then drive with all robots alike."""
+    return lambda time: [(speed, turn) if time > 0.5 else (0.0, 0.0)] * 4
+
+
+def mashed(speed, seed):
+    """Sticks thrown about, each for up to a second."""
+    random, held = Random(seed), {}
+
+    def ask(time):
+        for robot in range(4):
+            if time >= held.get(robot, (0.5,))[0]:
+                linear, angular = random.choice((-1, -0.5, 0.75, 1, 1, 1)), random.choice((-1, -0.3, 0, 0, 0.3, 1))
+                held[robot] = time + random.uniform(0.06, 1.0), (speed * linear, 3.0 * angular)
+        return [held[robot][1] if robot in held else (0.0, 0.0) for robot in range(4)]
+
+    return ask
+
+
+@pytest.mark.parametrize(("speed", "most"), [(260.0, 60.0), (325.0, 60.0), (422.5, 110.0)])
+@pytest.mark.parametrize("fault", ["lids", "reversed", "swapped", "one reversed"])
+@pytest.mark.parametrize("heading", [0.0, pi, 2.5, 0.6])
+def test_no_robot_gets_far_out_of_the_arena(fault, speed, most, heading):
+    for gap in (0.0, 60.0, 240.0):
+        poses = [(BESIDE + gap, 450.0, heading), (900.0, 450.0, 0.4), *ASIDE]
+        assert Wired(poses, fault).drive(ahead(speed), 2.0).out < most
+
+
+@pytest.mark.parametrize("fault", ["lids", "reversed", "swapped", "one reversed", "held"])
+def test_whoever_mashes_the_stick_it_is_noticed(fault):
+    poses = [(400.0, 450.0, 1.0), (1100.0, 450.0, 2.0), *ASIDE]
+    for seed in range(3):
+        run = Wired(poses, fault).drive(mashed(325.0, seed), 5.0)
+        assert run.named is not None
+        assert run.out < 60.0
+
+
+def test_a_robot_that_drives_the_wrong_way_is_stopped_after_half_a_second():
+    run = Wired([(800.0, 450.0, 0.0), (800.0, 750.0, 0.0), *ASIDE], "reversed").drive(ahead(200.0), 2.0)
+    assert 0.9 < run.named < 1.3
+    assert run.mat.robots[0].told in (None, Wheels(0.0, 0.0))
+
+
+@pytest.mark.parametrize(("left", "right"), [(0.7, 0.7), (1.3, 1.3), (0.75, 1.25), (1.2, 0.8)])
+@pytest.mark.parametrize(("lag", "dead_time"), [(0.05, 0.02), (0.12, 0.06)])
+def test_weak_uneven_and_late_robots_are_no_false_alarm(left, right, lag, dead_time):
+    run = Wired([(400.0, 450.0, 1.0), (1100.0, 450.0, 2.0), *ASIDE], None)
+    for robot in run.mat.robots:
+        robot.train = replace(TRUE, left=Wheel(757.0 * left, 0.05), right=Wheel(757.0 * right, 0.02), lag=lag)
+    assert run.drive(mashed(260.0, 5), 12.0).named is None
+
+
+def test_it_lasts_until_somebody_has_looked():
+    run = Wired([(800.0, 450.0, 0.0), (800.0, 750.0, 0.0), *ASIDE], "held").drive(ahead(200.0), 5.0)
+    assert run.plant.safety.lasting == {0}
+    run.plant.forgive(0)
+    run.mat.robots[0].roll = type(run.mat.robots[0]).roll.__get__(run.mat.robots[0])
+    assert run.drive(ahead(200.0), 2.0).plant.faults == []
+    assert run.mat.robots[0].x > 900.0
+
+
+def test_a_robot_that_is_switched_off_is_said_to_be_silent_and_drives_on_once_it_is_back():
+    run = Wired([(300.0, 450.0, 0.0), (300.0, 750.0, 0.0), *ASIDE], None)
+    run._rewire(run.mat.robots[0], WIRED["held"])
+    run.mat.robots[0].silent = True
+    run.drive(ahead(0.0), 0.2).drive(ahead(150.0), 2.5)
+    assert [(fault.name, fault.robot) for fault in run.plant.faults] == [("silent", 0)]
+    run.mat.robots[0].roll = type(run.mat.robots[0]).roll.__get__(run.mat.robots[0])
+    run.mat.robots[0].silent = False
+    run.drive(lambda time: [(150.0, 0.0)] * 4, 2.5)
+    assert run.plant.faults == []
+    assert run.mat.robots[0].x > 400.0

@@ -1,0 +1,276 @@
+"""Real robots as a plant, on a mat without light or air: walls, safety, places, and mixed company."""
+
+from math import hypot, pi
+from random import Random
+
+import pytest
+
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.hardware.control.mixed_plant import MixedPlant
+from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.sim.robot import RADIUS
+from tests.floor import floor
+from tests.hardware.mat import EVEN, STARTS, Mat
+
+ALL = range(4)
+
+
+def on_floor(mat, walls=(), real=ALL, kind=RealPlant):
+    """A plant over a world in which every robot is present and stands where the mat has it."""
+    world = floor(walls, [(robot.x, robot.y, robot.heading) for robot in mat.robots])
+    return kind(world, mat.rig, real)
+
+
+def drive(plant, mat, twists, seconds):
+    """Drive for a while as a match does."""
+    for _ in range(round(seconds / 0.02)):
+        for robot, seen in zip(plant.world.robots, plant.sense(), strict=True):
+            robot.x, robot.y, robot.heading = seen.x, seen.y, seen.heading
+        plant.drive(twists, 0.02)
+        mat.pass_time()
+
+
+def stands(mat, robot=None):
+    """Whether the wheels of a robot, or of all, are told to stand or are off."""
+    robots = mat.robots if robot is None else [mat.robots[robot]]
+    return all(one.told is None or tuple(one.told) == (0.0, 0.0) for one in robots)
+
+
+AHEAD = [(200.0, 0.0)] * 4
+
+
+def test_real_robots_drive_as_asked_within_their_gains():
+    mat = Mat([(300.0, 200.0, 0.0), (300.0, 400.0, 0.0), (300.0, 600.0, 0.0), (300.0, 800.0, 0.0)])
+    plant = on_floor(mat)
+    drive(plant, mat, AHEAD, 2.0)
+    for robot in mat.robots:
+        assert robot.x == pytest.approx(300.0 + 200.0 * (2.0 - 0.09 - 0.03), rel=0.05)
+    assert plant.faults == []
+    assert plant.world.robots[0].linear == pytest.approx(200.0, rel=0.03)
+
+
+def test_a_real_robot_comes_to_rest_before_a_virtual_wall():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat, [(800.0, 300.0, 800.0, 600.0)])
+    drive(plant, mat, [(422.0, 0.0), *[(0.0, 0.0)] * 3], 5.0)
+    assert 800.0 - 15.0 - RADIUS - 12.0 < mat.robots[0].x < 800.0 - 15.0 - RADIUS
+
+
+def test_two_real_robots_that_race_at_each_other_do_not_touch():
+    mat = Mat([(300.0, 450.0, 0.0), (1300.0, 450.0, pi), *STARTS[2:]], EVEN)
+    plant = on_floor(mat)
+    drive(plant, mat, [(422.0, 0.0), (422.0, 0.0), (0.0, 0.0), (0.0, 0.0)], 5.0)
+    gap = mat.robots[1].x - mat.robots[0].x - 2.0 * RADIUS
+    assert 0.0 < gap < 25.0
+
+
+@pytest.mark.parametrize("what", ["blind", "trouble", "stopped"])
+def test_what_concerns_all_stops_all_within_300_ms_and_goes_on_when_it_is_gone(what):
+    mat = Mat()
+    plant = on_floor(mat)
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.5)
+    assert not stands(mat)
+    if what == "stopped":
+        plant.safety.all_stop()
+    else:
+        setattr(mat, what, "gone")
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.28)
+    assert stands(mat)
+    assert plant.safety.pauses
+    if what == "stopped":
+        plant.safety.release()
+    else:
+        setattr(mat, what, None)
+    for _ in range(30):
+        plant.watch()
+        mat.pass_time()
+    assert not plant.safety.pauses
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.1)
+    assert not stands(mat)
+
+
+@pytest.mark.parametrize(
+    ("what", "value", "name", "seconds"),
+    [("hidden", True, "unseen", 0.29), ("doubled", True, "twice", 0.1), ("battery", 3.9, "empty", 0.1)],
+)
+def test_what_concerns_one_stops_that_one(what, value, name, seconds):
+    mat = Mat()
+    plant = on_floor(mat)
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.5)
+    setattr(mat.robots[1], what, value)
+    drive(plant, mat, [(0.0, 2.0)] * 4, seconds)
+    assert stands(mat, 1)
+    assert not any(stands(mat, other) for other in (0, 2, 3))
+    assert (name, 1) in [(fault.name, fault.robot) for fault in plant.faults]
+
+
+def test_an_unseen_robot_coasts_then_drives_at_half_speed_then_stops():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat)
+    drive(plant, mat, AHEAD, 0.6)
+    full = mat.robots[0].told.left
+    mat.robots[0].hidden = True
+    drive(plant, mat, AHEAD, 0.1)
+    assert mat.robots[0].told.left == pytest.approx(full, abs=0.02)
+    drive(plant, mat, AHEAD, 0.1)
+    assert mat.robots[0].told.left == pytest.approx(0.5 * full, abs=0.04)
+    drive(plant, mat, AHEAD, 0.12)
+    assert stands(mat, 0)
+
+
+def test_a_silent_robot_is_switched_off_after_a_second():
+    mat = Mat()
+    plant = on_floor(mat)
+    mat.robots[2].silent = True
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.9)
+    assert not stands(mat, 2)
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.2)
+    assert mat.robots[2].told is None
+
+
+def test_outside_only_the_way_in_is_open():
+    mat = Mat([(-30.0, 450.0, pi), *STARTS[1:]])
+    plant = on_floor(mat)
+    drive(plant, mat, AHEAD, 0.5)
+    assert mat.robots[0].x == pytest.approx(-30.0, abs=1.0)
+    assert ("outside", 0) in [(fault.name, fault.robot) for fault in plant.faults]
+    drive(plant, mat, [(-200.0, 0.0)] * 4, 1.5)
+    assert mat.robots[0].x > 100.0
+    assert not plant.safety.pauses
+
+
+def test_robots_that_are_not_in_the_match_are_off_and_in_the_way():
+    mat = Mat([(300.0, 450.0, 0.0), (800.0, 450.0, pi), *STARTS[2:]], EVEN)
+    plant = on_floor(mat)
+    plant.world.robots[1].present = 0
+    drive(plant, mat, AHEAD, 4.0)
+    assert mat.robots[1].told is None
+    assert mat.robots[1].x == 800.0
+    assert mat.robots[0].x < 800.0 - 2.0 * RADIUS
+
+
+def places(arena, mat):
+    """How long, in s, it takes the robots to take their places in an arena; a minute at most."""
+    one, two, three, four = (Seat("idle", i) for i in range(4))
+    setup = Setup("pitanks", arena, (one, two, three, four), 1.0, 1, "plain")
+    match = Match(setup, lambda world: RealPlant(world, mat.rig))
+    starts = [(start.x, start.y, start.heading) for start in match.arena.starts]
+    taken = 0
+    while not match.plant.take_places() and taken < 3000:
+        for i, one in enumerate(mat.robots):
+            for other in mat.robots[:i]:
+                assert hypot(one.x - other.x, one.y - other.y) > 2.0 * RADIUS - 4.0
+        mat.pass_time()
+        taken += 1
+    return 0.02 * taken, starts
+
+
+@pytest.mark.parametrize("arena", ["classic", "labyrinth", "trenches"])
+def test_robots_take_their_places_round_walls_and_round_each_other(arena):
+    mat = Mat()
+    seconds, starts = places(arena, mat)
+    assert seconds < 45.0
+    for robot, (x, y, heading) in zip(mat.robots, starts, strict=True):
+        assert hypot(robot.x - x, robot.y - y) < 20.0
+        assert abs((robot.heading - heading + pi) % (2 * pi) - pi) < 0.25
+
+
+def test_a_robot_with_a_covered_marker_has_no_place_until_it_is_seen():
+    mat = Mat()
+    plant = on_floor(mat)
+    plant.place([(robot.x, robot.y, robot.heading) for robot in mat.robots])
+    mat.robots[3].hidden = True
+    mat.pass_time(2.0)
+    for _ in range(200):
+        assert not plant.take_places()
+        mat.pass_time()
+    assert [place.there for place in plant.places] == [True, True, True, False]
+    mat.robots[3].hidden = False
+    mat.pass_time()
+    assert plant.take_places()
+    assert plant.places == []
+
+
+def test_a_real_robot_takes_its_place_round_a_simulated_one():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat, real=[0], kind=MixedPlant)
+    plant.place([(1200.0, 450.0, 0.0), (750.0, 450.0, 0.0), (1400.0, 700.0, 0.0), (200.0, 700.0, 0.0)])
+    taken = 0
+    while not plant.take_places() and taken < 1000:
+        mat.pass_time()
+        assert hypot(mat.robots[0].x - 750.0, mat.robots[0].y - 450.0) > 2.0 * RADIUS
+        taken += 1
+    assert mat.robots[0].x == pytest.approx(1200.0, abs=20.0)
+    assert plant.world.robots[1].x == pytest.approx(750.0)
+
+
+def test_a_simulated_robot_cannot_push_a_real_one_nor_enter_it():
+    mat = Mat([(800.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat, real=[0], kind=MixedPlant)
+    simulated = plant.world.robots[1]
+    simulated.x, simulated.y, simulated.heading = 400.0, 450.0, 0.0
+    drive(plant, mat, [(0.0, 0.0), (260.0, 0.0), (0.0, 0.0), (0.0, 0.0)], 3.0)
+    assert mat.robots[0].x == 800.0
+    assert simulated.x == pytest.approx(800.0 - 2.0 * RADIUS, abs=0.5)
+
+
+def test_a_real_robot_stops_before_a_simulated_one():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]], EVEN)
+    plant = on_floor(mat, real=[0], kind=MixedPlant)
+    simulated = plant.world.robots[1]
+    simulated.x, simulated.y = 900.0, 450.0
+    drive(plant, mat, [(260.0, 0.0), *[(0.0, 0.0)] * 3], 5.0)
+    assert mat.robots[0].x < 900.0 - 2.0 * RADIUS
+    assert simulated.x == 900.0
+
+
+def test_a_robot_is_swapped_for_a_simulated_one_and_back_in_the_middle_of_a_match():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat, real=ALL, kind=MixedPlant)
+    drive(plant, mat, AHEAD, 1.0)
+    x = plant.world.robots[0].x
+    plant.swap(0, False)
+    drive(plant, mat, [(200.0, 0.0), *[(0.0, 0.0)] * 3], 1.0)
+    assert mat.robots[0].told is None
+    assert plant.world.robots[0].x == pytest.approx(x + 200.0, abs=30.0)
+    assert mat.robots[0].x < x + 40.0
+    plant.swap(0, True)
+    taken = 0
+    while not plant.take_places() and taken < 1500:
+        mat.pass_time()
+        taken += 1
+    assert taken < 1500
+    assert 0 in plant.real
+    assert plant.sense()[0].x == pytest.approx(plant.world.robots[0].x, abs=15.0)
+
+
+def test_a_real_robot_takes_over_from_a_simulated_one_that_leans_on_a_wall():
+    mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
+    plant = on_floor(mat, [(875.0, 372.0, 1030.0, 530.0)], real={1, 2, 3}, kind=MixedPlant)
+    leaning = plant.world.robots[0]
+    leaning.x, leaning.y, leaning.heading = 1064.0, 546.0, 6.09
+    plant.swap(0, True)
+    (goal,) = plant.goals.values()
+    assert 2.0 < hypot(goal[0] - leaning.x, goal[1] - leaning.y) < 25.0
+    taken = 0
+    while not plant.take_places() and taken < 1500:
+        mat.pass_time()
+        taken += 1
+    assert taken < 1000
+    assert hypot(mat.robots[0].x - goal[0], mat.robots[0].y - goal[1]) < 15.0
+
+
+def test_twenty_seconds_of_mashing_by_four_robots_among_walls_enter_nothing():
+    mat = Mat()
+    plant = on_floor(mat, [(800.0, 200.0, 800.0, 700.0), (400.0, 500.0, 600.0, 400.0)])
+    chance = Random(4)
+    deepest = 0.0
+    for _ in range(50):
+        asked = [(chance.choice((-422.0, 0.0, 422.0, 422.0)), chance.choice((-3.0, 0.0, 3.0))) for _ in ALL]
+        drive(plant, mat, asked, 0.4)
+        for robot in mat.robots:
+            deepest = max(deepest, RADIUS - robot.x, robot.x - 1600.0 + RADIUS, RADIUS - robot.y, robot.y - 864.0)
+            if 200.0 < robot.y < 700.0:
+                deepest = max(deepest, 15.0 + RADIUS - abs(robot.x - 800.0))
+    assert deepest < 3.0

@@ -1,0 +1,136 @@
+"""Camera, tracker and link put together: what they are told, what they say, and that their threads end."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from pigaming_app.hardware.control.motion_model import Wear
+from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.signals import Frame, Wheels
+from tests.hardware.mat import Mat
+
+
+class Eye:
+    """Hands out the pictures of a list, one at a time."""
+
+    def __init__(self, *pictures):
+        self.pictures = list(pictures)
+
+    def newest(self):
+        return self.pictures.pop(0) if self.pictures else None
+
+    def close(self):
+        self.pictures.clear()
+
+
+class Tracker(Mat):
+    """Counts the pictures that it is shown."""
+
+    def __init__(self):
+        super().__init__()
+        self.shown = []
+        self.told = []
+
+    def see(self, frame):
+        self.shown.append(frame.number)
+        return []
+
+    def sent(self, time, twists):
+        self.told.append(twists)
+
+
+def picture(number, shade):
+    return Frame(np.full((48, 64), shade, dtype=np.uint8), 0.01 * number, number)
+
+
+def test_a_driver_that_repeats_a_picture_shows_nothing_new():
+    tracker = Tracker()
+    rig = Rig(Eye(picture(1, 10), picture(2, 10), picture(3, 11)), tracker, tracker, tracker.clock)
+    for _ in range(5):
+        rig.pump()
+    assert tracker.shown == [1, 3]
+
+
+def test_the_tracker_is_told_what_the_wheels_come_to_and_nothing_of_robots_that_are_off():
+    tracker = Tracker()
+    rig = Rig(Eye(), tracker, tracker, tracker.clock)
+    wheels = rig.kinematics[0].wheels((200.0, 0.5))
+    rig.tell([wheels, Wheels(0.0, 0.0), None, None])
+    (told,) = tracker.told
+    assert told[0] == pytest.approx(rig.kinematics[0].comes_to(wheels))
+    assert told[1:] == [(0.0, 0.0), None, None]
+
+
+def test_what_the_tracker_learns_of_wheels_is_used_to_steer(monkeypatch):
+    tracker = Tracker()
+    rig = Rig(Eye(picture(1, 10)), tracker, tracker, tracker.clock)
+    even = rig.kinematics[2].wheels((260.0, 0.0))
+    monkeypatch.setattr(tracker, "wear", lambda robot: Wear(0.9, 1.1, 1.0, 0.0, 0.0))
+    rig.pump()
+    uneven = rig.kinematics[2].wheels((260.0, 0.0))
+    assert even.left == even.right
+    assert uneven.left > even.left > uneven.right
+
+
+def test_a_robot_that_was_never_seen_is_unseen_and_one_that_is_just_late_is_not():
+    mat = Mat()
+    mat.pass_time(0.5)
+    mat.robots[1].seen = -1e9
+    signs = mat.rig.signs({0: 0.0, 1: 0.0})
+    assert signs[0].unseen == 0.0
+    assert signs[1].unseen > 1.0
+    mat.blind = True
+    mat.pass_time(0.1)
+    assert mat.rig.signs({0: 0.0})[0].unseen == 0.0  # there was no newer picture that could have shown it
+    assert mat.rig.signs({0: 0.0})[0].picture == pytest.approx(0.12)
+
+
+def test_threads_look_and_talk_and_end_when_it_is_closed():
+    before = threading.active_count()
+    tracker = Tracker()
+    rig = Rig(Eye(*[picture(i, i) for i in range(20)]), tracker, tracker, time.monotonic).start()
+    deadline = time.monotonic() + 5.0
+    while len(tracker.shown) < 20 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    rig.pump()  # does nothing beside a thread
+    rig.close()
+    rig.close()
+    assert tracker.shown == list(range(20))
+    assert tracker.closed
+    assert threading.active_count() == before
+
+
+def test_a_tracker_that_breaks_once_is_logged_and_goes_on_with_the_next_picture(monkeypatch, caplog):
+    tracker = Tracker()
+    see = tracker.see
+
+    def broken(frame):
+        if frame.number == 1:
+            raise RuntimeError("broken")
+        return see(frame)
+
+    monkeypatch.setattr(tracker, "see", broken)
+    rig = Rig(Eye(picture(1, 1), picture(2, 2)), tracker, tracker, time.monotonic).start()
+    deadline = time.monotonic() + 5.0
+    while not tracker.shown and time.monotonic() < deadline:
+        time.sleep(0.01)
+    rig.close()
+    assert tracker.shown == [2]
+    assert "could not be used" in caplog.text
+
+
+def test_time_that_passes_while_signs_are_read_makes_nobody_unseen():
+    mat = Mat()
+    mat.pass_time(0.5)
+
+    def running():
+        mat.now += 0.003
+        return mat.now
+
+    mat.rig.clock = running
+    for robot in mat.robots:
+        robot.seen = mat.looked = mat.now - 0.12
+    for _ in range(20):
+        assert [sign.unseen for sign in mat.rig.signs(dict.fromkeys(range(4), 0.0)).values()] == [0.0] * 4

@@ -1,0 +1,117 @@
+"""Virtual walls: what a real robot may do near them, and that it never ends up in one."""
+
+from math import cos, exp, inf, pi, radians, sin
+from random import Random
+
+import pytest
+
+from pigaming_app.hardware.control.virtual_walls import GAMMA, SHARED, SPARE, clipped, coasting, limits
+from pigaming_app.sim.drivetrain import MM
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from tests.floor import floor
+
+ACROSS = (800.0, 0.0, 800.0, 900.0)  # a wall down the middle, 30 px thick
+
+
+def driven(world, pose, asked, others=()):
+    """The speed that is left, px/s."""
+    return clipped(pose, asked, limits(world, pose[0], pose[1], others))[0]
+
+
+def test_straight_at_a_wall_the_speed_is_the_gap_times_gamma():
+    world = floor([ACROSS])
+    gap = 50.0
+    x = 800.0 - 15.0 - RADIUS - gap
+    assert driven(world, (x, 450.0, 0.0), (260.0, 0.0)) == pytest.approx(GAMMA * (gap - SPARE))
+
+
+def test_aslant_only_the_part_towards_the_wall_counts():
+    world = floor([ACROSS])
+    x = 800.0 - 15.0 - RADIUS - 20.0
+    assert driven(world, (x, 450.0, radians(60.0)), (260.0, 0.0)) == pytest.approx(GAMMA * (20.0 - SPARE) / 0.5)
+    assert driven(world, (x, 450.0, pi / 2), (260.0, 0.0)) == 260.0  # along it
+
+
+def test_far_from_everything_nothing_is_clipped():
+    assert driven(floor([ACROSS]), (400.0, 450.0, 0.0), (260.0, 1.0)) == 260.0
+
+
+def test_backwards_counts_what_is_behind():
+    world = floor()
+    assert driven(world, (RADIUS + 10.0, 450.0, 0.0), (-260.0, 0.0)) == pytest.approx(-GAMMA * (10.0 - SPARE))
+    assert driven(world, (RADIUS + 10.0, 450.0, 0.0), (260.0, 0.0)) == 260.0
+
+
+def test_in_a_wall_only_the_way_out_is_open_and_turning_is_free():
+    world = floor([ACROSS])
+    pose = (800.0 - 20.0, 450.0, 0.0)
+    assert clipped(pose, (260.0, 2.0), limits(world, *pose[:2])) == (0.0, 2.0)
+    assert clipped(pose, (-260.0, 0.0), limits(world, *pose[:2])) == (-260.0, 0.0)
+
+
+@pytest.mark.parametrize(("x", "y", "inward"), [(-50.0, 450.0, 0.0), (1700.0, 450.0, pi), (800.0, -40.0, pi / 2)])
+def test_outside_the_arena_only_inward(x, y, inward):
+    world = floor()
+    assert driven(world, (x, y, inward), (200.0, 0.0)) == 200.0
+    assert driven(world, (x, y, inward + pi), (200.0, 0.0)) == 0.0
+    assert driven(world, (x, y, inward + pi), (-200.0, 0.0)) == -200.0
+
+
+def test_a_destroyed_wall_holds_nobody():
+    world = floor([ACROSS])
+    pose = (800.0 - 15.0 - RADIUS - 5.0, 450.0, 0.0)
+    assert driven(world, pose, (260.0, 0.0)) < 10.0
+    world.walls[0].health = 0
+    assert driven(world, pose, (260.0, 0.0)) == 260.0
+
+
+def test_two_robots_share_the_gap_between_them():
+    world = floor()
+    pose = (600.0, 450.0, 0.0)
+    other = (600.0 + 2.0 * RADIUS + 30.0, 450.0)
+    assert driven(world, pose, (260.0, 0.0), [other]) == pytest.approx(SHARED * (30.0 - SPARE))
+
+
+def test_swinging_the_nose_into_a_wall_slows_down_in_time():
+    world = floor([ACROSS])
+    pose = (800.0 - 15.0 - RADIUS - SPARE, 450.0, pi / 2)  # along the wall, touching it; a left turn leads into it
+    assert driven(world, pose, (260.0, 0.0)) == 260.0
+    assert driven(world, pose, (260.0, -3.0)) == 0.0
+    assert driven(world, pose, (260.0, 3.0)) == 260.0
+
+
+def test_coasting_goes_on_by_speed_times_lag():
+    x, y, heading = coasting((100.0, 200.0, 0.5), (250.0, 0.0), 0.08)
+    assert (x, y, heading) == pytest.approx((100.0 + 20.0 * cos(0.5), 200.0 + 20.0 * sin(0.5), 0.5))
+    assert coasting((0.0, 0.0, 0.0), (0.0, 3.0), 0.1) == pytest.approx((0.0, 0.0, 0.3))
+
+
+@pytest.mark.parametrize("lag", [0.03, 0.08, 0.15])
+def test_a_minute_of_mashing_enters_no_wall_however_lazy_the_motors(lag):
+    """The whole loop with a perfect pose: random sticks, held for random times, against walls of every direction."""
+    world = floor(
+        [ACROSS, (300.0, 300.0, 500.0, 500.0), (1200.0, 700.0, 1400.0, 650.0), (1100.0, 200.0, 1100.0, 200.0)]
+    )
+    chance = Random(round(1000 * lag))
+    x, y, heading, linear, angular = 200.0, 200.0, 0.0, 0.0, 0.0
+    asked, until, deepest, follow = (0.0, 0.0), 0, inf, 1.0 - exp(-0.02 / lag)
+    travelled = 0.0
+    for tick in range(3000):
+        if tick >= until:
+            asked, until = (chance.choice((-420.0, 0.0, 420.0, 420.0)), chance.choice((-3.0, 0.0, 3.0))), tick + 20
+        rest = coasting((x, y, heading), (linear, angular), lag)
+        told = clipped(rest, asked, limits(world, rest[0], rest[1]), lag)
+        linear += (told[0] - linear) * follow
+        angular += (told[1] - angular) * follow
+        heading += 0.02 * angular
+        x, y = x + 0.02 * linear * cos(heading), y + 0.02 * linear * sin(heading)
+        travelled += 0.02 * abs(linear)
+        gaps = [x, WIDTH - x, y, HEIGHT - y]
+        for i in range(world.wall_count):
+            dx, dy = off_wall(world.walls[i], x, y)
+            gaps.append((dx * dx + dy * dy) ** 0.5 - world.walls[i].half)
+        deepest = min(deepest, *(gap - RADIUS for gap in gaps))
+    assert deepest * MM > -1.0
+    assert travelled > 1500.0

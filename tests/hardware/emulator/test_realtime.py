@@ -1,0 +1,64 @@
+"""In real time, behind a pseudo-terminal: whoever drives may be killed, and the robots stop."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("cv2")
+pytest.importorskip("serial")
+if sys.platform == "win32":
+    pytest.skip("there are no pseudo-terminals", allow_module_level=True)
+
+from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.firmware import DEADMAN
+from pigaming_app.hardware.emulator.realtime import Live, Terminal
+from pigaming_app.hardware.emulator.robots import STEP
+
+DRIVER = """
+import sys, time
+from pigaming_app.hardware.radio.serial_line import serial_port
+from pigaming_app.hardware.radio.link import Link
+from pigaming_app.hardware.signals import Wheels
+link = Link(serial_port(sys.argv[1]), time.monotonic).start()
+while True:
+    link.send([Wheels(0.5, 0.4)] * 4)
+    time.sleep(0.02)
+"""
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def until(true, seconds=20.0):
+    """Wait for it, with patience for a busy machine."""
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.005)
+
+
+def test_robots_stop_when_the_program_that_drives_them_is_killed():
+    arena = EmulatedArena(1, refresh=1000, begin=time.monotonic())
+    with Live(arena, Terminal()) as live:
+        driver = subprocess.Popen([sys.executable, "-c", DRIVER, live.terminal.name], cwd=ROOT)
+        try:
+            until(lambda: all(robot.left_speed > 100 for robot in arena.robots))
+            os.kill(driver.pid, signal.SIGKILL)
+        finally:
+            driver.kill()
+            driver.wait()
+        until(lambda: all(firmware.stopped for firmware in arena.firmwares))
+        for firmware, ran in zip(arena.firmwares, arena.ran, strict=True):
+            assert ran - firmware.heard <= DEADMAN + STEP
+
+
+def test_nothing_is_left_running():
+    before = threading.active_count()
+    live = Live(EmulatedArena(1, refresh=1000, begin=time.monotonic()), Terminal()).start()
+    live.close()
+    live.close()
+    assert threading.active_count() == before

@@ -1,0 +1,103 @@
+"""A robot on the bench: its program on a simulated ATmega328P (board.c), told over a pseudo-terminal what to do."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+from typing import NamedTuple
+
+from pigaming_app.hardware.radio import packets
+from pigaming_app.hardware.radio.packets import PacketDecoder, drive_packet
+from pigaming_app.hardware.signals import Wheels
+
+HERE = Path(__file__).parent
+FIRMWARE = HERE.parents[2] / "pigaming_app" / "hardware" / "firmware"
+BAUD = 57600
+BYTE = 10e6 / BAUD  # µs on the line
+AHEAD = Wheels(1.0, 1.0)
+
+
+def missing():
+    """What this computer lacks to build and run the firmware."""
+    tools = [tool for tool in ("avr-gcc", "make", "gcc") if shutil.which(tool) is None]
+    files = ["/usr/lib/avr/include/avr/io.h", "/usr/include/simavr/sim_avr.h", "/usr/include/libelf.h"]
+    return tools + [file for file in files if not os.path.exists(file)]
+
+
+class Event(NamedTuple):
+    """Something that the board said: `motors` with the two duties of 256, `byte`, `reset`."""
+
+    at: int  # µs
+    kind: str
+    motors: tuple[int, ...]
+
+
+class Board:
+    """A robot on the bench."""
+
+    def __init__(self, program, firmware, address):
+        self.process = subprocess.Popen(
+            [program, firmware, str(BAUD), str(address)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        lines = iter(self.process.stdout.readline, "")
+        self.device = next(line for line in lines if line.startswith("/dev/")).strip()
+        import serial
+
+        self.port = serial.Serial(self.device, BAUD, timeout=10)
+        self.events = []
+        self.at = 0  # µs
+        self._read = 0  # bytes
+        self.do("battery 5000")
+        self.run(50)
+
+    def do(self, line):
+        """Let the board do it; what it said."""
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+        new = []
+        while not new or new[-1].kind != "done":
+            at, kind, *motors = self.process.stdout.readline().split()
+            new.append(Event(int(at), kind, tuple(map(int, motors))))
+        self.at = new.pop().at
+        self.events += new
+        return new
+
+    def run(self, milliseconds):
+        """Let simulated time pass; what happened in it."""
+        return self.do(f"run {round(1000 * milliseconds)}")
+
+    def say(self, data):
+        """Send bytes to the robot; they go in one by one as time passes."""
+        self.port.write(data)
+        self.do(f"await {len(data)}")
+
+    def drive(self, seq=1, wheels=(AHEAD,) * 4):
+        self.say(drive_packet(seq, wheels))
+
+    @property
+    def motors(self):
+        return next(event.motors for event in reversed(self.events) if event.kind == "motors")
+
+    def reports(self):
+        """What the robot said since the last time, and when each report was complete."""
+        times = [event.at for event in self.events if event.kind == "byte"][self._read :]
+        self._read += len(times)
+        decoder = PacketDecoder()
+        said = decoder.feed(self.port.read(len(times)))
+        assert decoder.garbage == 0
+        return [(at, packets.report_from(packet)) for at, packet in zip(times[6::7], said, strict=True)]
+
+    def close(self):
+        self.port.close()
+        self.process.stdin.close()
+        assert self.process.wait(timeout=10) == 0
+        self.process.stdout.close()
+
+
+def build(folder):
+    """Build the board's program and the robot's; their files."""
+    board = folder / "board"
+    gcc = ["gcc", "-O2", "-I/usr/include/simavr", "-o", board, HERE / "board.c", "-lsimavr", "-lelf"]
+    subprocess.run(gcc, check=True)
+    subprocess.run(["make", "-s", "-C", FIRMWARE, f"BUILD={folder}"], check=True, stdout=subprocess.DEVNULL)
+    return board, folder / "robot.elf"

@@ -1,0 +1,287 @@
+"""The robots' own program runs on a simulated ATmega328P and is spoken to over a pseudo-terminal.
+
+All times are those of the simulated processor, which stands still unless a test lets it run: see board.c.
+"""
+
+import random
+
+import pytest
+
+from pigaming_app.hardware.radio import packets
+from pigaming_app.hardware.radio.link import Link
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, RESTARTED, PacketDecoder, drive_packet
+from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
+from pigaming_app.hardware.signals import Wheels
+from tests.hardware.firmware.board import AHEAD, BYTE, Board, build, missing
+
+pytest.importorskip("serial")
+pytestmark = pytest.mark.skipif(
+    bool(missing()),
+    reason=f"no {', '.join(missing())}: apt-get install gcc-avr avr-libc libsimavr-dev libelf-dev gcc make",
+)
+FULL = (256, 256)
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """The board's program and the robot's."""
+    return build(tmp_path_factory.mktemp("firmware"))
+
+
+@pytest.fixture
+def make_board(built):
+    boards = []
+
+    def make(address=1):
+        boards.append(Board(*built, address))
+        return boards[-1]
+
+    yield make
+    for board in boards:
+        board.close()
+
+
+@pytest.fixture
+def board(make_board):
+    return make_board()
+
+
+def duty(speed):
+    """What a speed from -63 to 63 is at the motors, of 256, if the eight-bit timer gets the nearest of 255."""
+    share = (abs(speed) * 255 + 31) // 63
+    return 0 if speed == 0 else (share + 1) * (1 if speed > 0 else -1)
+
+
+def test_thirty_of_thirty_commands_reach_the_motors(board):
+    chance = random.Random(5)
+    for seq in range(30):
+        left, right = chance.randint(-63, 63), chance.randint(-63, 63)
+        sent = board.at
+        board.drive(seq, [Wheels(left / 63, right / 63)])
+        happened = [event for event in board.run(20) if event.kind == "motors"]
+        assert board.motors == (duty(left), duty(right))
+        assert all(event.at - sent < 12 * BYTE + 2000 for event in happened)
+
+
+@pytest.mark.parametrize("address", [1, 2, 3, 4])
+def test_every_robot_takes_its_own_wheels(make_board, address):
+    board = make_board(address)
+    board.drive(1, [Wheels(n / 63, -n / 63) for n in (10, 20, 30, 40)])
+    board.run(20)
+    assert board.motors == (duty(10 * address), duty(-10 * address))
+
+
+def test_a_robot_that_is_off_brakes_and_others_do_not_move_it(board):
+    board.drive(1)
+    board.run(20)
+    assert board.motors == FULL
+    board.drive(2, [None, AHEAD, AHEAD, AHEAD])
+    board.run(20)
+    assert board.motors == (0, 0)
+
+
+@pytest.mark.parametrize("address", [0, 5, 255])
+def test_a_robot_without_an_address_neither_drives_nor_speaks(make_board, address):
+    board = make_board(address)
+    board.drive(10)
+    board.run(400)
+    assert {event.kind for event in board.events if event.at > 1000} == set()
+
+
+def test_the_motors_stop_250_ms_after_the_last_packet(board):
+    for seq in range(1, 10):
+        sent = board.at
+        board.drive(seq)
+        board.run(20)
+    (stop,) = [event for event in board.run(400) if event.kind == "motors"]
+    assert stop.motors == (0, 0)
+    assert stop.at - (sent + 12 * BYTE) == pytest.approx(250_000, abs=1500)
+
+
+def test_noise_and_broken_packets_do_not_keep_it_going(board):
+    chance = random.Random(5)
+    sent = board.at
+    board.drive(1)
+    board.run(20)
+    broken = bytearray(drive_packet(2, [AHEAD]))
+    broken[4] ^= 1
+    for _ in range(20):
+        board.say(bytes(broken) + chance.randbytes(20))
+        board.run(20)
+    (stop,) = [event for event in board.events if event.kind == "motors" and event.at > sent + 10_000]
+    assert stop.at - sent < 255_000
+    assert board.motors == (0, 0)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_after_noise_the_next_packet_is_understood(board, seed):
+    noise = random.Random(seed).randbytes(50) + drive_packet(3, [AHEAD])[: 1 + seed]
+    board.say(noise)
+    board.drive(4)
+    board.run(20)
+    assert board.motors == FULL
+
+
+def scraps(chance):
+    """Something between packets: noise, the beginning of a packet, a packet with a wrong bit, a report, or nothing."""
+    packet = bytearray(drive_packet(chance.randrange(128), [AHEAD]))
+    wrong = bytearray(packet)
+    wrong[chance.randrange(12)] ^= 1 << chance.randrange(8)
+    report = packets.report_packet(packets.Report(2, 1, 0, 5000))
+    return chance.choice((chance.randbytes(9), packet[: chance.randrange(12)], wrong, report, b""))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_of_a_torn_stream_robot_and_computer_understand_the_same(board, seed):
+    chance, decoder = random.Random(seed), PacketDecoder()
+    expected = (0, 0)
+    for seq in range(50):
+        wheels = Wheels(chance.randint(-63, 63) / 63, chance.randint(-63, 63) / 63)
+        stream = scraps(chance) + drive_packet(seq, [wheels]) + scraps(chance)
+        board.say(stream)
+        board.run(len(stream) * BYTE / 1000 + 3)
+        for packet in decoder.feed(stream):
+            if packet[0] == packets.DRIVE:
+                first = packets.drive_from(packet).wheels[0] or Wheels(0.0, 0.0)
+                expected = tuple(duty(round(63 * share)) for share in first)
+        assert board.motors == expected
+
+
+def test_the_speed_that_nobody_sends_is_a_stop(board):
+    packet = b"\xd0\x01\x01\x7f\x7e" + b"\x3f" * 6
+    board.say(packet + bytes((packets.crc8(packet) & 0x7F,)))
+    board.run(20)
+    assert board.motors == (0, 256)
+
+
+def test_when_the_program_hangs_the_watchdog_stops_the_motors(board):
+    """The timer's interrupt goes on, and packets come, but the program stands."""
+    board.drive(1)
+    board.run(20)
+    hung = board.at
+    board.do("hang")
+    for _ in range(15):
+        board.drive(2)
+        board.run(20)
+    (reset,) = [event for event in board.events if event.kind == "reset" and event.at]
+    assert reset.at - hung < 140_000
+    board.run(1000)
+    stop = next(event for event in board.events if event.kind == "motors" and event.at >= reset.at)
+    assert stop.motors == (0, 0)
+    assert stop.at - hung < 140_000
+    assert board.reports()[-1][1].flags == DEADMAN | RESTARTED
+
+
+def test_without_a_hang_there_is_no_restart(board):
+    board.run(2000)
+    assert [event for event in board.events if event.kind == "reset" and event.at] == []
+    assert {report.flags for _, report in board.reports()} == {DEADMAN}
+
+
+@pytest.mark.parametrize("address", [1, 2, 3, 4])
+def test_reports_come_five_times_a_second_each_robot_in_its_slot(make_board, address):
+    """Counted from the end of a packet with a number that ten divides. Two such packets in five are lost."""
+    board = make_board(address)
+    begun = {}
+    board.run(33)
+    board.reports()
+    for seq in range(100):
+        begun[seq] = board.at + 12 * BYTE
+        if seq % 10 or seq in (0, 30, 50, 80, 90):
+            board.drive(seq)
+        board.run(20)
+    reports = [(at, report) for at, report in board.reports() if at > begun[10]]
+    assert len(reports) == 9
+    for at, report in reports:
+        slot = min(abs(at - begun[seq] - 7 * BYTE - 10_000 * (address - 1)) for seq in range(0, 100, 10))
+        assert slot < 2500
+        assert report.address == address
+        assert report.flags == 0
+
+
+def test_a_report_names_the_last_packet_heard(board):
+    for seq in range(40, 61):
+        board.drive(seq)
+        board.run(20)
+    assert board.reports()[-1][1].seq == 60
+
+
+@pytest.mark.parametrize("millivolts", [4450, 4800, 5500])
+def test_the_battery_is_reported(board, millivolts):
+    board.do(f"battery {millivolts}")
+    board.run(3000)
+    report = board.reports()[-1][1]
+    assert report.millivolts == pytest.approx(millivolts, abs=8)  # a step of the converter is 7.3 mV
+    assert report.flags == DEADMAN
+
+
+def test_a_low_battery_is_told_and_an_empty_one_stops_the_motors(board):
+    def drive(milliseconds):
+        for seq in range(milliseconds // 20):
+            board.drive(seq % 128)
+            board.run(20)
+        return board.motors, board.reports()[-1][1].flags
+
+    board.do("battery 4300")
+    assert drive(2000) == (FULL, LOW)
+    board.do("battery 3900")
+    assert drive(2000) == ((0, 0), LOW | EMPTY)
+    board.do("battery 4200")  # as it recovers when nothing draws
+    assert drive(2000) == ((0, 0), LOW | EMPTY)
+    board.do("battery 5200")
+    assert drive(2000) == (FULL, 0)
+
+
+def test_a_short_sag_of_the_battery_is_no_reason_to_stop(board):
+    board.do("battery 3500")
+    for seq in range(5):
+        board.drive(seq)
+        board.run(20)
+    board.do("battery 5000")
+    assert board.motors == FULL
+
+
+class Terminal:
+    """The board's serial port for a Link; every byte is handed over before time goes on."""
+
+    def __init__(self, board):
+        self.board = board
+
+    @property
+    def in_waiting(self):
+        return self.board.port.in_waiting
+
+    def read(self, size=1):
+        return self.board.port.read(size)
+
+    def write(self, data):
+        self.board.say(data)
+
+    def close(self):
+        pass
+
+
+@pytest.mark.parametrize("end", ["closed", "silent", "killed"])
+def test_the_whole_way_from_the_link_to_the_motors(make_board, end):
+    """Closed: it says stop. Silent: nobody gives commands any more. Killed: the link, too, has stopped from one moment
+    to the next, as with kill -9; then only the robot's own deadman is left."""
+    board = make_board(3)
+    link = Link(lambda: Terminal(board), lambda: board.at / 1e6, Air(Mode.TRANSPARENT))
+    for _ in range(50):
+        link.send([None, AHEAD, Wheels(0.5, -1.0)])
+        link.pump()
+        board.run(10)
+    assert board.motors == (duty(32), -256)
+    assert link.telemetry[2].battery == pytest.approx(5.0, abs=0.01)
+    assert link.quality(2).echo < 0.05
+    assert link.trouble is None
+    ended = board.at
+    if end == "closed":
+        link.close()
+    for _ in range(40):
+        if end == "silent":
+            link.pump()
+        board.run(10)
+    (stop,) = [event for event in board.events if event.kind == "motors" and event.at >= ended]
+    assert stop.motors == (0, 0)
+    assert stop.at - ended < {"closed": 5_000, "silent": 130_000, "killed": 260_000}[end]

@@ -1,0 +1,133 @@
+"""The proof of the robot loop, in small: `bench robots` does the same for longer."""
+
+import json
+
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.cli import main
+from pigaming_app.games import GAMES
+from pigaming_app.hardware.proof.emergencies import EMERGENCIES, hang, leave, settle, stop
+from pigaming_app.hardware.proof.testbed import Bed
+from pigaming_app.hardware.proof.trials import Trail, entered, follow
+from pigaming_app.jobs.bench import robots as bench_robots
+from pigaming_app.jobs.bench.robots import TARGETS, Job, jobs, on_mat, reached
+from pigaming_app.sim.world import World
+
+
+@pytest.fixture(scope="module")
+def trail():
+    """Robots that drive on a calibrated mat; whatever happens to them leaves it as it was."""
+    return Trail(Bed(5, 30.0))
+
+
+def test_robots_are_followed_to_three_millimetres(trail):
+    run = follow(trail, 4.0)
+    assert run.rmse_mm < TARGETS["pose_rmse_mm"]
+    assert run.rmse_deg < TARGETS["pose_rmse_deg"]
+    assert run.complete >= TARGETS["frames_complete"]
+
+
+def test_a_calibration_is_accepted_and_true(trail):
+    ground = trail.bed.ground
+    assert ground.mean_mm < TARGETS["calibration_mean_mm"]
+    assert ground.max_mm < TARGETS["calibration_max_mm"]
+    assert max(mm for mm, _ in trail.bed.misses()) < 5.0
+
+
+@pytest.mark.parametrize("name", EMERGENCIES)
+def test_in_every_emergency_motors_stand_and_it_is_said_why(trail, name):
+    run = stop(trail, name)
+    assert run.seconds <= 0.3
+    assert run.said
+
+
+def test_when_the_game_hangs_the_link_stops_the_robots(trail):
+    assert hang(trail) < 0.3
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_a_match_on_the_mat_plays_to_its_end(game, trail):
+    arena = jobs()[list(GAMES).index(game)].arena
+    run = on_mat(Job(game, arena, 30.0, 7, 0.05, mashed=False, carried=True), trail.bed.ground)
+    assert run.deepest_mm < TARGETS["wall_entry_mm"]
+    assert 3.0 <= run.seconds - run.paused < 4.0
+
+
+def test_how_deep_a_robot_is_in_a_wall():
+    world = World()
+    assert entered(world, 800.0, 30.0) == 6.0, "over the upper edge"
+    wall = world.walls[0]
+    world.wall_count, wall.ax, wall.bx, wall.ay, wall.by, wall.half, wall.health = (
+        1,
+        400.0,
+        600.0,
+        300.0,
+        300.0,
+        15.0,
+        5,
+    )
+    assert entered(world, 500.0, 345.0) == pytest.approx(6.0)
+    wall.health = 0
+    assert entered(world, 500.0, 345.0) < 0.0
+
+
+def test_twenty_minutes_are_played_in_every_game():
+    planned = jobs()
+    assert sum(job.minutes for job in planned) == 20.0
+    assert {job.game for job in planned} == set(GAMES)
+    assert {job.fps for job in planned} == {30.0, 60.0}
+
+
+def test_figures_are_compared_with_what_they_must_reach():
+    assert all(reached(dict(TARGETS)).values())
+    assert [
+        key for key, good in reached({**TARGETS, "frames_complete": 0.99, "tracker_ms": 5.0}).items() if not good
+    ] == [
+        "tracker_ms",
+        "frames_complete",
+    ]
+
+
+@pytest.mark.parametrize("name", ["garbage", "radio_lossy", "exposure_step"])
+def test_robots_drive_on_through_what_is_no_fault(name, trail):
+    settle(trail)
+    trail.bed.arena.faults.switch(name, True)
+    for _ in range(50):
+        trail.tick()
+        assert not trail.plant.faults
+    assert max(mm for mm, _ in trail.bed.misses()) < 5.0
+    trail.bed.arena.faults.switch(name, False)
+
+
+def test_a_robot_that_was_carried_is_followed_where_it_was_put_down(trail):
+    settle(trail)
+    for on in (True, False):
+        trail.bed.arena.faults.switch("carried", on, 2)
+        for _ in range(50):
+            trail.tick()
+    assert max(mm for mm, _ in trail.bed.misses()) < 10.0
+    assert trail.plant.safety.lasting <= {2}, "a hand that carries a robot is no motor of its own"
+    trail.plant.forgive(2)
+
+
+def test_when_the_program_ends_the_robots_are_told_so(trail):
+    assert leave(trail) < 0.1
+
+
+def test_the_job_prints_exactly_these_figures(monkeypatch, capsys):
+    monkeypatch.setattr(bench_robots, "measure", lambda note: dict(TARGETS))
+    assert main(["bench", "robots", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == TARGETS
+    assert main(["bench", "robots"]) == 0
+    assert "everything is reached" in capsys.readouterr().err
+
+
+def test_what_fails_is_one_line(monkeypatch, capsys):
+    def fails(note):
+        raise bench_robots.Unproven("race in classic, seed 3: the match did not end: []")
+
+    monkeypatch.setattr(bench_robots, "measure", fails)
+    assert main(["bench", "robots"]) == 2
+    assert capsys.readouterr().err.strip().endswith("the match did not end: []")

@@ -1,0 +1,195 @@
+"""From pictures to poses: robots that drive, hide and come back, hands, and markers that come twice."""
+
+from math import hypot, pi, tau
+
+import numpy as np
+import pytest
+
+cv2 = pytest.importorskip("cv2")
+
+from pigaming_app.hardware.calibration.ground_plane import nominal  # noqa: E402
+from pigaming_app.hardware.signals import Frame, Mark  # noqa: E402
+from pigaming_app.hardware.tracking.tracker import Tracker  # noqa: E402
+from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
+
+GROUND = nominal(SIZE)
+EDGE = 50.0 / GROUND.mm
+POSES = ((300.0, 200.0, 0.4), (1300.0, 250.0, 2.5), (1200.0, 700.0, 4.0), (250.0, 650.0, 5.6))
+
+
+def marks(poses, height=70.0):
+    """What a perfect camera sees of robots: {robot: pose}, or pairs."""
+    pairs = poses.items() if isinstance(poses, dict) else poses
+    return [Mark(robot, GROUND.seen_at(square(pose, EDGE), height)) for robot, pose in pairs]
+
+
+def photo(poses, seed=1, height=70.0, noise=2.0):
+    return speckled(lids([(mark.number, mark.corners) for mark in marks(poses, height)], SIZE), noise, seed)
+
+
+class Clock:
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+class Mat:
+    """A tracker over a mat; `show` lets it see where robots are, 30 times a second."""
+
+    def __init__(self, robots=range(4)):
+        self.clock = Clock()
+        self.tracker = Tracker(GROUND, self.clock)
+        self.tracker.expected = set(robots)
+        self.frames = 0
+
+    def show(self, poses, times=1, **how):
+        for _ in range(times):
+            self.frames += 1
+            self.clock.now = self.frames / 30.0
+            picture = photo(poses, seed=self.frames % 3, **how)
+            fixes = self.tracker.see(Frame(picture, self.clock.now, self.frames))
+        return {fix.robot for fix in fixes}
+
+    def away(self, robot, pose):
+        """How far (px, rad) the tracker is from the truth."""
+        sight = self.tracker.sense(self.clock.now)[robot]
+        return hypot(sight.x - pose[0], sight.y - pose[1]), abs((sight.heading - pose[2] + pi) % tau - pi)
+
+
+def test_four_robots_are_found_at_once_and_to_a_pixel():
+    mat = Mat()
+    assert mat.show(dict(enumerate(POSES))) == {0, 1, 2, 3}
+    for robot, pose in enumerate(POSES):
+        away, turned = mat.away(robot, pose)
+        assert away < 1.0
+        assert turned < 0.03
+
+
+def test_they_are_found_again_picture_after_picture_near_where_they_were():
+    mat = Mat()
+    mat.show(dict(enumerate(POSES)))
+    looks = []
+    glance = mat.tracker._markers.glance
+    mat.tracker._markers.glance = lambda *what: looks.append(what) or glance(*what)
+    for step in range(12):
+        driving = (300.0 + 8.0 * step, 200.0, 0.4)
+        assert mat.show({0: driving, **dict(enumerate(POSES[1:], 1))}) == {0, 1, 2, 3}
+    assert len(looks) <= 4  # 0.4 s, and one look everywhere in 0.1 s
+
+
+def test_a_robot_that_comes_onto_the_mat_is_found_within_a_tenth_of_a_second():
+    mat = Mat()
+    mat.show({0: POSES[0]}, times=6)
+    assert any(1 in mat.show({0: POSES[0], 1: POSES[1]}) for _ in range(3))
+
+
+def test_a_covered_marker_makes_its_robot_older_and_lost():
+    mat = Mat()
+    mat.show(dict(enumerate(POSES)), times=3)
+    mat.show({1: POSES[1], 2: POSES[2], 3: POSES[3]}, times=6)
+    assert mat.tracker.lost(0) == pytest.approx(0.2)
+    assert mat.tracker.lost(1) == pytest.approx(0.0)
+    assert mat.tracker.sense(mat.clock.now)[0].age == pytest.approx(0.2)
+    assert mat.show(dict(enumerate(POSES))) == {0, 1, 2, 3}
+
+
+def test_a_marker_that_comes_twice_is_a_fault_within_a_fifth_of_a_second():
+    mat = Mat()
+    mat.show({0: POSES[0]}, times=5)
+    begun = mat.clock.now
+    while not mat.tracker.doubled():
+        mat.show([(0, POSES[0]), (0, POSES[2])])
+        assert mat.clock.now - begun < 0.2
+    assert mat.tracker.doubled() == {0}
+    assert mat.tracker.refused[0] == "doubled"
+    mat.show({0: POSES[0]}, times=20)
+    assert mat.tracker.doubled() == set()
+
+
+def test_one_marker_is_never_counted_twice():
+    mat = Mat()
+    mat.show(dict(enumerate(POSES)), times=20)
+    assert mat.tracker.doubled() == set()
+
+
+def test_a_marker_held_in_a_hand_is_refused_and_named():
+    mat = Mat()
+    mat.show({0: POSES[0]}, times=4, height=600.0)
+    assert mat.tracker.refused == {0: "size"}
+    assert mat.tracker.lost(0) == 1e9
+
+
+def test_a_marker_in_a_hand_does_not_take_the_robot_along():
+    mat = Mat()
+    mat.show({0: POSES[0]}, times=3)
+    for _ in range(8):
+        mat.frames += 1
+        mat.clock.now = mat.frames / 30.0
+        both = marks({0: POSES[0]}) + marks({0: (700.0, 500.0, 0.0)}, height=600.0)
+        picture = speckled(lids([(mark.number, mark.corners) for mark in both], SIZE))
+        mat.tracker.see(Frame(picture, mat.clock.now, mat.frames))
+    assert mat.tracker.refused == {0: "size"}
+    assert mat.tracker.doubled() == set()
+    assert mat.away(0, POSES[0])[0] < 1.0
+
+
+def test_a_marker_beside_the_mat_is_refused():
+    mat = Mat()
+    mat.tracker.correct(marks({2: (1800.0, 400.0, 0.0)}), 0.0)
+    assert mat.tracker.refused == {2: "outside"}
+
+
+def test_a_robot_just_outside_of_the_arena_is_still_followed():
+    mat = Mat()
+    mat.tracker.correct(marks({2: (1650.0, 400.0, 0.0)}), 0.0)
+    assert mat.tracker.lost(2) == 0.0
+
+
+def test_the_mirror_image_of_a_marker_is_nobody():
+    mat = Mat()
+    picture = np.ascontiguousarray(photo({0: POSES[0]})[:, ::-1])
+    mat.tracker.see(Frame(picture, 0.0, 1))
+    assert mat.tracker.lost(0) == 1e9
+
+
+def test_an_old_picture_is_not_looked_at_twice():
+    mat = Mat()
+    assert mat.tracker.correct(marks({0: POSES[0]}), 1.0)
+    assert mat.tracker.looked == 1.0
+    assert not mat.tracker.correct(marks({0: POSES[0]}), 1.0)
+
+
+def test_a_robot_that_drives_is_where_its_commands_have_brought_it():
+    """200 px/s, seen 0.1 s ago: the tracker is asked about now."""
+    mat = Mat()
+    mat.show({0: (300.0, 450.0, 0.0)}, times=2)
+    seen = mat.clock.now
+    for tick in range(6):
+        mat.tracker.sent(seen + tick * 0.02, [(200.0, 0.0), None, None, None])
+    ahead = mat.tracker.sense(seen + 0.1)[0]
+    assert 300.0 + 5.0 < ahead.x < 300.0 + 200.0 * 0.1
+    assert ahead.age == pytest.approx(0.1)
+
+
+def test_a_robot_that_drives_into_another_is_not_predicted_to_be_inside_of_it():
+    """Rim to rim, and one is told to go on: half of its way is taken back, and given to the other."""
+    mat = Mat()
+    mat.tracker.correct(marks({0: (500.0, 400.0, 0.0), 1: (572.0, 400.0, 0.0)}), 0.0)
+    for tick in range(6):
+        mat.tracker.sent(tick * 0.02, [(260.0, 0.0), None, None, None])
+    alone = mat.tracker._followers[0].at(0.1)
+    one, other = mat.tracker.sense(0.1)[:2]
+    assert alone.x > 505.0
+    assert other.x - one.x == pytest.approx(72.0)
+    assert other.x - 572.0 == pytest.approx(alone.x - one.x, abs=0.01)
+
+
+@pytest.mark.parametrize("wide", [1280, 1920])
+def test_a_picture_without_robots_costs_nothing_but_time(wide):
+    tracker = Tracker(nominal((wide, wide * 9 // 16)), lambda: 0.0)
+    noise = np.random.default_rng(1).integers(0, 255, (wide * 9 // 16, wide), dtype=np.uint8)
+    for frame in range(3):
+        assert tracker.see(Frame(noise, frame * 0.1, frame)) == []
+    assert tracker.see(Frame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []

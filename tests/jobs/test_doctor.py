@@ -1,0 +1,146 @@
+"""The doctor names what is missing and what to do, never raises, and waits for no driver."""
+
+import json
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from pigaming_app.boot.interpreter import Trouble
+from pigaming_app.jobs import doctor
+from pigaming_app.storage.scores import Scores
+
+WELL = [
+    ["pygame", "pygame-ce 2.5.8", ""],
+    ["displays", "1920 × 1080", ""],
+    ["sound", "a card", ""],
+    ["fonts", "all", ""],
+]
+
+
+@pytest.fixture(autouse=True)
+def _probed(monkeypatch, home):
+    answer(monkeypatch, *WELL, ["pads", "Xbox pad", ""])
+
+
+def answer(monkeypatch, *lines):
+    """Let the probe say this."""
+    said = "".join(json.dumps(line) + "\n" for line in lines).encode()
+    monkeypatch.setattr(doctor.subprocess, "run", lambda *_, **__: SimpleNamespace(stdout=said))
+
+
+def line(what):
+    (found,) = (one for one in doctor.report() if one.what == what)
+    return found
+
+
+def test_where_all_is_well_the_exit_code_is_zero(capsys):
+    assert doctor.run(as_json=False) == 0
+    assert capsys.readouterr().out.endswith("All is well.\n")
+
+
+def test_every_line_that_is_not_well_says_what_to_do():
+    assert all(one.advice for one in doctor.report() if one.state != "ok")
+
+
+def test_as_json_it_is_one_object(capsys):
+    assert doctor.run(as_json=True) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["ok"]
+    assert {"what": "pads", "state": "ok", "found": "Xbox pad", "advice": ""} in report["lines"]
+
+
+def test_without_a_display_one_can_still_play_headless(monkeypatch):
+    answer(monkeypatch, *WELL, ["displays", "", "no screen is connected"])
+    assert line("displays").state == "note"
+    assert "--headless" in line("displays").advice
+
+
+def test_a_driver_that_hangs_costs_only_its_own_lines(monkeypatch):
+    def hang(*_, timeout, **__):
+        raise subprocess.TimeoutExpired(
+            "probe", timeout, output=b'["pygame", "pygame-ce 2.5.8", ""]\n["displays", "one'
+        )
+
+    monkeypatch.setattr(doctor.subprocess, "run", hang)
+    assert line("pygame").state == "ok"
+    assert line("displays").found == "its driver did not answer"
+
+
+def test_a_pygame_that_cannot_be_imported_is_a_problem(monkeypatch, capsys):
+    answer(monkeypatch)
+    assert doctor.run(as_json=False) == 1
+    assert "problem  pygame" in capsys.readouterr().out
+
+
+def test_both_pygames_are_a_problem(monkeypatch):
+    there = {"pygame": "2.6.1", "pygame-ce": "2.5.8", "numpy": "2.3.0", "platformdirs": "4.3", "tomli-w": "1.2"}
+    monkeypatch.setattr(doctor, "packages", lambda _: there)
+    states = [(one.what, one.state) for one in doctor.report()]
+    assert ("pygame", "problem") in states
+    assert ("numba", "note") in states
+
+
+def test_a_package_that_is_too_old_is_a_problem(monkeypatch):
+    monkeypatch.setattr(doctor, "packages", lambda _: {"pygame-ce": "2.5.8", "platformdirs": "4.3", "tomli-w": "1.2"})
+    assert line("numpy").state == "problem"
+    monkeypatch.setattr(doctor, "packages", lambda _: {"numpy": "1.26"})
+    assert line("numpy").found.startswith("1.26, but numpy>=")
+
+
+def test_a_project_file_that_cannot_be_read_is_a_line(monkeypatch):
+    def refuse(_):
+        raise Trouble("pyproject.toml cannot be read")
+
+    monkeypatch.setattr(doctor, "requirements", refuse)
+    assert line("packages").state == "problem"
+
+
+def test_folders_that_cannot_be_written_are_named_and_none_is_made(monkeypatch, home):
+    assert line("settings").found == str(home / "config")
+    assert not home.exists()
+
+    def refuse(dir):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(doctor.tempfile, "TemporaryFile", refuse)
+    assert line("scores").state == "note"
+    assert "nothing will be kept" in line("scores").advice
+
+
+def test_a_disk_that_is_nearly_full_is_said(monkeypatch):
+    monkeypatch.setattr(doctor.shutil, "disk_usage", lambda _: SimpleNamespace(free=5_000_000))
+    assert "only 5 MB" in line("scores").advice
+
+
+def test_a_broken_engine_is_a_problem(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pigaming_app.games.setup", None)
+    assert line("engine").state == "problem"
+
+
+def test_a_broken_arena_is_named(monkeypatch):
+    import pigaming_app.games.arenas as arena
+
+    def broken(_game, name):
+        raise arena.ArenaError(f"{name}.toml: walls[0].ax: not a number")
+
+    monkeypatch.setattr(arena, "load", broken)
+    said = [one for one in doctor.report() if one.what == "arena"]
+    assert said
+    assert "walls[0].ax" in said[0].found
+
+
+def test_what_was_carried_over_from_an_older_version_is_named_with_its_backup(home):
+    (home / "data").mkdir(parents=True)
+    old = home / "data" / "scores.toml"
+    old.write_text('[pitanks]\nclassic = [{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }]\n')
+    assert line("older scores").advice == "start the arcade once"
+    assert sorted(path.name for path in old.parent.iterdir()) == ["scores.toml"], "it changes nothing"
+    Scores.load(old.parent)
+    carried = line("older scores")
+    assert carried.state == "ok"
+    assert "pitanks 1" in carried.found
+    assert str(old.with_name("scores-1.3.0.toml")) in carried.found
+    old.with_name("scores-1.3.0.toml").unlink()
+    assert line("older scores").state == "note"

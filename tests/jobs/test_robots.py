@@ -1,0 +1,167 @@
+"""The jobs `robots` and `fidelity`, without hardware and on the emulated arena."""
+
+import json
+import sys
+from math import cos, sin
+
+import pytest
+
+from pigaming_app.cli import main
+from pigaming_app.hardware.session.workshop import keep_radios
+from pigaming_app.jobs import fidelity, robots
+from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, tell
+from pigaming_app.storage.settings import Settings, folders
+from tests.hardware.mat import TRUE, Mat
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+    monkeypatch.setattr(robots, "LISTEN", 0.3)
+
+
+def told(capsys, *arguments):
+    """The one object that a job prints."""
+    assert main([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_without_hardware_everything_that_is_missing_is_said(capsys):
+    found = told(capsys, "robots", "--port", "/dev/nowhere")
+    assert "/dev/nowhere" in found["radio"]
+    assert found["eyes"]
+    assert [one["heard"] for one in found["robots"]] == [False] * 4
+    assert main(["robots", "--port", "/dev/nowhere"]) == 0
+    assert "robot 1   not heard" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("wish", ["--pair", "--latency"])
+def test_robots_that_nobody_sees_are_not_moved(capsys, wish):
+    assert main(["robots", wish]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "calibrat" in said or "opencv" in said.lower()
+
+
+@pytest.mark.parametrize("job", [["robots"], ["fidelity", "record", "run.jsonl"]])
+def test_without_opencv_there_is_no_emulated_arena_and_one_sentence(capsys, monkeypatch, job):
+    monkeypatch.setitem(sys.modules, "cv2", None)
+    assert main([*job, "--emulate"]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "opencv" in said.lower()
+
+
+def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
+    pytest.importorskip("cv2")
+    found = told(capsys, "robots", "--emulate", "--pair")
+    assert found["radio"] is None
+    for one in found["robots"]:
+        assert one["heard"]
+        assert one["seen"]
+        assert 4.8 < one["battery"] < 5.5
+    assert [(one["radio"], one["marker"], one["case"]) for one in found["pairing"]] == [
+        (i, i, "fits") for i in range(1, 5)
+    ]
+
+
+def test_who_is_who_is_remembered(home):
+    keep_radios([0, 2, 1, 3])
+    settings, said = Settings.load(folders().config)
+    assert settings.radios == [1, 3, 2, 4]
+    assert said == []
+
+
+class Shop:
+    """A workshop whose robots stand on a mat without light or air."""
+
+    def __init__(self, *_):
+        self.mat = Mat()
+        self.rig, self.mm, self.tick = self.mat.rig, MM, self.mat.pass_time
+        self.close = self.rig.close
+
+
+def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(fidelity, "open_workshop", Shop)
+    run, out = tmp_path / "run.jsonl", tmp_path / "robots.toml"
+    assert told(capsys, "fidelity", "record", str(run), "--seconds", "24")["robots"] == [1, 2, 3, 4]
+    found = told(capsys, "fidelity", "identify", str(run), "--out", str(out))
+    for one in found["robots"].values():
+        assert one["after_mm"][0] < 0.1 * one["before_mm"][0]
+    for train in parse(out.read_text(), "robots.toml"):
+        assert train.left.speed == pytest.approx(TRUE.left.speed, rel=0.01)
+    again = told(capsys, "fidelity", "replay", str(run), "--robots", str(out))
+    assert all(one["5"] < 40.0 for one in again["robots"].values())
+
+
+def test_a_run_kept_earlier_stays_where_nobody_can_dance(tmp_path, capsys, monkeypatch):
+    class Nobody(Shop):
+        def __init__(self, *_):
+            super().__init__()
+            monkeypatch.setattr(self.rig, "telemetry", lambda robot: None)
+
+    monkeypatch.setattr(fidelity, "open_workshop", Nobody)
+    run = tmp_path / "run.jsonl"
+    run.write_text("kept")
+    assert main(["fidelity", "record", str(run)]) == 2
+    assert "seen and heard" in capsys.readouterr().err
+    assert run.read_text() == "kept"
+
+
+def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_path, capsys):
+    run = tmp_path / "run.jsonl"
+    head = {"kind": "head", "format": "pigaming-run-1", "mm": 1.3, "emulated": True}
+    sent = {"kind": "sent", "time": 0.0, "seq": 1, "wheels": [[0.3, 0.2], None, None, None]}
+    seen = []
+    for i in range(600):  # wheels 62 px apart at 0.3 and 0.2 of 758 px/s: 189 px/s and 1.22 rad/s
+        turn = 1.22 * 0.05 * i
+        at = [0, 800.0 + 155.0 * sin(turn), 450.0 - 155.0 * cos(turn), turn]
+        seen.append({"kind": "seen", "captured": 0.5 + 0.05 * i, "time": 0.6 + 0.05 * i, "fixes": [at]})
+    run.write_text("".join(json.dumps(line) + "\n" for line in [head, sent, *seen]))
+    found = told(capsys, "fidelity", "identify", str(run))
+    assert found["out"].endswith("robots-emulated.toml")
+    assert found["robots"]["1"]["after_mm"][2] < 20.0
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["fidelity", "identify", "nowhere.jsonl"],
+        ["fidelity", "replay", "nowhere.jsonl"],
+        ["fidelity", "dance", "run.jsonl"],
+        ["fidelity", "record", "run.jsonl"],
+        ["robots", "--emulate", "-1"],
+        ["calibrate", "--emulate", "-1", "--json"],
+        ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "-3"],
+        ["robots", "--camera", "-5"],
+        ["calibrate", "--camera", "99", "--json"],
+        ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "nan"],
+    ],
+)
+def test_what_cannot_be_done_is_one_line(arguments, capsys):
+    assert main(arguments) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert said.startswith("PiGaming: ")
+
+
+def test_simulated_robots_drive_like_measured_ones_where_that_is_wished(tmp_path, capsys):
+    slow = Drivetrain(Wheel(60.0, 0.0), Wheel(60.0, 0.0), 62.0, 0.2, 0.1)
+    file = tmp_path / "robots.toml"
+    file.write_text(tell([slow] * 4))
+    race = ["play", "--game", "race", "--seats", "hard,hard", "--headless", "--speed", "max", "--minutes", "0.4"]
+    ideal, measured = told(capsys, *race), told(capsys, *race, "--robots", str(file))
+    assert max(row["laps"] for row in ideal["rows"]) >= 1
+    assert max(row["laps"] for row in measured["rows"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "more"), [("", []), ("[[robot]]\nleft = 3", []), (None, []), (tell([NOMINAL]), ["--real", "1"])]
+)
+def test_robots_that_cannot_be_read_are_one_line(tmp_path, capsys, text, more):
+    file = tmp_path / "robots.toml"
+    if text is not None:
+        file.write_text(text)
+    assert main(["play", "--headless", "--robots", str(file), *more]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1

@@ -1,0 +1,285 @@
+"""The look into an AI's brain (F4): it goes round the AIs, says what they do, hides nobody and changes nothing."""
+
+from itertools import pairwise
+
+import pygame
+import pytest
+
+from pigaming_app.ai import make, seated
+from pigaming_app.games.setup import choose
+from pigaming_app.scenes.brain import floor_marks as marks
+from pigaming_app.scenes.brain import panels as cards
+from pigaming_app.scenes.brain.overlay import BrainOverlay
+from pigaming_app.scenes.flow.stack import Home
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.title.attract import Attract, Demonstration
+from pigaming_app.sim.record import digest
+from pigaming_app.ui.draw.layers import fitted
+from pigaming_app.ui.i18n import LANGUAGES, texts
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.widgets.labels import text_width
+from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
+
+SEATS = {"pitanks": ["hard", "easy", "random", "idle"], "race": ["hard", "easy", "random", "idle"]}
+SEATS["factory"] = ["hard", "normal", "easy", "random"]
+READABLE = 0.85  # of its size, below which a text is not pressed together
+
+
+@pytest.fixture
+def arcade(controls: Controls) -> Arcade:
+    return Arcade(controls)
+
+
+def f4(arcade: Arcade) -> None:
+    """Somebody presses the key, and lets go."""
+    for kind in (pygame.KEYDOWN, pygame.KEYUP):
+        pygame.event.post(pygame.Event(kind, key=pygame.K_F4, scancode=pygame.KSCAN_F4, mod=0, unicode=""))
+    arcade.frame(draw=True)
+
+
+def stage_of(arcade: Arcade, game: str, seed: int = 1) -> Stage:
+    brains = SEATS[game]
+    wish = choose(game, brains, None, 1.0, seed, None, None, brains)
+    return Stage(arcade.house, seated(wish), loud=False)
+
+
+def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human easy off hard", 1.0), KEYS[:1])
+    arcade.open(match)
+    shown = []
+    for _ in range(4):
+        f4(arcade)
+        shown.append(match.stage.brain.seat)
+    assert shown == [1, 3, None, 1]
+    assert arcade.stack.top is match, "no pause, and the match went on to its countdown"
+    assert arcade.house.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
+
+
+def test_where_nobody_is_an_ai_that_is_said(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human human off off", 1.0), KEYS[:2])
+    arcade.open(match)
+    f4(arcade)
+    assert match.stage.brain.seat is None
+    assert match.notice is not None
+    assert match.noticed > 0.0
+
+
+def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
+    event = pygame.Event(pygame.KEYDOWN, key=pygame.K_F4, scancode=pygame.KSCAN_F4, mod=pygame.KMOD_LALT, unicode="")
+    assert arcade.house.controls.presses([event]) == []
+
+
+def test_somebody_who_takes_the_seat_is_not_looked_into(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human easy off off", 1.0), [None])
+    arcade.open(match)
+    f4(arcade)
+    assert match.stage.brain.seat == 0, "an AI drives for somebody"
+    match.hand(0, KEYS[0])
+    arcade.frame(draw=True)
+    assert match.stage.brain.seat is None
+    f4(arcade)
+    assert match.stage.brain.seat == 1
+
+
+def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human easy off off", 1.0), KEYS[:1])
+    arcade.open(match)
+    arcade.wait(4.5)
+    arcade.press(Act.START)
+    page = arcade.shown(Pause)
+    assert any("F4" in label for label, _ in page.prompts.said)
+    f4(arcade)
+    assert arcade.shown(MatchScene) is match
+    assert match.stage.brain.seat == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "usb", "label"),
+    [
+        ("Xbox", (0x045E, 0x028E), "Y"),
+        ("PlayStation", PLAYSTATION, "Triangle"),
+        ("Nintendo", NINTENDO, "Y"),
+        ("Joystick", (1, 1), "4"),
+    ],
+)
+def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb: tuple[int, int], label: str) -> None:
+    plain = kind == "Joystick"
+    with VirtualPad(f"{kind} pad", usb, plain=plain) as pad:
+        arcade.frame()
+        match = MatchScene(arcade.house, setup("human easy off off", 1.0), [Device("pad", pad.number)])
+        arcade.open(match)
+        arcade.wait(4.5)
+        pad.tap("start" if not plain else 9)
+        arcade.wait(0.2)
+        page = arcade.shown(Pause)
+        assert (label, "AI thoughts") in page.prompts.said
+        pad.tap("y" if not plain else 3)
+        arcade.wait(0.2)
+        assert arcade.shown(MatchScene) is match
+        assert match.stage.brain.seat == 1
+
+
+def test_in_the_show_it_is_no_reason_to_leave(arcade: Arcade) -> None:
+    show = Attract(arcade.house)
+    assert isinstance(show.show, Demonstration)
+    arcade.open(show)
+    for seat in (0, 1):
+        f4(arcade)
+        assert show.show.stage.brain.seat == seat
+        assert arcade.stack.top is show
+    show._next()
+    assert isinstance(show.on(press(Act.BRAIN)), Home), "over a page it counts like any other key"
+
+
+def press(act: Act):
+    from pigaming_app.ui.input.events import Press
+
+    return Press(act, KEYS[0])
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("game", SEATS)
+def test_every_brain_is_drawn_and_the_match_plays_out_alike(controls: Controls, game: str, language: str) -> None:
+    arcade = Arcade(controls, language)
+    watched, alone = stage_of(arcade, game), stage_of(arcade, game)
+    for frame in range(420):
+        if frame % 80 == 0:
+            watched.brain.next()
+        watched.advance(1 / 60)
+        alone.advance(1 / 60)
+        if frame % 7 == 0:
+            watched.draw(arcade.screen)
+    assert watched.match.state.tick > 300
+    assert digest(watched.match.state) == digest(alone.match.state)
+
+
+@pytest.mark.parametrize("game", SEATS)
+def test_what_is_shown_is_seen(arcade: Arcade, game: str) -> None:
+    """Light round the robot, another text in place of the panels, the clock where it was; and all of it goes again."""
+    stage = stage_of(arcade, game)
+    for _ in range(120):
+        stage.advance(1 / 60)
+    stage.draw(arcade.screen)
+    robot, clock = stage.match.state.robots[0], stage.view.clock
+    around = pygame.Rect(0, 0, 210, 210)
+    around.center = 160 + round(robot.x), 140 + round(robot.y)
+    places = around.clip(arcade.screen.get_rect()), pygame.Rect(160, 0, 600, 130), clock.inflate(-60, -20)
+    before = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
+    stage.brain.next()
+    stage.unseen = 0.0
+    stage.draw(arcade.screen)
+    now = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
+    assert [old != new for old, new in zip(before, now, strict=True)] == [True, True, False]
+    for _ in range(4):
+        stage.brain.next()
+    stage.draw(arcade.screen)
+    assert [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places[1:]] == before[1:]
+
+
+def test_no_light_of_it_lies_on_a_robot(arcade: Arcade) -> None:
+    """Neither on its own robot nor on others, which stand in the rose and across the lines of sight."""
+    stage = stage_of(arcade, "pitanks")
+    state, overlay = stage.match.state, stage.brain
+    for _ in range(30):
+        stage.advance(1 / 60)
+    for robot, (x, y) in zip(state.robots, ((800, 450), (880, 450), (800, 540), (1100, 450)), strict=True):
+        robot.x, robot.y = float(x), float(y)
+    stage.view.follow(state)
+    stage.view.follow(state)
+    overlay.next()
+    screen = pygame.Surface((1920, 1080))
+    for _ in range(30):
+        screen.fill((0, 0, 0))
+        overlay.draw(screen, 1.0, 1 / 60)
+    for robot in state.robots:
+        box = pygame.Rect(0, 0, 50, 50)
+        box.center = 160 + round(robot.x), 140 + round(robot.y)
+        brightest = max(screen.get_at((x, y)).r for x in range(box.left, box.right) for y in range(box.top, box.bottom))
+        assert brightest <= 24, "a glow at most"
+    assert screen.get_bounding_rect().w > 100
+
+
+def test_the_petals_of_a_rose_turn_with_the_robot() -> None:
+    """A rose that wants to go ahead is lit where the robot looks."""
+    pygame.display.init()
+    pygame.display.set_mode((1920, 1080))
+    ahead = [1.0] + [0.0] * 15
+    for heading, (dx, dy) in ((0.0, (1, 0)), (1.5708, (0, 1)), (3.1416, (-1, 0))):
+        drawn = marks.Marks((960.0, 540.0, heading), [], (60, 160, 255), 0.0)
+        drawn.rose(ahead, [])
+        screen = pygame.Surface((1920, 1080))
+        screen.fblits(drawn.light, pygame.BLEND_RGB_ADD)
+        at = 82
+        lit = screen.get_at((960 + at * dx, 540 + at * dy))
+        dark = screen.get_at((960 - at * dx, 540 - at * dy))
+        assert lit.b > 100 > dark.b + 40
+
+
+def test_bars_follow_wishes_and_do_not_jump(arcade: Arcade) -> None:
+    stage = stage_of(arcade, "pitanks")
+    for _ in range(60):
+        stage.advance(1 / 60)
+    overlay = stage.brain
+    overlay.next()
+    seen = []
+    for _ in range(90):
+        overlay.draw(arcade.screen, 1.0, 1 / 60)
+        seen.append(max(overlay.wishes.values()))
+    steps = [b - a for a, b in pairwise(seen)]
+    assert max(steps) < 0.2
+    assert overlay.wishes == pytest.approx(dict(overlay.thoughts.wishes), abs=0.01)
+
+
+def test_it_asks_a_few_times_a_second_and_never_within_a_tick(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    stage = stage_of(arcade, "pitanks")
+    asked = []
+    brain = stage.match.brains[0]
+    true = type(brain).explain
+
+    def explain(self, state, seat):
+        asked.append(state.tick)
+        return true(self, state, seat)
+
+    monkeypatch.setattr(type(brain), "explain", explain)
+    stage.brain.next()
+    for _ in range(120):
+        stage.advance(1 / 60)
+        stage.draw(arcade.screen)
+    assert 18 <= len(asked) <= 22
+
+
+def test_a_seat_without_a_brain_that_explains_itself_is_passed_over(arcade: Arcade) -> None:
+    stage = stage_of(arcade, "pitanks")
+    stage.match.sit(0, make("pitanks", "idle", 1))
+    kind = stage.match.brains[0].kind
+    object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.wake))
+    overlay = BrainOverlay(stage.match, stage.view, arcade.house.words)
+    assert overlay.seats == [1, 2, 3]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_text_fits_its_box(language: str) -> None:
+    pygame.font.init()
+    small = {}
+    for key, text in texts(language).items():
+        if key.startswith("brain.") and key not in ("brain.nobody", "brain.sure"):
+            said = text.format(player=4, count=12345, machine="A")
+            size, face = (cards.BODY, "body") if "because" in key else (cards.LABEL, "head")
+            room = 652 - cards.TEXT - 20
+            if fitted(said, size, room, face) < READABLE * size:
+                small[key] = text_width(said, size, face)
+    assert small == {}
+
+
+def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
+    for game in SEATS:
+        stage = stage_of(arcade, game)
+        for _ in range(60):
+            stage.advance(1 / 60)
+        for seat in range(4):
+            told = stage.match.brains[seat].explain(stage.match.state, seat)
+            assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.wishes)

@@ -1,0 +1,274 @@
+"""The calibration wizard on the emulated arena: it finds what is true there; whatever is wrong is one sentence."""
+
+import ast
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app import hardware
+from pigaming_app.hardware.calibration import camera_task as looking
+from pigaming_app.hardware.calibration import height_procedure as standing
+from pigaming_app.hardware.calibration import procedure as calibrating
+from pigaming_app.hardware.calibration.ground_plane import NoGround
+from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.messages import Said, said
+from pigaming_app.hardware.session import store as kept
+from pigaming_app.scenes.calibration.boards_page import BoardsPage
+from pigaming_app.scenes.calibration.drift_page import CheckPage
+from pigaming_app.scenes.calibration.height_page import OutlinesPage
+from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
+from pigaming_app.scenes.calibration.setup_page import CalibrationPage
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.ui.draw.pixels import pixels_of
+from pigaming_app.ui.i18n import Words, texts
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.widgets import setting_row as dials
+from tests.scenes.operated import Operated
+
+LONG = 30.0  # s after which a test gives up waiting
+
+
+@pytest.fixture
+def arcade(controls: Controls, _home: None) -> Operated:
+    arcade = Operated(controls, EmulatedSite(2))
+    arcade.open(CalibrationPage(arcade.house, arcade.site))
+    return arcade
+
+
+def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Operated, tmp_path: Path) -> None:
+    for _ in range(20):
+        arcade.picture()
+    first = arcade.shown(CalibrationPage)
+    assert first.preview is not None
+    assert first.preview.size == (1920, 1080)
+    assert first.state == arcade.house.words("vision.none")
+    arcade.begin()
+    result = arcade.pictures(ResultPage)
+    assert result.finding.good
+    assert result.finding.residuals.mean_mm < 1.5
+    assert result.finding.residuals.max_mm < 3.0
+    arcade.shown(ResultPage)
+    arcade.press(Act.FIRE)
+    assert arcade.stack.top is first
+    ground = kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+    assert ground.width_mm == arcade.site.measures.width
+    for _ in range(5):
+        arcade.picture()
+    assert f"{ground.mean_mm:.1f} mm" in first.state
+    assert not (tmp_path / "config" / "calibration.toml").exists(), "an emulated one is not the real one"
+
+
+def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
+    arcade.begin()
+    arcade.picture()
+    shown = pixels_of(arcade.house.canvas.screen)[:, :, 0].copy()
+    plain = calibrating.BOARD.picture()
+    assert np.array_equal(shown[:1044], plain[:1044])
+    assert not np.array_equal(shown[1044:], plain[1044:]), "the progress is in the margin below"
+
+
+def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operated) -> None:
+    arcade.go("by")
+    arcade.press(Act.RIGHT)
+    assert "height" not in [spot.name for spot in arcade.shown(CalibrationPage).focus.spots]
+    arcade.begin()
+    arcade.pictures(OutlinesPage)
+    arcade.shown(OutlinesPage)
+    result = arcade.pictures(ResultPage)
+    assert result.finding.good
+    assert result.finding.ground.height == pytest.approx(arcade.site.arena.optics.lens.eye[2], rel=0.05)
+    assert result.finding.marker_mm == pytest.approx(50.0, rel=0.04)
+    arcade.shown(ResultPage)
+
+
+def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operated) -> None:
+    arcade.begin()
+    result = arcade.pictures(ResultPage, covered=True)
+    assert not result.finding.good
+    assert isinstance(result.finding.trouble, Said)
+    assert result.finding.trouble.key == "few"
+    assert result.picture is not None, "what the camera saw is shown"
+    assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
+    arcade.shown(ResultPage)
+    arcade.press(Act.FIRE)
+    assert arcade.pictures(ResultPage).finding.good
+
+
+def test_a_calibration_that_is_too_bad_cannot_be_saved(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pigaming_app.hardware.calibration.solver.MEAN_MM", 0.001)
+    arcade.begin()
+    result = arcade.pictures(ResultPage)
+    assert result.finding.residuals is not None
+    assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
+    arcade.shown(ResultPage)
+    arcade.press(Act.RIGHT)
+    arcade.press(Act.FIRE)
+    arcade.shown(CalibrationPage)
+    with pytest.raises(NoGround):
+        kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+
+
+@pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root may write anywhere")
+def test_a_folder_that_cannot_be_written(arcade: Operated, tmp_path: Path) -> None:
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config").chmod(0o500)
+    arcade.begin()
+    arcade.pictures(ResultPage)
+    arcade.press(Act.FIRE)
+    assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).sentence
+
+
+def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, text: str) -> None:
+        raise NotSaved(f"{path} was not saved: the disk is full.")
+
+    arcade.begin()
+    arcade.pictures(ResultPage)
+    monkeypatch.setattr(kept, "keep", full)
+    arcade.press(Act.FIRE)
+    assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).sentence
+    monkeypatch.undo()
+
+
+def test_the_way_back_leads_out_of_every_page(arcade: Operated) -> None:
+    arcade.begin()
+    arcade.picture()
+    arcade.press(Act.BACK)
+    arcade.shown(CalibrationPage)
+    arcade.begin()
+    arcade.pictures(ResultPage)
+    arcade.press(Act.BACK)
+    arcade.shown(CalibrationPage)
+    arcade.press(Act.BACK)
+    assert arcade.stack.top is arcade.setup
+
+
+def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
+    arcade.begin()
+    for _ in range(20):
+        arcade.picture()
+    arcade.site.arena.faults.switch("camera_frozen", True)
+    result = arcade.pictures(ResultPage)
+    assert result.finding.trouble == looking.NO_PICTURE
+    arcade.shown(ResultPage)
+
+
+def test_nobody_puts_a_robot_on_the_outline(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(standing, "PATIENCE", 1.0)
+    monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
+    arcade.go("by")
+    arcade.press(Act.RIGHT)
+    arcade.begin()
+    result = arcade.pictures(ResultPage)
+    assert result.finding.trouble.key == "nobody"
+
+
+def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> None:
+    arcade.begin()
+    arcade.pictures(ResultPage)
+    arcade.press(Act.FIRE)
+    arcade.press(Act.BACK)
+    arcade.open(CheckPage(arcade.house, arcade.site))
+    checking = arcade.shown(CheckPage).work
+    for _ in range(24):
+        arcade.picture()
+    assert checking.mm is not None
+    assert checking.mm < 2.0
+    assert checking.marker_mm is None
+    arcade.site.stand(*looking.SPOT)
+    for _ in range(24):
+        arcade.picture()
+    assert checking.marker_mm == pytest.approx(50.0, rel=0.04), "the width of the mat was measured well"
+    canvas = arcade.house.canvas
+    canvas.pin([8, 0, 1928, 0, 1928, 1080, 8, 1080])  # somebody pushes the projector
+    for _ in range(24):
+        arcade.picture()
+    assert checking.mm == pytest.approx(8 * checking.drift.ground.mm, abs=2.0)  # type: ignore[union-attr]
+    canvas.pin([])
+    arcade.press(Act.BACK)
+    assert arcade.stack.top is arcade.setup
+
+
+@pytest.mark.usefixtures("_home", "_no_threads_stay")
+def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -> None:
+    site = EmulatedSite(1, live=True)
+    arcade = Operated(controls, site)
+    arcade.open(CalibrationPage(arcade.house, site))
+    end = time.monotonic() + LONG
+    first = arcade.shown(CalibrationPage)
+    while first.preview is None or first.preview.small is None:
+        arcade.picture()
+        time.sleep(0.01)
+        assert time.monotonic() < end
+    arcade.begin()
+    while not isinstance(arcade.stack.top, ResultPage):
+        arcade.picture()
+        time.sleep(0.01)
+        assert time.monotonic() < end
+    assert arcade.stack.top.finding.good
+    arcade.press(Act.BACK)
+    arcade.press(Act.BACK)
+    site.close()
+
+
+def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
+    first = arcade.go("by")
+    spot = first.focus.spot.rect
+    ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.house.words("calibrate.ruler"), "Robot")))
+    for x, by_robot in ((ruler, False), (robot, True), (robot, True), (ruler, False), (-60, False)):
+        arcade.click(spot.x + x, spot.centery)
+        assert (first.measures.height == 0.0) == by_robot
+    width, place = first.measures.width, first.focus.rect("width")
+    arcade.click(place.right - 60, place.centery)
+    assert first.measures.width == width + 1
+    arcade.click(place.x + dials.AT + 10, place.centery)
+    assert first.measures.width == width
+    arcade.click(*first.focus.rect("begin").center)
+    arcade.shown(BoardsPage)
+
+
+def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Operated, tmp_path: Path) -> None:
+    arcade.begin()
+    finding: Finding = arcade.pictures(ResultPage).finding
+    assert finding.ground is not None
+    kept.save(finding.ground, arcade.site)
+    here = arcade.house.canvas.projection
+    for key, where, size in (("other_display", "2: 640 × 480", (1920, 1080)), ("other_camera", here, (1280, 720))):
+        with pytest.raises(NoGround) as refused:
+            kept.load(where, arcade.site, size)
+        assert said(refused.value).key == key  # type: ignore[attr-defined]
+    file = kept.path(arcade.site)
+    file.write_text(file.read_text().replace("height = ", "height = 1"))
+    with pytest.raises(NoGround) as refused:
+        kept.load(here, arcade.site, (1920, 1080))
+    assert said(refused.value).key == "damaged"  # type: ignore[attr-defined]
+
+
+def test_the_corner_pin_is_part_of_what_was_calibrated(arcade: Operated) -> None:
+    canvas = arcade.house.canvas
+    straight = canvas.projection
+    canvas.pin([0, 0, 1920, 9, 1920, 1080, 0, 1080])
+    assert canvas.projection != straight
+    canvas.pin([])
+    assert canvas.projection == straight
+
+
+def test_every_sentence_with_a_key_is_said_in_both_languages() -> None:
+    keys = set()
+    for file in Path(hardware.__file__).parent.rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Said" and len(node.args) > 1:
+                inside = [one.value for one in ast.walk(node.args[1]) if isinstance(one, ast.Constant)]
+                keys |= {key for key in inside if isinstance(key, str) and key[:1].isalpha()}
+    assert {"few", "busy", "no_camera", "other_display"} <= keys
+    for language in ("en", "pt"):
+        assert {f"vision.{key}" for key in keys} <= set(texts(language))
+        assert "35" in tell(Words(language), Said("", "few", seen=1, all=35, needed=26))
+    assert tell(Words("pt"), "No key, no translation.") == "No key, no translation."

@@ -1,0 +1,225 @@
+"""The calibration wizard with real cameras, or none: what they do not do is one sentence, and no thread stays."""
+
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.calibration import camera_task as looking
+from pigaming_app.hardware.calibration.site import Measures, RealSite
+from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.messages import Said, said
+from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.vision import camera
+from pigaming_app.hardware.vision import discovery as cameras
+from pigaming_app.hardware.vision.discovery import Known
+from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.scenes.calibration import boards_page as boards
+from pigaming_app.scenes.calibration import setup_page as page
+from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.scenes.calibration.result_page import ResultPage
+from pigaming_app.scenes.calibration.setup_page import CalibrationPage
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw.pixels import pixels_of
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device
+from tests.scenes.operated import Operated
+
+LONG = 30.0  # s after which a test gives up waiting
+
+
+class Driver:
+    """A `cv2.VideoCapture` of the tests': it opens, or not, and sends grey pictures."""
+
+    def __init__(self, opens: bool = True) -> None:
+        self.opens, self.sends = opens, True
+
+    def __call__(self, number: int) -> "Driver":
+        return self
+
+    def isOpened(self) -> bool:  # noqa: N802
+        return self.opens
+
+    def release(self) -> None:
+        pass
+
+    def get(self, what: int) -> float:
+        return 0.0
+
+    def set(self, what: int, value: float) -> bool:
+        return True
+
+    def read(self) -> tuple[bool, Any]:
+        time.sleep(0.01)
+        return self.sends, np.full((480, 640), 90, np.uint8) if self.sends else None
+
+
+def real(controls: Controls, driver: Driver) -> Operated:
+    site = RealSite(driver)
+    arcade = Operated(controls, site)
+    arcade.open(CalibrationPage(arcade.house, site))
+    return arcade
+
+
+def until(arcade: Operated, true: Any) -> None:
+    end = time.monotonic() + LONG
+    while not true():
+        arcade.picture()
+        time.sleep(0.005)  # as the arcade does between two pictures; else the camera's thread may starve
+        assert time.monotonic() < end, "it did not happen"
+
+
+@pytest.fixture
+def _one_camera(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("pigaming_app.hardware.calibration.site.cameras", lambda: [Known(3, "Bright Eye")])
+    monkeypatch.setattr(camera, "STALE", 0.1)
+    monkeypatch.setattr(camera, "RETRY", 0.02)
+    monkeypatch.setattr(cameras, "NODES", tmp_path)
+    (tmp_path / "video3").touch()
+
+
+@pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
+def test_the_camera_of_the_settings_is_gone_so_the_one_that_is_there_is_shown(controls: Controls) -> None:
+    arcade = real(controls, Driver())
+    first = arcade.shown(CalibrationPage)
+    assert first.number == 3
+    assert first.preview is not None
+    until(arcade, lambda: first.preview.small is not None and first.preview.trouble is None)
+    assert first.preview.size == (640, 480)
+    arcade.press(Act.BACK)
+
+
+@pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
+    controls: Controls, language: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    driver = Driver(opens=False)
+    arcade = real(controls, driver)
+    arcade.house.words.switch(language)
+    first = arcade.shown(CalibrationPage)
+    assert first.preview is not None
+    until(arcade, lambda: isinstance(first.preview.trouble, Said) and first.preview.trouble.key != "yet")
+    assert "3" in tell(arcade.house.words, first.preview.trouble or "")
+    (line,) = [record.getMessage() for record in caplog.records if "camera 3" in record.getMessage()]
+    assert str(first.preview.trouble) in line, "the log says it too, once, in English"
+    driver.opens = True
+    until(arcade, lambda: first.preview.trouble is None and first.preview.small is not None)
+    driver.sends = False
+    until(arcade, lambda: first.preview.trouble is not None)
+    arcade.press(Act.BACK)
+
+
+@pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
+def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
+    controls: Controls, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(RealSite, "settle", 0.05)
+    monkeypatch.setattr(looking, "BLIND", 0.5)
+    driver = Driver()
+    arcade = real(controls, driver)
+    arcade.begin()
+    until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
+    assert arcade.shown(ResultPage).finding.trouble.key == "few"  # type: ignore[union-attr]
+    driver.sends = False
+    arcade.press(Act.FIRE)
+    until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
+    assert isinstance(arcade.shown(ResultPage).finding.trouble, Said)
+    arcade.press(Act.BACK)
+    arcade.press(Act.BACK)
+
+
+@pytest.mark.usefixtures("_home", "_no_threads_stay")
+def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
+    controls: Controls, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    missing = NoVision(Said("OpenCV is not installed.", "no_opencv"))
+
+    def none(*_: object, **__: object) -> object:
+        raise missing
+
+    monkeypatch.setattr(RealSite, "open", none)
+    monkeypatch.setattr(boards, "picture", none)
+    arcade = real(controls, Driver())
+    first = arcade.shown(CalibrationPage)
+    until(arcade, lambda: first.preview is not None and first.preview.trouble is not None)
+    arcade.begin()
+    until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
+    assert arcade.shown(ResultPage).finding.trouble == said(missing)
+    arcade.press(Act.BACK)
+    arcade.press(Act.BACK)
+
+
+@pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
+def test_what_breaks_in_the_thread_ends_in_a_sentence_not_in_silence(
+    controls: Controls, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(image: object) -> object:
+        raise RuntimeError("nobody thought of this")
+
+    monkeypatch.setattr(looking, "shrunk", broken)
+    arcade = real(controls, Driver())
+    first = arcade.shown(CalibrationPage)
+    until(arcade, lambda: first.preview is not None and first.preview.trouble == looking.BROKEN)
+    arcade.press(Act.BACK)
+
+
+@pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
+def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls, tmp_path: Path) -> None:
+    arcade = real(controls, Driver())
+    first = arcade.go("width")
+    before = first.measures.width
+    arcade.press(Act.RIGHT, Device("pad", 0))
+    assert first.measures.width == before + 1
+    for _ in range(60):
+        arcade.stack.top.on(page.Press(Act.RIGHT, Device("pad", 0), repeat=True))
+    assert first.measures.width > before + 1000
+    arcade.go("lid")
+    for _ in range(3):
+        arcade.press(Act.LEFT)
+    assert first.measures.lid == 67
+    arcade.press(Act.BACK)
+    settings, wrong = Settings.load(tmp_path / "config")
+    assert not wrong
+    assert (settings.arena_mm, settings.lid_mm, settings.camera) == (first.measures.width, 67.0, 3)
+    again = CalibrationPage(arcade.house, arcade.site)
+    assert again.measures == Measures(first.measures.width, 2500.0, 67.0)
+
+
+class Overhead(Driver):
+    """A driver whose camera hangs over an emulated mat, and sends its pictures in colour."""
+
+    def __init__(self, site: EmulatedSite) -> None:
+        super().__init__()
+        self.site = site
+
+    def read(self) -> tuple[bool, Any]:
+        self.site.arena.advance(1 / 30)
+        frame = self.site.arena.camera.newest()
+        return frame is not None, None if frame is None else np.repeat(frame.image[:, :, None], 3, axis=2)
+
+
+@pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
+def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
+    controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(RealSite, "settle", 0.3)
+    mat = EmulatedSite(4)
+    mat.clear(True)
+    arcade = real(controls, Overhead(mat))
+    arcade.house.canvas.watchers.append(lambda window: mat.see(pixels_of(window)))
+    first = arcade.shown(CalibrationPage)
+    first.measures = mat.measures
+    arcade.begin()
+    until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
+    result = arcade.shown(ResultPage)
+    assert result.finding.good, result.finding.trouble
+    arcade.press(Act.FIRE)
+    ground = kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+    assert (tmp_path / "config" / "calibration.toml").exists()
+    assert ground.max_mm < 3.0
+    arcade.press(Act.BACK)

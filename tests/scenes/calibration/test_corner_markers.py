@@ -1,0 +1,47 @@
+"""The corner markers: they stand in the side margins, and tell when somebody has run into the camera."""
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.calibration.drift import PAUSE, WARN
+from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.scenes.calibration.corner_markers import DriftWatch, tiles
+from pigaming_app.scenes.play.runner import LEFT
+from pigaming_app.sim.world import WIDTH
+
+
+def test_the_markers_stand_beside_the_arena_and_on_the_canvas() -> None:
+    canvas = pygame.Rect(0, 0, 1920, 1080)
+    for tile, at in tiles():
+        place = tile.get_rect(topleft=at)
+        assert canvas.contains(place)
+        assert place.right <= LEFT or place.left >= LEFT + WIDTH
+
+
+@pytest.mark.usefixtures("controls")
+def test_who_runs_into_the_camera_is_noticed_and_who_does_not_is_left_alone(home: Path) -> None:
+    mat = EmulatedMat(live=False)
+    rig = mat.open()
+    watch, screen = DriftWatch(rig), pygame.Surface((1920, 1080), depth=32)
+
+    def pictures(count: int) -> None:
+        for _ in range(count):
+            screen.fill("black")
+            watch.draw(screen)
+            mat.see(screen)
+            mat.advance(1 / 30)
+
+    mat.arena.camera.painter.refresh = 1
+    pictures(45)
+    assert 0.0 < rig.drift() < WARN
+    mat.arena.faults.switch("camera_bumped", True)
+    pictures(75)
+    assert rig.drift() > PAUSE
+    mat.arena.faults.switch("camera_bumped", False)
+    pictures(75)
+    assert rig.drift() < WARN
+    mat.end()

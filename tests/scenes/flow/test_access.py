@@ -1,0 +1,542 @@
+"""Whose press counts: pads that are seated, pads that are not, and people who walk off."""
+
+import random
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.ai.brain.kind import Hands, Thinker
+from pigaming_app.scenes.flow.access import ESCAPE, OWNED, TAKE
+from pigaming_app.scenes.lobby import scene as lobby
+from pigaming_app.scenes.lobby.game_choice import GameChoice
+from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.lobby.seats import HUMAN
+from pigaming_app.scenes.play.device_table import DeviceTable
+from pigaming_app.scenes.play.idle_seats import ASK, REST
+from pigaming_app.scenes.play.pause import SURE, Pause
+from pigaming_app.scenes.play.reconnect import StillThere
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.scene import LATE, LEAVE, Results
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device
+from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.ui.input.virtual_pad import PLAYSTATION, VirtualPad
+
+RUNNING = 4.0  # seconds until a match runs
+BUTTONS = ("b", "start", "x", "y", "up", "down", "left", "right", "rightshoulder")  # all but FIRE
+EVERY = (Act.BACK, Act.START, Act.EXTRA, Act.ALT, Act.UP, Act.DOWN, Act.LEFT, Act.RIGHT, Act.LEAVE)
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    return Arcade(controls)
+
+
+@pytest.fixture
+def pads() -> Iterator[ExitStack]:
+    with ExitStack() as stack:
+        yield stack
+
+
+def plug(arcade: Arcade, pads: ExitStack, **about: object) -> tuple[VirtualPad, Device]:
+    pad = pads.enter_context(VirtualPad(**about))  # type: ignore[arg-type]
+    arcade.frame()
+    return pad, Device("pad", pad.number)
+
+
+def tap(arcade: Arcade, pad: VirtualPad, *buttons: str) -> None:
+    for button in buttons:
+        pad.tap(button)
+        arcade.frame()
+
+
+def key(arcade: Arcade, scancode: int, seconds: float = 0.0) -> None:
+    """Hold a key of the keyboard for so long."""
+    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=scancode, mod=0))
+    arcade.wait(max(seconds, 1 / 30))
+    pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=scancode, mod=0))
+    arcade.frame()
+
+
+def running(arcade: Arcade, brains: str, devices: list[Device], minutes: float = 3.0) -> MatchScene:
+    match = MatchScene(arcade.house, setup(brains, minutes), devices)
+    arcade.open(match)
+    arcade.wait(RUNNING)
+    return match
+
+
+# ---- lobby and setup
+
+
+def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads: ExitStack) -> None:
+    _, first = plug(arcade, pads)
+    guest, device = plug(arcade, pads)
+    arcade.stack.scenes[1:] = []
+    page = Lobby(arcade.house, "pitanks")
+    arcade.open(page)
+    arcade.press(Act.FIRE, first)
+    arcade.press(Act.ALT, first)
+    before = [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places]
+    for _ in range(3):
+        tap(arcade, guest, *BUTTONS[:1], *BUTTONS[2:])
+    assert arcade.shown(Lobby) is page
+    assert [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places] == before
+    assert not page.seats.teams
+    tap(arcade, guest, "start")
+    assert page.seats.of(device) == 2
+    assert arcade.shown(Lobby) is page, "START of a free pad joins and does not begin"
+    tap(arcade, guest, "b")
+    assert page.seats.of(device) is None
+    tap(arcade, guest, "b")
+    assert arcade.shown(Lobby) is page
+
+
+def test_in_a_full_lobby_a_free_pad_hears_only_that_it_is_full(arcade: Arcade) -> None:
+    arcade.stack.scenes[1:] = []
+    page = Lobby(arcade.house, "pitanks")
+    arcade.open(page)
+    for device in KEYS:
+        arcade.press(Act.FIRE, device)
+    seats = [place.device for place in page.seats.places]
+    for act in (Act.FIRE, *EVERY):
+        page.now.message = ""
+        arcade.press(act, Device("pad", 9))
+        assert [place.device for place in page.seats.places] == seats
+        if act in (Act.FIRE, Act.START, Act.BACK):
+            assert page.now.message == arcade.house.words("lobby.full")
+
+
+def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(arcade: Arcade) -> None:
+    arcade.stack.scenes[1:] = []
+    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.press(Act.ALT, KEYS[2])
+    arcade.press(Act.ALT, KEYS[3])
+    arcade.press(Act.START, KEYS[1])
+    arcade.shown(SetupPage)
+    arcade.press(Act.BACK, KEYS[3])
+    arcade.shown(Lobby)
+    arcade.press(Act.BACK, KEYS[0])
+    assert arcade.stack.top is arcade.title
+
+
+def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Arcade, pads: ExitStack) -> None:
+    _, first = plug(arcade, pads)
+    arcade.stack.scenes[1:] = []
+    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.press(Act.FIRE, first)
+    key(arcade, pygame.KSCAN_ESCAPE, 0.3)
+    arcade.shown(Lobby)
+    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
+    assert arcade.stack.top is arcade.title
+
+
+def test_a_shared_key_counts_for_the_seated_half_of_the_keyboard(arcade: Arcade) -> None:
+    arcade.stack.scenes[1:] = []
+    page = Lobby(arcade.house, "pitanks")
+    arcade.open(page)
+    key(arcade, pygame.KSCAN_SPACE)
+    key(arcade, pygame.KSCAN_SPACE)
+    key(arcade, pygame.KSCAN_UP)  # a hand of nobody on the arrows
+    assert page.seats.places[0].ready
+    key(arcade, pygame.KSCAN_ESCAPE)
+    assert not page.seats.places[0].ready
+
+
+def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arcade, pads: ExitStack) -> None:
+    _, xbox = plug(arcade, pads)
+    plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
+    plug(arcade, pads, plain=True)
+    for language, space in (("en", "SPACE"), ("pt", "ESPAÇO")):
+        arcade.house.words.switch(language)
+        page = Lobby(arcade.house, "pitanks")
+        assert page.page.invited == ("A", "Cross", "1", space, "R CTRL", "U", "0")
+        assert len(lobby.card.rows_of(page.page.invited)) == 2, "they fit on a card"
+        page.seats.join(xbox)
+        page.seats.join(KEYS[1])
+        assert page.page.invited == ("Cross", "1", space, "U", "0")
+
+
+def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
+    page = Lobby(arcade.house, "pitanks")
+    page.seats.join(KEYS[0])
+    page.seats.add()
+    scene = SetupPage(arcade.house, "pitanks", page.seats)
+    arcade.open(scene)
+    arcade.wait(1.0)
+    before = (scene.chosen, scene.focus.name)
+    for act in (Act.FIRE, *EVERY):
+        arcade.press(act, KEYS[1])
+        assert arcade.shown(SetupPage) is scene
+        assert (scene.chosen, scene.focus.name) == before
+    arcade.press(Act.FIRE, KEYS[0])
+    arcade.shown(MatchScene)
+
+
+# ---- match and pause
+
+
+def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack) -> None:
+    _, first = plug(arcade, pads)
+    guest, _ = plug(arcade, pads)
+    match = running(arcade, "human easy off off", [first])
+    tap(arcade, guest, *BUTTONS, "a")
+    arcade.press(Act.BACK, KEYS[0])
+    arcade.press(Act.START, KEYS[0])
+    arcade.frame()
+    assert arcade.shown(MatchScene) is match
+    assert match.devices == [first, None, None, None]
+
+
+def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade: Arcade, pads: ExitStack) -> None:
+    pad, first = plug(arcade, pads)
+    match = running(arcade, "human easy off off", [first])
+    key(arcade, pygame.KSCAN_ESCAPE, 0.4)
+    assert arcade.stack.top is match
+    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
+    assert arcade.shown(Pause).access.owner.kind == "keys"
+    key(arcade, pygame.KSCAN_ESCAPE)
+    assert arcade.stack.top is match
+    tap(arcade, pad, "start")
+    assert arcade.shown(Pause).access.owner == first
+    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
+    assert arcade.shown(Pause).access.owner.kind == "keys"
+
+
+def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack) -> None:
+    guest, _ = plug(arcade, pads)
+    match = running(arcade, "easy easy off off", [])
+    for button in ("start", "b"):
+        tap(arcade, guest, button)
+        arcade.shown(Pause)
+        tap(arcade, guest, "start")
+        assert arcade.stack.top is match
+
+
+def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> None:
+    match = running(arcade, "human human off off", KEYS[:2])
+    arcade.press(Act.START, KEYS[1])
+    page = arcade.shown(Pause)
+    for act in (Act.FIRE, *EVERY):
+        for device in (KEYS[0], KEYS[3]):
+            arcade.press(act, device)
+            assert arcade.shown(Pause) is page
+            assert page.focus.name == "continue"
+    arcade.press(Act.DOWN, KEYS[1])
+    arcade.press(Act.DOWN, KEYS[1])
+    arcade.press(Act.FIRE, KEYS[1])
+    arcade.press(Act.BACK, KEYS[0])
+    arcade.shown(DeviceTable)
+    arcade.wait(OWNED + 0.2)
+    arcade.press(Act.BACK, KEYS[3])
+    arcade.shown(DeviceTable)
+    arcade.press(Act.BACK, KEYS[0])
+    assert arcade.shown(Pause) is page
+    arcade.press(Act.START, KEYS[3])
+    assert arcade.shown(Pause) is page
+    arcade.press(Act.START, KEYS[0])
+    assert arcade.stack.top is match
+
+
+def test_f4_of_the_keyboard_shows_thoughts_in_any_match_but_ends_no_pause_of_somebody_else(
+    arcade: Arcade, pads: ExitStack
+) -> None:
+    pad, first = plug(arcade, pads)
+    match = running(arcade, "human easy off off", [first])
+    key(arcade, pygame.KSCAN_F4)
+    assert match.stage.brain.seats == [1]
+    tap(arcade, pad, "start")
+    page = arcade.shown(Pause)
+    key(arcade, pygame.KSCAN_F4)
+    assert arcade.shown(Pause) is page
+
+
+def test_an_unplugged_pad_owns_no_pause(arcade: Arcade, pads: ExitStack) -> None:
+    (_, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
+    running(arcade, "human human off off", [first, second])
+    tap(arcade, two, "start")
+    page = arcade.shown(Pause)
+    arcade.press(Act.START, first)
+    assert arcade.shown(Pause) is page
+    two.unplug()
+    arcade.frame()
+    arcade.press(Act.START, first)
+    assert arcade.stack.top is not page
+
+
+@pytest.mark.parametrize(("name", "downs"), [("restart", 1), ("end", 3)])
+def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None:
+    match = running(arcade, "human easy off off", KEYS[:1])
+    arcade.press(Act.START)
+    page = arcade.shown(Pause)
+    for _ in range(downs):
+        arcade.press(Act.DOWN)
+    assert page.focus.name == name
+    arcade.press(Act.FIRE)
+    arcade.wait(SURE + 0.2, draw=True)
+    arcade.press(Act.FIRE)
+    arcade.press(Act.UP)
+    arcade.press(Act.DOWN)
+    arcade.press(Act.FIRE)
+    assert arcade.shown(Pause) is page, "time and another item take the question back"
+    assert not match.repeated
+    assert not match.stopped
+    arcade.press(Act.FIRE)
+    assert match.repeated or match.stopped
+
+
+# ---- taps
+
+
+def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads: ExitStack) -> None:
+    pad, device = plug(arcade, pads)
+    controls = arcade.house.controls
+    for _ in range(2):
+        pad.tap("a")
+    pygame.time.wait(800)
+    assert [press.act for press in controls.presses(pygame.event.get())] == [Act.FIRE, Act.FIRE]
+    pygame.time.wait(200)
+    assert [controls.drive(device).fire for _ in range(6)] == [True, False, True, False, False, False]
+
+
+def test_a_tap_of_both_shoulders_in_one_frame_is_the_all_stop(arcade: Arcade, pads: ExitStack) -> None:
+    pad, device = plug(arcade, pads)
+    pad.tap("leftshoulder", "rightshoulder")
+    assert [press.act for press in arcade.house.controls.presses(pygame.event.get())] == [Act.STOP]
+    assert [arcade.house.controls.drive(device).turbo for _ in range(2)] == [True, False]
+
+
+def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitStack) -> None:
+    (pad, device), (_, other) = plug(arcade, pads), plug(arcade, pads)
+    controls = arcade.house.controls
+    for _ in range(50):
+        pad.tap("a")
+    controls.presses(pygame.event.get())
+    assert sum(controls.drive(device).fire for _ in range(100)) == 4
+    assert not controls.drive(other).fire
+    pad.tap("a")
+    pad.unplug()
+    controls.presses(pygame.event.get())
+    assert not controls.drive(device).fire
+
+
+def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arcade, pads: ExitStack) -> None:
+    pad, device = plug(arcade, pads)
+    match = MatchScene(arcade.house, setup("human easy off off", 1.0), [device])
+    pad.tap("a")
+    arcade.frame()
+    arcade.open(match)
+    arcade.wait(2.0)
+    pad.tap("a")
+    arcade.until(lambda: match.match.state.tick > 10)
+    tap(arcade, pad, "start")
+    tap(arcade, pad, "a")
+    arcade.wait(2.5)
+    assert arcade.stack.top is match
+    assert not any(match.match.log.ticks[12 * tick + 2] & 1 for tick in range(match.match.state.tick))
+    pad.tap("a")
+    arcade.frame()
+    arcade.wait(0.1)
+    fired = [match.match.log.ticks[12 * tick + 2] & 1 for tick in range(match.match.state.tick)]
+    assert sum(fired) == 1
+
+
+# ---- seats that change hands
+
+
+def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pressed(
+    arcade: Arcade, pads: ExitStack
+) -> None:
+    (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
+    match = running(arcade, "human human off off", [first, second])
+    one.stick(0.0, -1.0)
+    arcade.wait(REST - 1.0, fps=20)
+    assert not match.walkoff.asked()
+    arcade.until(lambda: bool(match.walkoff.asked()))
+    assert list(match.walkoff.asked()) == [1]
+    arcade.stack.top.draw(arcade.screen)
+    tap(arcade, two, "x")
+    assert not match.walkoff.asked(), "any button answers"
+    arcade.wait(REST + 1.0, fps=20)
+    before = match.match.state.tick
+    arcade.until(lambda: isinstance(match.match.brains[1], Thinker))
+    assert match.match.state.tick - before == pytest.approx((ASK - 1.0) * 50, abs=20), "nobody else had to wait"
+    assert arcade.stack.top is match
+    assert isinstance(match.match.brains[0], Hands)
+    tap(arcade, two, "a")
+    assert match.devices[:2] == [first, second]
+    assert isinstance(match.match.brains[1], Hands)
+
+
+def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
+    match = running(arcade, "human human off off", KEYS[:2])
+    arcade.press(Act.START)
+    arcade.wait(REST + ASK + 5.0, fps=10)
+    arcade.press(Act.START)
+    arcade.wait(3.0)
+    assert arcade.stack.top is match
+    assert match.devices[:2] == KEYS[:2]
+
+
+def test_when_all_have_gone_the_match_asks_as_before_and_the_first_press_brings_its_seat_back(
+    arcade: Arcade,
+) -> None:
+    match = running(arcade, "human human off off", KEYS[:2], 5.0)
+    arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
+    assert match.devices[:2] == [None, None]
+    arcade.press(Act.LEFT, KEYS[1])
+    assert arcade.stack.top is match
+    assert match.devices[:2] == [None, KEYS[1]]
+
+
+def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(arcade: Arcade, pads: ExitStack) -> None:
+    _, first = plug(arcade, pads)
+    guest, device = plug(arcade, pads)
+    match = running(arcade, "human easy easy off", [first])
+    tap(arcade, guest, "a", "a", "a")
+    arcade.wait(TAKE + 0.2, draw=True)
+    assert match.devices == [first, None, None, None]
+    guest.press("a")
+    arcade.wait(TAKE + 0.2, draw=True)
+    guest.release("a")
+    assert match.devices == [first, None, device, None]
+    assert isinstance(match.match.brains[2], Hands)
+    assert 2 in match.helped, "what the AI scored is no record of the newcomer"
+    tap(arcade, guest, "start")
+    arcade.shown(Pause)
+    match.restart()
+    arcade.press(Act.START, device)
+    arcade.frame()
+    again = arcade.shown(MatchScene)
+    assert again.devices == [first, None, device, None]
+    assert isinstance(again.match.brains[2], Hands)
+
+
+# ---- results
+
+
+def ended(arcade: Arcade, brains: str, devices: list[Device]) -> Results:
+    match = MatchScene(arcade.house, setup(brains, 0.02), devices)
+    arcade.open(match)
+    arcade.until(lambda: isinstance(arcade.stack.top, Results))
+    return arcade.shown(Results)
+
+
+def test_b_leaves_the_results_only_late_and_held(arcade: Arcade, pads: ExitStack) -> None:
+    pad, device = plug(arcade, pads)
+    results = ended(arcade, "human easy off off", [device])
+    for _ in range(12):
+        tap(arcade, pad, "b")
+        arcade.wait(0.2)
+    pad.press("b")
+    arcade.until(lambda: results.age > LATE + 1.0)
+    assert arcade.shown(Results) is results, "a button that is still held from the match"
+    pad.release("b")
+    arcade.frame()
+    tap(arcade, pad, "b", "b", "b")
+    assert arcade.shown(Results) is results
+    pad.press("b")
+    arcade.wait(LEAVE + 0.1)
+    assert arcade.stack.top is arcade.title
+
+
+def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pads: ExitStack) -> None:
+    _, first = plug(arcade, pads)
+    guest, device = plug(arcade, pads)
+    results = ended(arcade, "human easy off off", [first])
+    arcade.wait(LATE + 1.0)
+    tap(arcade, guest, *BUTTONS, "a")
+    guest.press("b")
+    arcade.wait(1.0)
+    guest.release("b")
+    assert arcade.shown(Results) is results
+    assert not results.ballot.votes
+    guest.press("a")
+    arcade.wait(TAKE + 0.2, draw=True)
+    guest.release("a")
+    assert results.ballot.votes == {1}
+    arcade.press(Act.FIRE, first)
+    arcade.frame()
+    match = arcade.shown(MatchScene)
+    assert match.devices[:2] == [first, device]
+    assert [seat.brain for seat in match.setup.seats[:2]] == ["human", "human"]
+
+
+def test_change_game_changes_the_game_and_keeps_everybodys_seat(arcade: Arcade) -> None:
+    ended(arcade, "human off human hard", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
+    arcade.wait(3.0)
+    arcade.press(Act.EXTRA, KEYS[1])
+    arcade.shown(Results)
+    arcade.press(Act.EXTRA, KEYS[0])
+    page = arcade.shown(GameChoice)
+    assert page.focus.name != "pitanks"
+    for act in (Act.FIRE, *EVERY):
+        arcade.press(act, KEYS[1])
+    assert arcade.shown(GameChoice) is page
+    arcade.press(Act.FIRE, KEYS[2])
+    there = arcade.shown(Lobby)
+    assert there.game == "factory"
+    assert [place.device for place in there.seats.places] == [KEYS[2], None, KEYS[0], None]
+    assert there.seats.places[3].strength == "hard"
+    assert len(arcade.stack.scenes) == 2, "the title lies below, not the lobby of the game before"
+
+
+def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(arcade: Arcade, pads: ExitStack) -> None:
+    pad, device = plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
+    scene = Title(arcade.house)
+    arcade.open(scene)
+    assert scene.asked == ("Press {button} to play", "SPACE")
+    tap(arcade, pad, "down")
+    assert arcade.house.controls.last == device
+    assert scene.asked == ("Lab: press {button}", "Cross")
+    pad.unplug()
+    arcade.frame()
+    assert scene.asked[1] == "SPACE", "not the button of a pad that is gone"
+
+
+# ---- anything may happen
+
+
+def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) -> None:
+    chance = random.Random(9)
+    arcade.stack.scenes[1:] = []
+    page = Lobby(arcade.house, "pitanks")
+    arcade.open(page)
+    acts = [act for act in Act if act not in (Act.START, Act.EXTRA, Act.POINT, Act.CLICK, Act.FOUND, Act.LOST)]
+    for _ in range(4000):
+        arcade.stack.scenes[1:] = [page]
+        device, act = chance.choice([*KEYS, Device("pad", 7)]), chance.choice(acts)
+        people = [place.device for place in page.seats.places]
+        before = {place.device: (i, place.ready) for i, place in enumerate(page.seats.places) if place.kind == HUMAN}
+        arcade.press(act, device)
+        after = {place.device: (i, place.ready) for i, place in enumerate(page.seats.places) if place.kind == HUMAN}
+        for other in people:
+            if other and other != device:
+                assert after[other] == before[other], f"{act} of {device} changed the seat of {other}"
+
+
+def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> None:
+    chance = random.Random(4)
+    arcade.stack.scenes[1:] = []
+    acts = [act for act in Act if act not in (Act.POINT, Act.CLICK, Act.FOUND, Act.LOST)]
+    seen = set()
+    for i in range(3000):
+        if len(arcade.stack.scenes) == 1:
+            arcade.open(Lobby(arcade.house, ("pitanks", "factory", "race")[i % 3]))
+        arcade.press(chance.choice(acts), chance.choice([*KEYS, Device("pad", 7)]))
+        top = arcade.stack.top
+        seen.add(type(top).__name__)
+        if isinstance(top, MatchScene):
+            driving = [device for device in top.devices if device]
+            assert len(driving) == len(set(driving)), "nobody drives two seats"
+            assert Device("pad", 7) not in driving or top.house.controls.connected(Device("pad", 7))
+            if chance.random() < 0.01:
+                top.stop()
+        if i % 4 == 0:
+            arcade.stack.turn(arcade.stack.top.update(chance.choice((0.02, 0.05, 0.4))))
+    assert {"Lobby", "SetupPage", "MatchScene", "Pause"} <= seen

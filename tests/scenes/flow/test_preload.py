@@ -1,0 +1,135 @@
+"""What the arcade prepares behind the title: arenas, racing lines, and the Lab's compiler, once in a run."""
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.games.game import Setup
+from pigaming_app.scenes.app import Options, opened
+from pigaming_app.scenes.flow import arena_preload as arena_jobs
+from pigaming_app.scenes.flow.preload import Backstage
+from pigaming_app.scenes.lab.compiler import Compiler
+from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.ui.input.events import Act
+from tests.scenes.arcade import KEYS, Arcade
+
+ENDLESS = (sys.executable, "-c", "import sys; sys.stdin.read()")
+MOST = 60.0  # s
+
+
+def until(true: Callable[[], bool]) -> None:
+    end = time.monotonic() + MOST
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def prepared(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
+    """The arenas as they are prepared, without the work."""
+    done: list[tuple[str, str]] = []
+    monkeypatch.setattr(arena_jobs, "read", lambda game, name: None)
+    monkeypatch.setattr(arena_jobs, "prepare", lambda game, name: done.append((game, name)))
+    return done
+
+
+def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tuple[str, str]]) -> None:
+    backstage, after = Backstage(), list[int]()
+    backstage.then = lambda: after.append(len(prepared))
+    assert backstage.ready("race", "classic"), "without the thread nothing is waited for"
+    backstage.start()
+    backstage.start()
+    until(lambda: not backstage.busy)
+    assert prepared == arena_jobs.every_arena()
+    assert after == [len(prepared)]
+    assert all(backstage.ready(*one) for one in prepared)
+
+
+def test_where_preparing_fails_matches_begin_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken() -> list[tuple[str, str]]:
+        raise MemoryError("no more")
+
+    monkeypatch.setattr(arena_jobs, "every_arena", broken)
+    backstage = Backstage()
+    backstage.start()
+    until(lambda: not backstage.busy)
+    assert backstage.ready("race", "classic")
+
+
+def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, home: Path) -> None:
+    arcade = Arcade(controls)  # type: ignore[arg-type]
+    seats = Seats("normal")
+    seats.join(KEYS[0])
+    seats.fill()
+    page = SetupPage(arcade.house, "pitanks", seats)
+    arcade.open(page)
+    arcade.wait(1.0)
+
+    class Busy(Backstage):
+        done = False
+
+        def ready(self, game: str, arena: str) -> bool:
+            return self.done
+
+    arcade.house.backstage = busy = Busy()
+    arcade.press(Act.FIRE)
+    arcade.press(Act.RIGHT)
+    arcade.wait(0.5)
+    assert arcade.stack.top is page, "nothing else can be chosen meanwhile"
+    busy.done = True
+    arcade.frame()
+    assert isinstance(arcade.stack.top, MatchScene)
+    assert isinstance(arcade.stack.top.setup, Setup)
+
+
+@pytest.mark.skipif(not can_compile(), reason="numba is not installed")
+def test_the_compiler_runs_once_from_the_title_on_and_ends_with_the_arcade(
+    home: Path, prepared: list[tuple[str, str]]
+) -> None:
+    with opened(Options(headless=True)) as app:
+        compiler = app.house.compiler
+        compiler._command = ENDLESS
+        app.compose(1 / 60)
+        assert compiler.code is None
+        assert compiler._process is None, "the first picture comes first"
+
+        def started() -> bool:
+            app.compose(1 / 60)
+            return compiler._process is not None
+
+        until(started)
+        process = compiler._process
+        assert process
+        for _ in range(60):
+            app.compose(1 / 60)
+        assert compiler._process is process
+        assert process.poll() is None
+    assert process.poll() is not None
+
+
+@pytest.mark.parametrize("simulated", [True, False], ids=["in simulated time", "with a match on top"])
+def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool) -> None:
+    def first(house: object) -> SetupPage:
+        seats = Seats("normal")
+        seats.join(KEYS[0])
+        return SetupPage(house, "pitanks", seats)  # type: ignore[arg-type]
+
+    options = Options(headless=True, step=1 / 60) if simulated else Options(headless=True, first=first)
+    with opened(options) as app:
+        for _ in range(30):
+            app.compose(1 / 60)
+        assert not app.house.backstage.busy
+        assert app.house.compiler._process is None
+
+
+def test_a_compiler_that_was_ended_before_it_began_never_begins() -> None:
+    compiler = Compiler(ENDLESS)
+    compiler.end()
+    compiler.start()
+    assert compiler._process is None

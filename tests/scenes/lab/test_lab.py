@@ -1,0 +1,363 @@
+"""The Lab: a robot learns from nothing, knobs are turned, it is played against, and it goes on learning after that."""
+
+from itertools import combinations
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.scenes.brain.rose import PETALS
+from pigaming_app.scenes.flow.stack import Stack
+from pigaming_app.scenes.lab import progress, scene
+from pigaming_app.scenes.lab import trainer as workshop
+from pigaming_app.scenes.lab import view as page
+from pigaming_app.scenes.lab.challenge import ROBOT, Fight, Verdict
+from pigaming_app.scenes.lab.compare_page import Compare
+from pigaming_app.scenes.lab.layout import CURVE, KNOB_NAMES, MATCH, PLOT, SPEED
+from pigaming_app.scenes.lab.learning_curve import Measure, room, smoothed
+from pigaming_app.scenes.lab.menu import LabMenu
+from pigaming_app.scenes.lab.scene import Lab
+from pigaming_app.scenes.lab.view import warming
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.sim.record import digest
+from pigaming_app.ui.draw.theme import BODY, text_width
+from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.widgets.button_prompts import ROOM, places
+from tests.scenes.arcade import KEYS, Arcade
+from tests.ui.input.virtual_pad import VirtualPad
+
+SAFE = pygame.Rect(96, 54, 1728, 972)
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setattr(progress, "MATCHES", {True: 2, False: 2})
+    arcade = Arcade(controls)
+    arcade.open(Lab(arcade.house, fast=False))
+    arcade.wait(0.5)
+    return arcade
+
+
+def lab(arcade: Arcade) -> Lab:
+    return arcade.shown(Lab)
+
+
+def learn(arcade: Arcade, matches: int) -> None:
+    """Let it play some matches, as fast as it can."""
+    training = lab(arcade).workshop.training
+    arcade.until(lambda: training.matches >= matches, 600.0)
+
+
+def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It has half a second of every frame."""
+    monkeypatch.setattr(workshop, "SLICE", 0.5)
+    lab(arcade).workshop.speed = workshop.FASTEST
+
+
+def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcade: Arcade) -> None:
+    arcade.stack = Stack(Title(arcade.house))
+    for _ in range(2):
+        title = arcade.shown(Title)
+        title.lab = title.lab or Lab(arcade.house, fast=False)
+        title.focus.go("lab")
+        arcade.press(Act.FIRE)
+        assert lab(arcade) is title.lab
+        arcade.wait(0.5)
+        arcade.press(Act.BACK)
+    assert lab_of(arcade).workshop.training.match.tick > 0
+    assert lab_of(arcade).workshop.join()
+
+
+def lab_of(arcade: Arcade) -> Lab:
+    found = arcade.shown(Title).lab
+    assert isinstance(found, Lab)
+    return found
+
+
+def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, home: Path) -> None:
+    fresh = Lab(Arcade(controls).house, fast=False)
+    assert fresh.workshop.training.experiences == 0
+    assert fresh.workshop.moment.knowing == 0.0
+    fresh.entered()
+    fresh.update(0.0)
+    assert list(fresh.shown.signs) == ["unknown"] * PETALS
+    assert fresh.shown.levels == [0] * PETALS
+
+
+def test_while_it_is_watched_it_plays_in_real_time_and_ten_times_as_fast(arcade: Arcade) -> None:
+    match = lab(arcade).workshop.training.match
+    before = match.tick
+    arcade.wait(1.0)
+    assert match.tick - before == pytest.approx(50, abs=2)
+    arcade.press(Act.ALT)
+    before = match.tick
+    arcade.wait(1.0)
+    assert match.tick - before == pytest.approx(500, abs=20)
+
+
+def test_as_fast_as_it_can_it_learns_is_examined_and_has_a_plan(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    at_full_speed(arcade, monkeypatch)
+    learn(arcade, 2)
+    arcade.until(lambda: len(lab(arcade).workshop.progress.measures) >= 2, 600.0)
+    arcade.wait(1.0)
+    shown = lab(arcade).shown
+    assert all(0.0 <= one.share <= 1.0 for one in shown.measures)
+    assert [one.matches for one in shown.measures] == sorted(one.matches for one in shown.measures)
+    assert shown.knowing > 0.0
+    assert any(shown.levels)
+    assert sum(one.seen for one in lab(arcade).workshop.progress.plan if one) > 1000
+
+
+def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
+    table, match = lab(arcade).workshop.training.table, lab(arcade).workshop.training.match
+    before = digest(table), digest(match)
+    for _ in range(5):
+        lab(arcade)
+    assert (digest(table), digest(match)) == before
+
+
+def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
+    here = lab(arcade)
+    here.focus.go("still")
+    arcade.press(Act.FIRE)
+    for _ in range(3):
+        arcade.press(Act.LEFT)
+    arcade.press(Act.UP)
+    assert here.workshop.recipe.still == -2.0
+    assert lab(arcade).held == "still"
+    arcade.press(Act.BACK)
+    assert lab(arcade).held == "", "BACK lets go of the knob and does not leave"
+    arcade.press(Act.LEFT)
+    assert here.workshop.recipe.still == -2.0
+    arcade.frame()
+    assert here.workshop.training.recipe.still == -2.0
+    assert here.workshop.training.table.knobs.still == -2.0
+
+
+def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
+    lab(arcade).focus.go("hit")
+    arcade.press(Act.FIRE)
+    arcade.press(Act.EXTRA)
+    arcade.shown(Fight)
+
+
+@pytest.mark.parametrize(("act", "end"), [(Act.RIGHT, 10.0), (Act.LEFT, -10.0)])
+def test_a_knob_stops_at_its_ends(arcade: Arcade, act: Act, end: float) -> None:
+    lab(arcade).focus.go("miss")
+    arcade.press(Act.FIRE)
+    for _ in range(25):
+        arcade.press(act)
+    assert lab(arcade).workshop.recipe.miss == end
+
+
+def test_what_it_has_learned_stays_when_a_knob_is_turned(arcade: Arcade) -> None:
+    before = lab(arcade).workshop.training.experiences
+    lab(arcade).workshop.recipe = RECIPES[2]
+    arcade.wait(0.5)
+    assert lab(arcade).workshop.training.experiences > before > 0
+
+
+def test_a_pad_reaches_everything(arcade: Arcade) -> None:
+    here = lab(arcade)
+    found = {here.focus.name}
+    for act in (Act.DOWN, *[Act.LEFT] * 3, Act.UP, Act.RIGHT):
+        arcade.press(act)
+        found.add(here.focus.name)
+    assert found == {"speed", "play", *KNOB_NAMES}
+
+
+def test_a_mouse_chooses_a_speed_and_turns_a_knob(arcade: Arcade) -> None:
+    here = lab(arcade)
+    for i in (2, 0, 1):
+        left, wide = page.speed_part(i)
+        arcade.click(SPEED.left + left + wide / 2, SPEED.centery)
+        assert here.workshop.speed == i
+    knob = here.focus.rect("hit")
+    arcade.click(knob.left + 20, knob.centery)
+    arcade.click(knob.left + 20, knob.centery)
+    arcade.click(knob.right - 20, knob.centery)
+    assert here.workshop.recipe.hit == 9.0
+
+
+def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
+    here = lab(arcade)
+    here.name = "ZUMI"
+    experiences = here.workshop.training.experiences
+    arcade.press(Act.EXTRA, KEYS[1])
+    fight = arcade.shown(Fight)
+    assert fight.inner.devices[0] == KEYS[1]
+    assert fight.inner.stage.driver(ROBOT, None) == ("ZUMI", "ai")
+    arcade.until(lambda: fight.inner.match.state.tick > 200)
+    robot = fight.inner.match.state.robots[ROBOT]
+    start = fight.inner.match.arena.starts[ROBOT]
+    assert (robot.x, robot.y, robot.heading) != (start.x, start.y, start.heading), "it plays"
+    while not fight.inner.match.over:
+        fight.inner.match.tick()
+    arcade.wait(3.0)
+    arcade.shown(Verdict)
+    assert here.workshop.training.experiences == experiences, "it rests meanwhile"
+    assert here.workshop.join()
+    for kind, seconds in ((pygame.KEYDOWN, 0.2), (pygame.KEYUP, 5.0), (pygame.KEYDOWN, 0.8), (pygame.KEYUP, 0.1)):
+        pygame.event.post(pygame.Event(kind, key=0, scancode=pygame.KSCAN_ESCAPE, mod=0))
+        arcade.wait(seconds)
+    assert lab(arcade) is here
+    arcade.wait(0.5)
+    assert here.workshop.training.experiences > experiences
+
+
+def test_one_can_look_into_the_brain_that_one_plays_against(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    at_full_speed(arcade, monkeypatch)
+    arcade.wait(0.2)
+    arcade.press(Act.EXTRA)
+    fight = arcade.shown(Fight)
+    arcade.until(lambda: fight.inner.match.state.tick > 20)
+    before = digest(fight.inner.match.state)
+    arcade.press(Act.BRAIN)
+    arcade.shown(Fight)
+    assert fight.inner.stage.brain.seats == [ROBOT]
+    assert digest(fight.inner.match.state) == before
+
+
+def test_once_more_and_an_early_end(arcade: Arcade) -> None:
+    arcade.press(Act.EXTRA)
+    first = arcade.shown(Fight)
+    while not first.inner.match.over:
+        first.inner.match.tick()
+    arcade.wait(3.0)
+    arcade.shown(Verdict)
+    arcade.press(Act.FIRE)
+    second = arcade.shown(Fight)
+    assert second is not first
+    arcade.wait(0.2)
+    arcade.press(Act.START)
+    arcade.shown(Pause).focus.go("restart")
+    arcade.press(Act.FIRE)
+    arcade.press(Act.FIRE)
+    arcade.wait(0.1)
+    third = arcade.shown(Fight)
+    assert third is not second
+    arcade.press(Act.START)
+    arcade.shown(Pause).focus.go("end")
+    arcade.press(Act.FIRE)
+    arcade.press(Act.FIRE)
+    arcade.wait(0.1)
+    lab(arcade)
+
+
+def test_forgetting_everything_takes_two_presses(arcade: Arcade) -> None:
+    here = lab(arcade)
+    arcade.press(Act.START)
+    arcade.shown(LabMenu).focus.go("anew")
+    arcade.press(Act.FIRE)
+    arcade.shown(LabMenu)
+    assert here.workshop.training.experiences > 0
+    arcade.press(Act.FIRE)
+    assert here.workshop.training.experiences == 0
+    assert lab(arcade) is here
+
+
+def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pigaming_app.scenes.lab.compare_page.MINUTES", 0.1)
+    monkeypatch.setattr("pigaming_app.scenes.lab.compare_page.SLICE", 0.2)
+    at_full_speed(arcade, monkeypatch)
+    learn(arcade, 1)
+    here = lab(arcade)
+    arcade.press(Act.START)
+    arcade.shown(LabMenu).focus.go("compare")
+    arcade.press(Act.FIRE)
+    table = arcade.shown(Compare)
+    assert [player.own for player in table.players] == [True, True, False]
+    arcade.until(lambda: not table.pairs, 600.0)
+    arcade.shown(Compare)
+    assert sum(player.won for player in table.players) == sum(player.lost for player in table.players)
+    assert {player.won + player.tied + player.lost for player in table.players} == {4}
+    points = [player.points for player in table.order()]
+    assert points == sorted(points, reverse=True)
+    arcade.press(Act.BACK)
+    assert lab(arcade) is here
+
+
+def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
+    kept = lab(arcade).workshop.checkpoints()
+    assert set(kept) == {0}
+    assert (kept[0].matches, kept[0].experiences) == (0, 0)
+
+
+def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:
+    here = lab(arcade)
+    here.workshop.recipe = RECIPES[2]
+    arcade.house.idle = scene.IDLE + 1.0
+    arcade.frame()
+    assert arcade.stack.top is arcade.title
+    assert here.workshop.training.experiences == 0
+    assert here.workshop.recipe == scene.FIRST
+    assert here.workshop.join()
+
+
+def test_the_moment_in_which_it_beats_the_hand_made_robot_is_cheered_once(arcade: Arcade) -> None:
+    here = lab(arcade)
+    for share in (1.0, 0.0, 0.2, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0):
+        measures = here.workshop.progress.measures
+        here.workshop.progress.measures = [*measures, Measure(len(measures), share)]
+        lab(arcade)
+        arcade.frame()
+    assert arcade.sounds.heard.count("win") == 1
+    assert here.sentence == arcade.house.words("lab.outdone")
+    here.begin()
+    arcade.frame()
+    assert arcade.sounds.heard.count("win") == 1
+
+
+def test_the_line_through_the_dots_moves_part_of_the_way_to_each() -> None:
+    line = smoothed([Measure(0, 0.0), Measure(1, 1.0), Measure(2, 1.0)])
+    assert line == pytest.approx([0.0, 0.3, 0.51])
+    assert [room(matches) for matches in (0, 50, 50.5, 199)] == [50, 50, 100, 200]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_words_stay_in_their_places(language: str, controls: Controls, home: Path) -> None:
+    words = Words(language)
+    arcade = Arcade(controls, language)
+    there = Lab(arcade.house, fast=False)
+    for row in (there.prompts, there.turning):
+        ends = places(row.said, ROOM)
+        assert SAFE.left - 16 <= ends[0][0]
+        assert ends[-1][1] <= SAFE.right + 16
+    with VirtualPad() as pad:
+        arcade.open(there)
+        arcade.wait(0.1)
+        pad.tap("b")
+        arcade.wait(0.1)
+        assert places(there.prompts.said, ROOM)[-1][1] <= SAFE.right
+    for name in KNOB_NAMES:
+        lines = page.balanced(words(f"lab.{name}"))
+        assert len(lines) <= 2
+        assert all(text_width(line, BODY, "body") <= 206 for line in lines)
+    left, right = page.bar_ends(words)
+    assert right - left > 300
+    rights = {"won": 340, "tied": 200, "lost": 210, "points": 232}
+    assert all(text_width(words(f"lab.{key}"), BODY, "body") < wide - 20 for key, wide in rights.items())
+
+
+def test_nothing_in_the_lab_lies_on_something_else(arcade: Arcade) -> None:
+    spots = lab(arcade).focus.spots
+    assert all(SAFE.contains(spot.rect) for spot in spots)
+    assert not [(a.name, b.name) for a, b in combinations(spots, 2) if a.rect.colliderect(b.rect)]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(controls: Controls, language: str) -> None:
+    lit = warming(Words(language)("lab.warming"))
+    box = pygame.mask.from_threshold(lit.image, (0, 0, 0), (40, 40, 40, 255))
+    box.invert()
+    rects = box.get_bounding_rects()
+    line = rects[0].unionall(rects[1:]).move(lit.at)
+    assert CURVE.contains(line)
+    assert line.right < PLOT.right, "the number beside the plot keeps its place"
+    assert not line.colliderect(MATCH)

@@ -1,0 +1,192 @@
+"""Robots are named with a pad, saved and opened again; what can go wrong is said in one sentence."""
+
+import errno
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.scenes.lab import saved_robots as robots
+from pigaming_app.scenes.lab.menu import LabMenu
+from pigaming_app.scenes.lab.name_page import Naming, middle
+from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, Shelf
+from pigaming_app.scenes.lab.scene import Lab
+from pigaming_app.sim.record import digest
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act
+from tests.scenes.arcade import Arcade
+from tests.ui.input.virtual_pad import VirtualPad
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path) -> Arcade:
+    arcade = Arcade(controls)
+    arcade.open(Lab(arcade.house, fast=False))
+    arcade.wait(0.5)
+    return arcade
+
+
+def lab(arcade: Arcade) -> Lab:
+    return arcade.shown(Lab)
+
+
+def menu(arcade: Arcade, item: str) -> None:
+    arcade.press(Act.START)
+    arcade.shown(LabMenu).focus.go(item)
+    arcade.press(Act.FIRE)
+    arcade.wait(0.5)
+
+
+def save(arcade: Arcade, name: str) -> None:
+    """Save the robot under a name, letter by letter."""
+    menu(arcade, "save")
+    page = arcade.shown(Naming)
+    spell(page, name)
+    arcade.press(Act.START)
+
+
+def spell(page: Naming, name: str) -> None:
+    page.letters = [robots.LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
+
+
+def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Arcade) -> None:
+    with VirtualPad() as pad:
+        arcade.wait(0.1)
+        pad.tap("start")
+        arcade.wait(0.1)
+        arcade.shown(LabMenu)
+        pad.tap("a")
+        arcade.wait(0.5)
+        page = arcade.shown(Naming)
+        spell(page, "A")
+        pad.tap("down")
+        arcade.wait(0.1)
+        pad.tap("a")
+        arcade.wait(0.1)
+        pad.tap("up")
+        arcade.wait(0.1)
+        assert page.name == "B9"
+        pad.tap("start")
+        arcade.wait(0.1)
+    here = lab(arcade)
+    assert here.name == "B9"
+    assert here.sentence == arcade.house.words("lab.saved", name="B9")
+    assert robots.names() == ["B9"]
+    kept = robots.fetch("B9", fast=False)
+    assert kept.experiences > 0
+    here.begin()
+    menu(arcade, "open")
+    arcade.shown(Shelf)
+    arcade.press(Act.FIRE)
+    assert lab(arcade) is here
+    assert (here.name, here.workshop.training.experiences) == ("B9", kept.experiences)
+    assert digest(here.workshop.training.table) == digest(kept.table)
+    assert here.workshop.recipe == kept.recipe
+
+
+def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> None:
+    save(arcade, "VOLT")
+    before = robots.file_of("VOLT").read_bytes()
+    lab(arcade).begin()
+    arcade.wait(0.5)
+    save(arcade, "VOLT")
+    page = arcade.shown(Naming)
+    assert page.taken
+    assert robots.file_of("VOLT").read_bytes() == before
+    arcade.press(Act.START)
+    assert lab(arcade).name == "VOLT"
+    assert robots.file_of("VOLT").read_bytes() != before
+
+
+def test_saving_again_under_the_same_name_needs_no_question(arcade: Arcade) -> None:
+    save(arcade, "NEON")
+    menu(arcade, "save")
+    assert arcade.shown(Naming).name == "NEON"
+    arcade.press(Act.START)
+    assert lab(arcade).name == "NEON"
+
+
+def test_no_name_is_no_name(arcade: Arcade) -> None:
+    save(arcade, " ")
+    arcade.shown(Naming)
+    assert robots.names() == []
+    arcade.press(Act.BACK)
+    lab(arcade)
+
+
+def test_a_mouse_spells_too(arcade: Arcade) -> None:
+    menu(arcade, "save")
+    page = arcade.shown(Naming)
+    spell(page, "AB")
+    arcade.click(middle(1), 510 + 160)
+    assert (page.slot, page.name) == (1, "AC")
+    arcade.click(middle(0), 510 - 160)
+    assert page.name == "C", "the letter before A is a blank"
+
+
+@pytest.mark.parametrize(
+    ("number", "key"),
+    [(errno.ENOSPC, "lab.disk_full"), (errno.EACCES, "lab.no_writing"), (errno.EIO, "lab.no_writing")],
+)
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_a_disk_that_takes_nothing_is_one_sentence_and_the_robot_lives_on(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, key: str, language: str
+) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(number, "no")
+
+    arcade.house.words.switch(language)
+    monkeypatch.setattr("pigaming_app.ai.qlearning.table_files.save", fail)
+    experiences = lab(arcade).workshop.training.experiences
+    save(arcade, "ROBI")
+    here = lab(arcade)
+    assert (here.wrong, here.sentence) == (True, arcade.house.words(key))
+    assert here.workshop.training.experiences >= experiences > 0
+    assert here.name == ""
+
+
+def test_a_folder_that_cannot_be_made_is_one_sentence(arcade: Arcade, home: Path) -> None:
+    home.mkdir(exist_ok=True)
+    (home / "data").write_text("in the way")
+    save(arcade, "ROBI")
+    assert lab(arcade).sentence == arcade.house.words("lab.no_writing")
+    assert robots.names() == []
+
+
+def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade: Arcade) -> None:
+    save(arcade, "PIXI")
+    path = robots.file_of("PIXI")
+    path.write_bytes(path.read_bytes()[:200])
+    before = lab(arcade).workshop.training
+    menu(arcade, "open")
+    arcade.press(Act.FIRE)
+    here = lab(arcade)
+    assert (here.wrong, here.sentence) == (True, arcade.house.words("lab.broken"))
+    assert here.workshop.training is before
+
+
+def test_an_empty_shelf_leads_back(arcade: Arcade) -> None:
+    menu(arcade, "open")
+    arcade.shown(Shelf)
+    arcade.press(Act.FIRE)
+    lab(arcade)
+
+
+def test_many_robots_fill_more_than_one_page(arcade: Arcade) -> None:
+    robots.folder().mkdir(parents=True)
+    for i in range(COLUMNS * ROWS + 2):
+        robots.file_of(f"R{i}").write_bytes(b"")
+    (robots.folder() / "not a name.npz").write_bytes(b"")
+    menu(arcade, "open")
+    page = arcade.shown(Shelf)
+    assert (len(page.names), page.pages) == (COLUMNS * ROWS + 2, 2)
+    arcade.press(Act.ALT)
+    assert len(arcade.shown(Shelf).focus.spots) == 2
+    arcade.press(Act.BACK)
+    lab(arcade)
+
+
+def test_a_proposal_is_a_name_that_nobody_has(arcade: Arcade) -> None:
+    first = robots.proposal()
+    save(arcade, first)
+    assert robots.is_name(robots.proposal())
+    assert robots.proposal() != first

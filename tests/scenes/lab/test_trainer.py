@@ -1,0 +1,236 @@
+"""The training beside the frames: it never waits for compiling, goes over to compiled play, and its thread ends."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.scenes.lab import trainer as workshop
+from pigaming_app.scenes.lab.compiler import Compiler
+from pigaming_app.scenes.lab.trainer import FASTEST, Workshop
+from pigaming_app.sim.kernel import can_compile
+
+needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not installed")
+
+
+@pytest.fixture
+def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Workshop]:
+    monkeypatch.setattr("pigaming_app.scenes.lab.compiler.PATIENCE", 0)  # other tests keep all cores busy
+    compiler = Compiler()
+    shop = Workshop(RECIPES[1], 5, compiler=compiler)
+    yield shop
+    shop.close()
+    assert shop.join(10.0)
+    compiler.end()
+
+
+def feed(shop: Workshop, so: Callable[[], bool], most: float = 300.0) -> None:
+    """Frame after frame until something is so."""
+    end = time.monotonic() + most
+    while not so():
+        assert time.monotonic() < end, "it never comes"
+        shop.feed(1 / 60)
+        time.sleep(1 / 60)
+
+
+def threads() -> list[str]:
+    return [thread.name for thread in threading.enumerate() if thread.name == "lab"]
+
+
+def test_without_numba_there_is_no_thread_and_it_learns_in_slices() -> None:
+    shop = Workshop(RECIPES[1], 5, fast=False)
+    feed(shop, lambda: shop.training.experiences > 0)
+    assert threads() == []
+    assert not shop.fast
+
+
+def test_a_slice_ends_in_time_whatever_is_going_on() -> None:
+    shop = Workshop(RECIPES[1], 5, fast=False)
+    shop.speed = FASTEST
+    ticks = []
+    for _ in range(30):
+        before = shop.training.match.tick
+        shop.feed(1 / 60)
+        ticks.append(shop.training.match.tick - before)
+    assert max(ticks) < 6000, "no slice is a whole match"
+
+
+@needs_numba
+def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(shop: Workshop) -> None:
+    shop.speed = FASTEST
+    feed(shop, lambda: shop.training.experiences > 10)
+    assert not shop.fast
+    feed(shop, lambda: shop.fast)
+    assert shop.training.experiences > 10, "what it had learned is not lost"
+    feed(shop, lambda: shop.training.matches >= 12 and len(shop.progress.measures) >= 2)
+    assert {0, 10} <= set(shop.checkpoints())
+    assert shop.checkpoints()[10].matches == 10
+    number = shop.moment.number
+    feed(shop, lambda: shop.moment.number > number + 3)
+    shop.close()
+    assert shop.join(10.0)
+    assert threads() == []
+    experiences = shop.training.experiences
+    time.sleep(0.1)
+    assert shop.training.experiences == experiences
+    feed(shop, lambda: shop.training.experiences > experiences)
+
+
+ENDLESS = (sys.executable, "-c", "import sys; sys.stdin.read()")  # ends with the process that started it
+
+
+@pytest.fixture
+def endless() -> Iterator[Compiler]:
+    compiler = Compiler(ENDLESS)
+    yield compiler
+    compiler.end()
+
+
+@needs_numba
+@pytest.mark.parametrize("closed", [True, False], ids=["closed", "forgotten"])
+def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(endless: Compiler, closed: bool) -> None:
+    shop = Workshop(RECIPES[1], 5, fast=True, compiler=endless)
+    feed(shop, lambda: bool(threads()))
+    feed(shop, lambda: shop.compiling)
+    if closed:
+        shop.close()
+    assert shop.join(10.0)
+    assert not shop.compiling
+
+
+@needs_numba
+@pytest.mark.parametrize("code", [0, 1], ids=["while loading", "in its process"])
+def test_where_compiling_fails_plain_training_goes_on(monkeypatch: pytest.MonkeyPatch, code: int) -> None:
+    def broken() -> None:
+        raise ImportError("no LLVM")
+
+    monkeypatch.setattr(workshop, "compile_all", broken)
+    compiler = Compiler((sys.executable, "-c", f"exit({code})"))
+    shop = Workshop(RECIPES[1], 5, fast=True, compiler=compiler)
+    feed(shop, lambda: not shop.may_compile)
+    before = shop.training.experiences
+    feed(shop, lambda: shop.training.experiences > before)
+    assert not shop.fast
+    shop.close()
+    assert shop.join(10.0)
+    compiler.end()
+
+
+@needs_numba
+def test_where_compiled_training_breaks_plain_training_goes_on_with_the_same_table(
+    shop: Workshop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(self: Workshop) -> None:
+        raise MemoryError("no more")
+
+    shop._hand_over(fast=True)
+    table = shop.training.experiences
+    monkeypatch.setattr(Workshop, "_run", broken)
+    shop.may_compile = True
+    feed(shop, lambda: not shop.may_compile)
+    assert shop.join(10.0)
+    assert not shop.fast
+    feed(shop, lambda: shop.training.experiences > table)
+
+
+@needs_numba
+def test_leaving_and_returning_waits_for_the_same_process(endless: Compiler) -> None:
+    shop = Workshop(RECIPES[1], 5, compiler=endless)
+    feed(shop, lambda: shop.compiling)
+    process = endless._process
+    assert process
+    for _ in range(2):
+        shop.close()
+        assert shop.join(10.0)
+        assert process.poll() is None, "it goes on compiling while the Lab is left"
+        feed(shop, lambda: shop.compiling)
+        assert endless._process is process
+    shop.close()
+    assert shop.join(10.0)
+
+
+@needs_numba
+def test_a_second_training_in_the_same_arcade_is_compiled_at_once(shop: Workshop) -> None:
+    feed(shop, lambda: shop.fast)
+    process = shop._compiler._process
+    again = Workshop(RECIPES[1], 6, compiler=shop._compiler)
+    feed(again, lambda: again.fast, 10.0)
+    assert again.training.loop is shop.training.loop
+    assert again._compiler._process is process
+    again.close()
+    assert again.join(10.0)
+
+
+@needs_numba
+def test_the_process_ends_with_the_arcade_and_is_not_started_again() -> None:
+    compiler = Compiler(ENDLESS)
+    compiler.start()
+    process = compiler._process
+    compiler.start()
+    assert process
+    assert compiler._process is process
+    compiler.end()
+    assert process.poll() is not None
+    compiler.start()
+    assert compiler._process is process
+
+
+def test_without_numba_no_process_is_started(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pigaming_app.scenes.lab.compiler.can_compile", lambda: False)
+    compiler = Compiler(ENDLESS)
+    compiler.start()
+    assert compiler._process is None
+
+
+CRASHING = """
+import sys, time
+from pigaming_app.scenes.lab.compiler import Compiler
+compiler = Compiler((sys.executable, "-c",
+                     "from pigaming_app.ai.experiments.evaluation import exit_with_parent; import time; "
+                     "exit_with_parent(); time.sleep(60)"))
+compiler.start()
+print(compiler._process.pid, flush=True)
+time.sleep(60)
+"""
+
+
+@needs_numba
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc says whether a process is there")
+def test_when_the_arcade_is_killed_the_process_ends_by_itself() -> None:
+    arcade = subprocess.Popen([sys.executable, "-c", CRASHING], stdout=subprocess.PIPE, text=True)
+    assert arcade.stdout
+    with arcade, arcade.stdout:
+        compiling = int(arcade.stdout.readline())
+        os.kill(arcade.pid, signal.SIGKILL)
+    end = time.monotonic() + 20.0
+    while runs(compiling):
+        assert time.monotonic() < end, "it is left behind"
+        time.sleep(0.05)
+
+
+@needs_numba
+def test_a_process_that_has_compiled_ends_well_while_the_arcade_goes_on() -> None:
+    code = "from pigaming_app.ai.experiments.evaluation import exit_with_parent; exit_with_parent()"
+    compiler = Compiler((sys.executable, "-c", code))
+    compiler.start()
+    end = time.monotonic() + 60.0
+    while compiler.code is None:
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    assert compiler.code == 0
+    compiler.end()
+
+
+def runs(pid: int) -> bool:
+    """Whether a process runs; one that has ended and was only not collected yet does not."""
+    try:
+        return ") Z" not in Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return False

@@ -1,0 +1,149 @@
+"""The choice before a match: arena, minutes, rules."""
+
+import itertools
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from pigaming_app import ASSETS
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.scenes.lobby import match_setup as setup
+from pigaming_app.scenes.lobby.match_setup import SetupPage, playable, rows
+from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD
+from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.storage.settings import Choice
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device
+from tests.scenes.arcade import KEYS, Arcade
+from tests.ui.input.virtual_pad import VirtualPad
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls)
+    seats = Seats()
+    seats.join(KEYS[0])
+    seats.add()
+    arcade.open(SetupPage(arcade.house, "pitanks", seats))
+    return arcade
+
+
+def page(arcade: Arcade) -> SetupPage:
+    return arcade.shown(SetupPage)
+
+
+def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
+    seen = []
+    for _ in arenas("pitanks"):
+        seen.append(page(arcade).chosen.arena)
+        arcade.press(Act.RIGHT)
+    assert sorted(seen) == sorted(arenas("pitanks"))
+    assert page(arcade).chosen.arena == seen[0]
+
+
+def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
+    for act in (Act.RIGHT, Act.DOWN, Act.RIGHT, Act.DOWN, Act.RIGHT):
+        arcade.press(act)
+    arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
+    assert (minutes, variant) == (3, GAMES["pitanks"].variants[1])
+    arcade.press(Act.FIRE)
+    assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
+    arcade.wait(0.5)
+    arcade.press(Act.FIRE)
+    match = arcade.shown(MatchScene)
+    assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
+    assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
+    assert match.devices == [KEYS[0], None, None, None]
+    kept = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
+    assert tuple(kept["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)
+
+
+def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
+    arcade.press(Act.DOWN)
+    for act, last in ((Act.RIGHT, max(GAMES["pitanks"].minutes)), (Act.LEFT, min(GAMES["pitanks"].minutes))):
+        for _ in range(6):
+            arcade.press(act)
+        assert page(arcade).chosen.minutes == last
+
+
+def test_a_mouse_chooses_minutes_rules_and_the_arena_and_begins(arcade: Arcade) -> None:
+    boxes = rows(GAMES["pitanks"])
+    row = boxes["minutes"]
+    arcade.click(row.x + PAD + 3 * (CHIP + APART) + 20, row.centery)
+    assert page(arcade).chosen.minutes == GAMES["pitanks"].minutes[3]
+    before = page(arcade).chosen.variant
+    arcade.click(boxes["rules"].right - 40, boxes["rules"].centery)
+    arcade.click(boxes["rules"].left + 40, boxes["rules"].centery)
+    assert page(arcade).chosen.variant == before
+    arena = page(arcade).chosen.arena
+    arcade.click(*setup.FRAME.center)
+    assert page(arcade).chosen.arena != arena
+    arcade.click(*boxes["go"].center)
+    arcade.shown(MatchScene)
+
+
+def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
+    pad = VirtualPad()
+    arcade.wait(0.1)
+    page(arcade).seats.join(Device("pad", pad.number))
+    arcade.wait(0.1)
+    page(arcade)
+    pad.unplug()
+    arcade.wait(0.1)
+    assert arcade.stack.top is arcade.setup
+
+
+def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
+    arcade.house.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
+    fresh = SetupPage(arcade.house, "pitanks", Seats())
+    rules = GAMES["pitanks"]
+    assert fresh.chosen == Choice("classic", rules.default_minutes, rules.variants[0], 0)
+
+
+def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "arenas" / "pitanks"
+    folder.mkdir(parents=True)
+    (folder / "classic.toml").write_text((ASSETS / "arenas" / "pitanks" / "classic.toml").read_text())
+    (folder / "broken.toml").write_text("title = 3")
+    monkeypatch.setattr("pigaming_app.games.arenas.ASSETS", tmp_path)
+    setup.playable.cache_clear()
+    setup.load_kept.cache_clear()
+    try:
+        assert playable("pitanks") == ("classic",)
+    finally:
+        setup.playable.cache_clear()
+        setup.load_kept.cache_clear()
+
+
+@pytest.mark.parametrize("game", [game for game in GAMES if GAMES[game].goals])
+def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: Arcade, game: str) -> None:
+    rules = GAMES[game]
+    seats = Seats(sides=rules.sides)
+    seats.join(KEYS[0])
+    seats.fill()
+    arcade.open(SetupPage(arcade.house, game, seats))
+    arcade.press(Act.DOWN)
+    for act, last in ((Act.RIGHT, max(rules.goals)), (Act.LEFT, min(rules.goals))):
+        for _ in rules.goals:
+            arcade.press(act)
+        assert page(arcade).chosen.goal == last
+    arcade.wait(0.5, draw=True)
+    arcade.press(Act.FIRE)
+    match = arcade.shown(MatchScene)
+    assert match.setup.goal == min(rules.goals)
+    assert arcade.house.settings.choice("pitanks") == Choice()
+    assert arcade.house.settings.choice(game).goal == min(rules.goals)
+
+
+def test_only_what_can_be_chosen_is_a_row() -> None:
+    for rules in GAMES.values():
+        boxes = rows(rules)
+        assert ("goal" in boxes) == bool(rules.goals)
+        assert ("minutes" in boxes) == (len(rules.minutes) > 1)
+        assert ("rules" in boxes) == (len(rules.variants) > 1)
+        heights = sorted((box.top, box.bottom) for box in boxes.values())
+        assert all(one[1] < other[0] for one, other in itertools.pairwise(heights))

@@ -1,0 +1,138 @@
+"""Who sits where: the rules of the lobby, without a lobby."""
+
+import pytest
+
+from pigaming_app.games.game import ALONE, PAIRS, Seat
+from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
+from pigaming_app.ui.input.events import Device
+
+ANA, BEN, CARLA, DAVID, EVA = (Device("pad", number) for number in range(5))
+
+
+def test_whoever_comes_first_is_player_1() -> None:
+    seats = Seats()
+    assert [seats.join(device) for device in (BEN, ANA)] == [0, 1]
+    assert seats.devices() == [BEN, ANA, None, None]
+    assert seats.seats() == (Seat("human", 0), Seat("human", 1), Seat("off", 2), Seat("off", 3))
+
+
+def test_a_seat_that_was_left_is_the_next_to_be_taken() -> None:
+    seats = Seats()
+    for device in (ANA, BEN, CARLA):
+        seats.join(device)
+    seats.leave(1)
+    assert seats.join(DAVID) == 1
+
+
+def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
+    seats = Seats()
+    seats.join(ANA)
+    assert [seats.add() for _ in range(4)] == [1, 2, 3, None]
+    assert seats.join(BEN) == 3
+    assert seats.join(CARLA) == 2
+    assert seats.join(DAVID) == 1
+    assert seats.join(EVA) is None
+    assert seats.like(HUMAN) == [0, 1, 2, 3]
+
+
+def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
+    seats = Seats(teams=True)
+    seats.join(ANA)
+    assert seats.fill() == [1]
+    assert seats.places[0].team != seats.places[1].team
+    assert seats.fill() == []
+    assert not seats.one_team
+
+
+def test_whoever_comes_joins_the_smaller_team() -> None:
+    seats = Seats(teams=True)
+    for device in (ANA, BEN, CARLA):
+        seats.join(device)
+    seats.places[1].team = 0
+    assert [place.team for place in seats.places[:3]] == [0, 0, 0]
+    assert seats.one_team
+    seats.join(DAVID)
+    assert seats.places[3].team == 1
+    assert not seats.one_team
+
+
+@pytest.mark.parametrize(("steps", "strength"), [(1, "hard"), (2, "hard"), (-1, "easy"), (-2, "easy")])
+def test_all_ais_become_stronger_or_weaker_up_to_an_end(steps: int, strength: str) -> None:
+    seats = Seats()
+    seats.add()
+    seats.add()
+    for _ in range(abs(steps)):
+        seats.strengthen(1 if steps > 0 else -1)
+    assert {seats.places[i].strength for i in seats.like(AI)} == {strength}
+    seats.add()
+    assert seats.places[2].strength == strength
+
+
+def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
+    seats = Seats()
+    seats.add()
+    seats.add()
+    seats.strengthen(1, 0)
+    seats.strengthen(1, 0)
+    assert [seats.places[i].strength for i in (0, 1)] == ["easy", "normal"]
+    assert not Seats().strengthen(1)
+
+
+def test_sending_the_ais_away_leaves_the_people() -> None:
+    seats = Seats()
+    seats.join(ANA)
+    seats.add()
+    seats.clear()
+    assert (seats.like(HUMAN), seats.like(AI), seats.like(EMPTY)) == ([0], [], [1, 2, 3])
+
+
+def team_of(seats: Seats) -> list[int]:
+    return [place.team for place in seats.places if place.kind != EMPTY]
+
+
+def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> None:
+    seats = Seats(sides=PAIRS)
+    assert [seats.join(ANA), seats.join(BEN)] == [0, 1]
+    assert team_of(seats) == [0, 1]
+    assert not seats.fill(), "one against one is a match too"
+    seats.change_team(1)
+    assert seats.one_team
+    assert seats.fill() == [2, 3], "two who want to play together get two rivals"
+    assert team_of(seats) == [0, 0, 1, 1]
+    assert [seat.team for seat in seats.seats()] == [0, 0, 1, 1]
+
+
+def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
+    seats = Seats(sides=PAIRS)
+    seats.join(ANA)
+    assert seats.fill() == [1, 2, 3]
+    assert sorted(team_of(seats)) == [0, 0, 1, 1]
+
+
+def test_three_never_stand_on_one_side_and_the_ai_is_who_gives_way() -> None:
+    seats = Seats(sides=PAIRS)
+    for device in (ANA, BEN):
+        seats.join(device)
+    seats.add()
+    seats.add()
+    assert team_of(seats) == [0, 1, 0, 1]
+    seats.change_team(1)
+    assert team_of(seats) == [0, 0, 1, 1], "Ben came over, the AI went"
+
+
+def test_in_a_race_everyone_drives_alone_against_three() -> None:
+    seats = Seats(sides=ALONE, teams=True)
+    seats.join(ANA)
+    assert seats.fill() == [1, 2, 3]
+    assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
+    assert not seats.one_team
+
+
+def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
+    seats = Seats(rivals=("easy", "normal", "hard", "q1", "q2"))
+    seats.add()
+    for wanted in ("hard", "q1", "q2", "q2"):
+        seats.strengthen(1)
+        assert seats.seats()[0] == Seat(wanted, 0)
+    seats.strengthen(1, 0)
+    assert seats.places[0].strength == "easy"

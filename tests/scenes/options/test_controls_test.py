@@ -1,0 +1,79 @@
+"""The test of the controls shows what is held, and can be left with everything."""
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.scenes.options import controls_test as padtest
+from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device
+from tests.scenes.arcade import Arcade
+from tests.ui.input.virtual_pad import VirtualPad
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls)
+    arcade.open(PadTest(arcade.house))
+    return arcade
+
+
+def light(arcade: Arcade, x: int, y: int, w: int, h: int) -> int:
+    """How bright a part of the page is."""
+    arcade.stack.top.draw(arcade.screen)
+    return sum(pygame.transform.average_color(arcade.screen, pygame.Rect(x, y, w, h))[:3])
+
+
+def test_a_held_key_is_lit_until_it_is_let_go(arcade: Arcade) -> None:
+    box = (96 + 104, padtest.KEYS_Y + 28, 70, 70)  # W
+    dark = light(arcade, *box)
+    pygame.event.post(pygame.Event(pygame.KEYDOWN, scancode=pygame.KSCAN_W, key=0, mod=0))
+    arcade.frame()
+    assert light(arcade, *box) > 1.5 * dark
+    pygame.event.post(pygame.Event(pygame.KEYUP, scancode=pygame.KSCAN_W, key=0, mod=0))
+    arcade.frame()
+    assert light(arcade, *box) == dark
+
+
+def test_a_pad_appears_when_it_is_plugged_in_and_its_button_lights_up(arcade: Arcade) -> None:
+    with VirtualPad() as pad:
+        arcade.wait(0.1)
+        box = (96 + 296 - 30, padtest.PADS_Y + 262 - 30, 60, 60)  # A
+        dark = light(arcade, *box)
+        pad.press("a")
+        arcade.frame()
+        assert light(arcade, *box) > 1.5 * dark
+        pad.release("a")
+        arcade.wait(padtest.LIT + 0.1)
+        assert light(arcade, *box) == dark
+    arcade.wait(0.1, draw=True)
+
+
+def test_a_short_b_is_only_shown_and_a_long_one_leaves(arcade: Arcade) -> None:
+    with VirtualPad() as pad:
+        arcade.wait(0.1)
+        pad.tap("b")
+        arcade.wait(1.5)
+        arcade.shown(PadTest)
+        pad.press("b")
+        arcade.wait(padtest.HOLD + 0.2)
+        assert arcade.stack.top is arcade.setup
+
+
+def test_escape_and_a_click_on_the_hint_leave(arcade: Arcade) -> None:
+    arcade.press(Act.BACK)
+    assert arcade.stack.top is arcade.setup
+    arcade.open(PadTest(arcade.house))
+    arcade.click(960, 980)
+    assert arcade.stack.top is arcade.setup
+
+
+def test_a_keyboard_robot_turns_with_its_keys(arcade: Arcade) -> None:
+    before = arcade.shown(PadTest).headings[0]
+    pygame.event.post(pygame.Event(pygame.KEYDOWN, scancode=pygame.KSCAN_D, key=0, mod=0))
+    arcade.wait(0.5)
+    assert arcade.shown(PadTest).headings[0] == pytest.approx(before + padtest.TURN * 0.5, abs=0.15)
+    assert Device("keys", 0) not in arcade.house.controls.pads()

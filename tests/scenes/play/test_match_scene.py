@@ -1,0 +1,282 @@
+"""Matches as people live them: the countdown, pads that are pulled, who takes over, pauses, and what comes after."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+
+import pygame
+import pytest
+
+from pigaming_app.ai.brain.kind import Hands, Thinker
+from pigaming_app.scenes.play.countdown import CENTRE, clear_of
+from pigaming_app.scenes.play.device_table import DeviceTable
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.reconnect import WAIT, Reconnect, StillThere
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.scene import Results
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device
+from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.ui.input.virtual_pad import VirtualPad
+
+COUNTDOWN = 3.8  # seconds until GO
+
+
+@pytest.fixture
+def arcade(controls: Controls) -> Arcade:
+    return Arcade(controls)
+
+
+@pytest.fixture
+def pads() -> Iterator[ExitStack]:
+    with ExitStack() as stack:
+        yield stack
+
+
+def plug(arcade: Arcade, pads: ExitStack) -> tuple[VirtualPad, Device]:
+    pad = pads.enter_context(VirtualPad())
+    arcade.frame()
+    return pad, Device("pad", pad.number)
+
+
+def two_pads(arcade: Arcade, pads: ExitStack, minutes: float = 1.0) -> tuple[MatchScene, VirtualPad, VirtualPad]:
+    """A match of two pads, running."""
+    (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
+    match = MatchScene(arcade.house, setup("human human off off", minutes), [first, second])
+    arcade.open(match)
+    arcade.wait(COUNTDOWN + 0.1)
+    return match, one, two
+
+
+def test_nothing_moves_before_go_and_everything_after(arcade: Arcade, pads: ExitStack) -> None:
+    pad, device = plug(arcade, pads)
+    match = MatchScene(arcade.house, setup("human hard off off", 1.0), [device, None, None, None])
+    arcade.open(match)
+    pad.stick(0.0, -1.0)
+    arcade.wait(COUNTDOWN - 0.1, draw=True)
+    assert match.match.state.tick == 0
+    assert arcade.sounds.heard == ["count", "count", "count"]
+    begin = match.match.state.robots[0].x
+    arcade.wait(1.1, draw=True)
+    assert "go" in arcade.sounds.heard
+    assert match.match.seconds == pytest.approx(1.0, abs=0.1)
+    assert match.match.state.robots[0].x - begin > 100
+
+
+def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade, pads: ExitStack) -> None:
+    match, one, _ = two_pads(arcade, pads)
+    one.stick(0.0, -1.0)
+    pygame.event.pump()
+    match.stage.advance(0.021)
+    assert match.match.state.actions[0].linear == 1.0
+
+
+def test_time_is_up_then_the_results(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human easy hard off"), [KEYS[0], None, None, None])
+    arcade.open(match)
+    arcade.until(lambda: match.match.over)
+    assert arcade.sounds.heard.count("tick") == 6
+    last = match.match.state.tick
+    waited = arcade.until(lambda: isinstance(arcade.stack.top, Results))
+    assert 1.4 <= waited <= 2.0
+    assert match.match.state.tick == last
+
+
+def test_a_nap_of_the_machine_is_no_burst_of_ticks(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("easy hard off off", 1.0))
+    arcade.open(match)
+    arcade.wait(COUNTDOWN + 0.2)
+    before = match.match.state.tick
+    arcade.frame(60.0)
+    assert match.match.state.tick - before <= 4
+
+
+@pytest.mark.parametrize("act", [Act.START, Act.BACK])
+def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: Act) -> None:
+    match = MatchScene(arcade.house, setup("human human off off", 1.0), KEYS)
+    arcade.open(match)
+    arcade.wait(COUNTDOWN + 1.0)
+    arcade.press(act, KEYS[1])
+    assert arcade.shown(Pause).player == 1
+    before = match.match.state.tick
+    arcade.wait(5.0)
+    arcade.press(act, KEYS[1])
+    assert arcade.shown(MatchScene) is match
+    arcade.wait(1.3, draw=True)
+    assert match.match.state.tick == before
+    arcade.wait(0.5, draw=True)
+    assert match.match.state.tick > before
+
+
+def test_turbo_on_a_pad_is_not_a_pause(arcade: Arcade, pads: ExitStack) -> None:
+    match, one, _ = two_pads(arcade, pads)
+    one.press("b")
+    arcade.wait(0.2)
+    assert arcade.shown(MatchScene) is match
+
+
+def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human easy off off", 1.0), KEYS[:1])
+    arcade.open(match)
+    arcade.wait(COUNTDOWN + 1.0)
+    arcade.press(Act.START)
+    arcade.press(Act.DOWN)
+    arcade.press(Act.DOWN)
+    arcade.press(Act.FIRE)
+    arcade.shown(DeviceTable)
+    arcade.press(Act.BACK)
+    arcade.press(Act.UP)
+    arcade.press(Act.FIRE)
+    arcade.shown(Pause)
+    arcade.press(Act.FIRE)
+    arcade.frame()
+    fresh = arcade.shown(MatchScene)
+    assert fresh is not match
+    assert fresh.match.state.tick == 0
+    assert fresh.setup.seed != match.setup.seed
+    assert fresh.devices[0] == KEYS[0]
+    arcade.press(Act.START)
+    arcade.press(Act.UP)
+    arcade.press(Act.FIRE)
+    arcade.shown(Pause)
+    arcade.press(Act.FIRE)
+    arcade.until(lambda: isinstance(arcade.stack.top, Results))
+    assert not arcade.shown(Results).page.finished
+    assert len(arcade.stack.scenes) == 3
+
+
+def test_a_pulled_pad_pauses_and_any_free_pad_takes_its_seat(arcade: Arcade, pads: ExitStack) -> None:
+    match, one, two = two_pads(arcade, pads)
+    two.unplug()
+    arcade.frame()
+    arcade.frame()
+    page = arcade.shown(Reconnect)
+    assert page.seat == 1
+    before = match.match.state.tick
+    one.tap("a")
+    arcade.wait(2.0, draw=True)
+    assert arcade.stack.top is page, "the pad of the other seat is not free"
+    three, device = plug(arcade, pads)
+    assert page.found
+    arcade.shown(Reconnect)
+    three.tap("a")
+    arcade.frame()
+    assert arcade.shown(MatchScene) is match
+    assert match.devices[1] == device
+    arcade.wait(1.6)
+    three.stick(0.0, -1.0)
+    arcade.wait(0.5)
+    assert match.match.state.tick > before
+    assert match.match.state.actions[1].linear == 1.0
+
+
+def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade, pads: ExitStack) -> None:
+    match, one, two = two_pads(arcade, pads)
+    one.unplug()
+    two.unplug()
+    arcade.frame()
+    arcade.frame()
+    assert arcade.shown(Reconnect).seat == 0
+    arcade.press(Act.FIRE, KEYS[2])
+    arcade.frame()
+    assert arcade.shown(Reconnect).seat == 1, "one after the other"
+    arcade.wait(1.1)
+    arcade.press(Act.EXTRA, KEYS[2])
+    arcade.frame()
+    arcade.shown(MatchScene)
+    assert match.devices[:2] == [KEYS[2], None]
+    assert isinstance(match.match.brains[0], Hands)
+    assert isinstance(match.match.brains[1], Thinker)
+
+
+def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade: Arcade, pads: ExitStack) -> None:
+    match, _, two = two_pads(arcade, pads)
+    assert match.stage.view.players[:2] == ["human", "human"]
+    two.unplug()
+    arcade.until(lambda: isinstance(arcade.stack.top, Reconnect))
+    waited = arcade.until(lambda: arcade.stack.top is match)
+    assert waited == pytest.approx(WAIT, abs=0.2)
+    arcade.wait(2.0)
+    assert isinstance(match.match.brains[1], Thinker)
+    back, device = plug(arcade, pads)
+    assert match.devices[1] is None
+    assert match.stage.view.players[:2] == ["human", "normal"], "the view marks the AI"
+    back.tap("a")
+    arcade.frame(draw=True)
+    assert arcade.shown(MatchScene) is match, "no pause"
+    assert match.devices[1] == device
+    assert isinstance(match.match.brains[1], Hands)
+    assert match.stage.view.players[:2] == ["human", "human"], "and the mark goes"
+
+
+def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: ExitStack) -> None:
+    match, one, two = two_pads(arcade, pads)
+    two.unplug()
+    arcade.frame()
+    arcade.frame()
+    for button in ("x", "b", "a"):
+        one.tap(button)
+        arcade.frame()
+    assert arcade.shown(Reconnect)
+    arcade.wait(1.0)
+    one.tap("b")
+    arcade.frame()
+    arcade.shown(Pause)
+    one.tap("b")
+    arcade.frame()
+    arcade.frame()
+    assert arcade.shown(Reconnect).seat == 1, "the menu does not forget who is missing"
+    assert match.devices[1] is not None
+
+
+def test_still_there(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human easy off off", 5.0), KEYS[:1])
+    arcade.open(match)
+    arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
+    assert match.match.seconds == pytest.approx(60.0, abs=1.0)
+    arcade.shown(StillThere)
+    arcade.press(Act.LEFT)
+    assert arcade.stack.top is match
+    arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
+    arcade.until(lambda: arcade.stack.top is arcade.title, 20.0)
+
+
+def test_a_hand_on_the_stick_is_somebody(arcade: Arcade, pads: ExitStack) -> None:
+    match, one, _ = two_pads(arcade, pads, 3.0)
+    one.stick(1.0, 0.0)
+    arcade.wait(70.0, fps=20)
+    assert arcade.stack.top is match
+
+
+def test_ais_among_themselves_are_not_asked(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("easy easy off off", 1.2))
+    arcade.open(match)
+    arcade.until(lambda: isinstance(arcade.stack.top, Results), 80.0)
+
+
+def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcade) -> None:
+    match = MatchScene(arcade.house, setup("human human off off", 1.0), [KEYS[0], None])
+    arcade.open(match)
+    assert match.stood_in == [1]
+    arcade.press(Act.FIRE, KEYS[0])
+    assert match.stood_in == [1]
+    arcade.press(Act.FIRE, KEYS[3])
+    assert match.devices[1] == KEYS[3]
+
+
+def test_the_numbers_before_a_match_stand_where_they_hide_no_robot() -> None:
+    assert clear_of([(260.0, 240.0), (1660.0, 940.0)]) == CENTRE
+    x, y = clear_of([(900.0, 540.0)])
+    assert abs(x - 900) > 300 or abs(y - 540) > 250
+    assert 370 <= y <= 830, "its ring stays inside the arena"
+    assert clear_of([(x, y) for x in range(200, 1800, 300) for y in range(200, 1000, 200)]) == CENTRE, "nowhere is free"
+
+
+@pytest.mark.parametrize(("speed", "records"), [(1.0, 1), (0.5, 0), (2.0, 0)])
+def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, records: int) -> None:
+    scene = MatchScene(arcade.house, setup("human normal off off", 0.05), [KEYS[0]], speed)
+    arcade.open(scene)
+    arcade.until(lambda: scene.match.state.tick > 100)
+    scene.match.state.robots[0].score = 9
+    arcade.until(lambda: scene.results is not None)
+    assert scene.results
+    assert len(scene.results.claims) == records

@@ -1,0 +1,126 @@
+"""Watching: what runs while nobody plays, and matches that were recorded."""
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.ai import seated
+from pigaming_app.games import GAMES
+from pigaming_app.games.replay import load, save
+from pigaming_app.scenes.play.replay import ReplayScene
+from pigaming_app.scenes.play.side_hints import boxes
+from pigaming_app.scenes.title.attract import PAGE, Attract, Demonstration, Page
+from pigaming_app.sim.record import digest
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device, Press
+from tests.scenes.arcade import Arcade, setup
+from tests.scenes.measuring import faults, measuring
+from tests.scenes.title.test_attract import scores_of
+
+
+@pytest.fixture
+def arcade(controls: Controls) -> Arcade:
+    return Arcade(controls)
+
+
+def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
+    for game in GAMES:
+        scores_of(arcade.house, game)
+    attract = Attract(arcade.house)
+    arcade.open(attract)
+    assert isinstance(attract.show, Demonstration)
+    assert attract.show.stage.match.setup.minutes <= 2.0
+    arcade.until(lambda: not isinstance(attract.show, Demonstration), 125.0)
+    first = attract.show
+    assert isinstance(first, Page)
+    arcade.wait(0.5, draw=True)
+    arcade.until(lambda: attract.show is not first, PAGE + 1)
+    assert isinstance(attract.show, Page)
+    arcade.wait(0.5, draw=True)
+    arcade.until(lambda: isinstance(attract.show, Demonstration), PAGE + 1)
+    assert arcade.sounds.heard == [], "nobody is listening"
+
+
+@pytest.mark.parametrize("act", [Act.FIRE, Act.START, Act.LEFT, Act.BACK, Act.POINT, Act.CLICK, Act.FOUND])
+def test_any_input_ends_it(arcade: Arcade, act: Act) -> None:
+    arcade.open(Attract(arcade.house))
+    arcade.wait(0.2, draw=True)
+    arcade.press(act, Device("mouse") if act in (Act.POINT, Act.CLICK) else Device("keys"))
+    assert arcade.stack.top is arcade.title
+
+
+@pytest.fixture
+def recorded(tmp_path: Path) -> tuple[Path, str]:
+    match = seated(setup("hard easy normal off", 0.1))
+    while not match.over:
+        match.tick()
+    save(match, tmp_path / "match.replay")
+    return tmp_path / "match.replay", digest(match.state)
+
+
+def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Path, str]) -> None:
+    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arcade.open(scene)
+    taken = arcade.until(lambda: scene.ended)
+    assert taken == pytest.approx(6.0, abs=0.1)
+    assert digest(scene.stage.match.state) == recorded[1]
+    arcade.shown(ReplayScene)
+
+
+def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple[Path, str]) -> None:
+    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arcade.open(scene)
+    arcade.wait(1.0, draw=True)
+    arcade.press(Act.FIRE)
+    before = scene.stage.match.state.tick
+    arcade.wait(1.0, draw=True)
+    assert scene.stage.match.state.tick == before
+    for act in (Act.FIRE, Act.RIGHT, Act.RIGHT, Act.RIGHT):
+        arcade.press(act)
+    arcade.wait(1.0, draw=True)
+    assert scene.stage.match.state.tick - before == pytest.approx(200, abs=5)
+    arcade.press(Act.EXTRA)
+    assert scene.stage.match.state.tick == 0
+    arcade.press(Act.LEFT)
+    arcade.until(lambda: scene.ended)
+    arcade.press(Act.FIRE)
+    assert not scene.ended
+    arcade.press(Act.BACK)
+    assert arcade.stack.top is arcade.setup
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("paused", [False, True])
+def test_the_bar_of_a_replay_stands_beside_the_arena(
+    arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str, paused: bool
+) -> None:
+    arcade.house.words.switch(language)
+    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arena = pygame.Rect(160, 136, 1600, 908)
+    with measuring(monkeypatch) as screen:
+        if paused:
+            scene.on(Press(Act.FIRE, Device("keys")))
+        monkeypatch.setattr(scene.stage, "draw", lambda canvas: canvas.fill("black"))
+        monkeypatch.setattr(scene.stage, "captions", lambda *_: None)
+        scene.draw(screen)
+        assert len(screen.texts) >= 8, "it is measured"
+        assert faults(screen, pygame.Rect(4, 16, 1912, 1048)) == []
+        lit = pygame.mask.from_threshold(screen, "black", (12, 12, 12, 255))
+        lit.invert()
+        assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
+    for act, box in zip(scene.prompts.acts, boxes(scene.prompts.said), strict=True):
+        assert scene.hints.meant(Press(Act.CLICK, Device("mouse"), at=box.center)).act is act
+
+
+def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:
+    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arcade.open(scene)
+    assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]
+    arcade.press(Act.FIRE)
+    arcade.shown(ReplayScene)
+    assert scene.prompts.said[0][1] == "Play"
+    arcade.press(Act.FIRE)
+    arcade.until(lambda: scene.ended)
+    arcade.shown(ReplayScene)
+    assert [text for _, text in scene.prompts.said] == ["From the start", "Back"]

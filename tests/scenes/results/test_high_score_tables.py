@@ -1,0 +1,114 @@
+"""Which matches count, and which of them are compared with each other."""
+
+from dataclasses import replace
+
+import pytest
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.games import GAMES
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes.results.high_score_tables import STRONG, boards, contest, contests, counts, older_boards, told
+from pigaming_app.storage.scores import Scores, Table
+
+FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
+
+
+def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0, variant=None):
+    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
+    rules = GAMES[game]
+    return Setup(game, "classic", (one, two, three, four), minutes, 1, variant or rules.variants[0], goal)
+
+
+@pytest.mark.parametrize(
+    ("brains", "teams", "counted"),
+    [
+        ("human normal off off", FREE, True),
+        ("human human off off", FREE, True),
+        ("human hard fsm q1", FREE, True),
+        ("human q2 human normal", FREE, True),
+        ("human easy off off", FREE, False),
+        ("human hard hard easy", FREE, False),
+        ("human human human random", FREE, False),
+        ("human idle off off", FREE, False),
+        ("human classic off off", FREE, False),
+        ("human MY-OWN off off", FREE, False),
+        ("human off off off", FREE, False),
+        ("human normal easy normal", PAIRS, True),  # the easy one is a mate
+        ("human normal normal easy", PAIRS, False),
+        ("human off human off", PAIRS, False),  # nobody plays against them
+    ],
+)
+def test_a_match_counts_against_people_and_opponents_no_weaker_than_normal(brains, teams, counted):
+    assert counts(match(brains, teams), 0) is counted
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_of_the_ais_of_a_game_only_the_weak_ones_do_not_count(game):
+    weak = {"idle", "random", "easy", "classic"}
+    assert set(BRAINS[game]) - STRONG == weak & set(BRAINS[game])
+
+
+@pytest.mark.parametrize(
+    ("brains", "teams", "people", "side"),
+    [
+        ("human normal off off", FREE, 1, 0),
+        ("human human human human", FREE, 4, 0),
+        ("human normal normal normal", PAIRS, 1, 1),
+        ("human human normal normal", PAIRS, 2, 1),
+        ("human normal human normal", PAIRS, 2, 2),
+        ("human human human normal", PAIRS, 3, 2),
+        ("human human human human", PAIRS, 4, 2),
+        ("human human off off", PAIRS, 2, 0),
+    ],
+)
+def test_people_are_counted_and_those_of_the_own_team(brains, teams, people, side):
+    table = contest(match(brains, teams), 0)
+    assert (table.people, table.side) == (people, side)
+
+
+def test_the_two_sides_of_a_match_may_stand_in_different_tables():
+    setup = match("human human human normal", PAIRS)
+    assert contest(setup, 0).side == 2
+    assert contest(setup, 1).side == 1
+
+
+def test_minutes_count_where_a_match_is_played_for_time_and_the_goal_where_it_is_played_for_one():
+    assert contest(match("human normal off off", minutes=0.5)).length == 0.5
+    assert contest(match("human normal off off", game="race", minutes=10.0, goal=5)).length == 5
+    assert contest(match("human normal off off", game="factory", minutes=3.0, goal=4)).length == 4
+
+
+def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
+    first, second = boards(contest(match("human normal off off", game="race", goal=3)))
+    assert [(one.table.feat, one.table.timed, one.days) for one in (first, second)] == [
+        ("lap", True, None),
+        ("race", True, None),
+    ]
+    assert told(61_230, first.table) == "1:01.23"
+
+
+def test_what_a_file_holds_of_games_and_rules_that_are_not_there_is_not_shown():
+    scores, good = Scores(), contest(match("human normal off off"))
+    points = replace(good, feat="points")
+    for table in (
+        points,
+        replace(points, game="chess"),
+        replace(points, feat="goals"),
+        replace(points, timed=True),
+        replace(points, rules="none"),
+        replace(points, people=7),
+        replace(points, side=2),
+    ):
+        scores.add(table, "ABC", 5)
+    assert contests(scores) == [good]
+
+
+def test_older_tables_come_last_and_show_only_what_they_have():
+    scores = Scores()
+    older = Table("race", "classic", "race", True, length=3)
+    scores.add(older, "OLD", 9000)
+    scores.add(Table("race", "classic", "lap", True, "standard", 3, 1), "NEW", 9000)
+    new, old = contests(scores)
+    assert not new.older
+    assert old.older
+    assert [board.table for board in older_boards(old, scores)] == [older]

@@ -1,0 +1,136 @@
+"""The page of the best scores: which table it opens at, and how one finds the others."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.scenes.results.high_score_tables import contests
+from pigaming_app.scenes.results.high_scores import DEAF, STAY, Best, conditions
+from pigaming_app.storage.scores import Table
+from pigaming_app.ui.draw.ink import text_width
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act
+from tests.scenes.arcade import Arcade
+
+ALONE = Table("pitanks", "classic", "points", rules="pickups", length=2, people=1)
+PAIR = replace(ALONE, people=2)
+ISLANDS = replace(ALONE, arena="islands")
+LAP = Table("race", "classic", "lap", True, "standard", 3, 1)
+OLDER = Table("pitanks", "classic", "points")
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    return Arcade(controls)
+
+
+def opened(arcade: Arcade, at: Table, *filled: Table) -> Best:
+    for table in filled:
+        arcade.house.scores.add(table, "ABC", 9_000)
+    best = Best(arcade.house, replace(at, feat="", timed=False))
+    arcade.open(best)
+    arcade.wait(DEAF + 0.1, draw=True)
+    return best
+
+
+def shown(best: Best, *tables: Table) -> bool:
+    return best.contest in {replace(table, feat="", timed=False) for table in tables}
+
+
+def test_it_opens_at_the_table_of_the_match_that_was_played(arcade: Arcade) -> None:
+    assert shown(opened(arcade, PAIR, ALONE, PAIR), PAIR)
+
+
+@pytest.mark.parametrize(
+    ("filled", "found"),
+    [((), PAIR), ((LAP,), LAP), ((LAP, ISLANDS), ISLANDS), ((LAP, ISLANDS, ALONE), ALONE), ((LAP, OLDER), OLDER)],
+)
+def test_an_empty_table_gives_way_to_the_nearest_one_with_rows(
+    arcade: Arcade, filled: tuple[Table], found: Table
+) -> None:
+    assert shown(opened(arcade, PAIR, *filled), found)
+
+
+def test_left_and_right_lead_round_the_tables_of_an_arena_and_up_and_down_round_the_arenas(arcade: Arcade) -> None:
+    best = opened(arcade, ALONE, ALONE, PAIR, OLDER, ISLANDS, LAP)
+    for act, table in (
+        (Act.RIGHT, PAIR),
+        (Act.RIGHT, OLDER),
+        (Act.RIGHT, ALONE),
+        (Act.LEFT, OLDER),
+        (Act.DOWN, ISLANDS),
+        (Act.DOWN, LAP),
+        (Act.LEFT, LAP),
+        (Act.DOWN, ALONE),
+        (Act.UP, LAP),
+    ):
+        arcade.press(act)
+        arcade.frame(draw=True)
+        assert shown(best, table), act
+    assert arcade.stack.top is best
+
+
+def test_every_table_with_rows_can_be_reached(arcade: Arcade) -> None:
+    tables = [replace(ALONE, length=minutes, people=people) for minutes in (1, 2, 5) for people in (1, 2, 3, 4)]
+    best = opened(arcade, ALONE, *tables, ISLANDS, LAP)
+    seen = set()
+    for _ in range(3):
+        for _ in tables:
+            seen.add(best.contest)
+            arcade.press(Act.RIGHT)
+        arcade.press(Act.DOWN)
+    assert seen == set(contests(arcade.house.scores))
+
+
+def test_a_click_on_an_arrow_goes_its_way_and_a_click_elsewhere_leads_on(arcade: Arcade) -> None:
+    best = opened(arcade, ALONE, ALONE, PAIR, ISLANDS)
+    assert set(best.arrows) == {Act.LEFT, Act.RIGHT, Act.UP, Act.DOWN}
+    arcade.click(*best.arrows[Act.RIGHT])
+    assert shown(best, PAIR)
+    arcade.click(*best.arrows[Act.DOWN])
+    assert shown(best, ISLANDS)
+    arcade.click(960, 600)
+    assert arcade.stack.top is not best
+
+
+def test_it_leaves_when_nobody_presses_any_more(arcade: Arcade) -> None:
+    best = opened(arcade, ALONE, ALONE, PAIR)
+    arcade.wait(STAY - 2.0)
+    arcade.press(Act.RIGHT)
+    arcade.wait(STAY - 1.0)
+    assert arcade.stack.top is best
+    arcade.wait(2.0)
+    assert arcade.stack.top is not best
+
+
+def test_an_arena_that_has_gone_is_not_shown(arcade: Arcade) -> None:
+    gone = replace(ALONE, arena="../../etc\n")
+    assert shown(opened(arcade, ALONE, gone, PAIR), PAIR)
+    assert shown(opened(arcade, gone), PAIR)
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_every_heading_fits_and_nothing_runs_over_the_edge(controls: Controls, language: str) -> None:
+    words = Words(language)
+    tables = [
+        replace(table, rules=rules, length=length, people=people, side=side)
+        for table, length, variants in ((ALONE, 5, ("pickups", "plain", "classic")), (LAP, 9, ("standard",)))
+        for rules in variants
+        for people in range(1, 5)
+        for side in range(people + 1)
+    ]
+    for table in [*tables, OLDER, Table("race", "classic", "race", True, length=9)]:
+        assert text_width(conditions(words, table), 52, "head") < 1500, "between the arrows"
+    arcade = Arcade(controls, language)
+    best = opened(arcade, tables[0], *tables)
+    for _ in tables[:8]:
+        arcade.press(Act.RIGHT)
+        arcade.wait(1.0, fps=10, draw=True)
+        lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
+        lit.invert()
+        assert not [box for box in lit.get_bounding_rects() if box.left < 20 or box.right > 1900]
+    assert arcade.stack.top is best

@@ -1,0 +1,371 @@
+"""After a match: who won, who wants another one, whose three letters stand in the table."""
+
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.scenes.lobby.game_choice import GameChoice
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.initials import SECONDS, Initials
+from pigaming_app.scenes.results.plot import Curve, LapPlot, moments, scale, spread, team_curve
+from pigaming_app.scenes.results.rematch_vote import PATIENCE
+from pigaming_app.scenes.results.scene import IDLE, Results
+from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.word_filter import HARMLESS, rude
+from tests.scenes.arcade import KEYS, Arcade, setup
+
+ALONE = Table("pitanks", "classic", "points", rules="plain", length=1, people=1)
+LAP = Table("race", "classic", "lap", True, "standard", 3, 1)
+RACE = replace(LAP, feat="race")
+LONG = 4.0  # seconds after which everything is there and may be pressed
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    return Arcade(controls)
+
+
+def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, ...] = (0, 1, 2, 3)) -> Outcome:
+    """A minute that ended so."""
+    sums = {team: sum(scores[seat] for seat in scores if teams[seat] == team) for team in teams}
+    seats = sorted(scores, key=lambda seat: (-sums[teams[seat]], teams[seat], -scores[seat]))
+    facts = {"hits": 9, "taken": 12, "aim": 0.617}
+    rows = [Row(seat, teams[seat], 1, scores[seat], facts, {"points": scores[seat]}, ()) for seat in seats]
+    rows = [replace(row, place=1 + sum(sums[teams[seat]] > sums[row.team] for seat in seats)) for row in rows]
+    series = tuple(((0.0, 0), (20.0, scores[seat])) if seat in scores else ((0.0, 0),) for seat in range(4))
+    return Outcome(tuple(rows), winners, series, 60.0)
+
+
+def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, teams=(0, 1, 2, 3)) -> Results:
+    match = setup(brains, 1.0, teams)
+    devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
+    results = Results(arcade.house, ended, match, devices, MatchScene(arcade.house, match, devices).again, finished)
+    arcade.open(results)
+    return results
+
+
+LOST = outcome({0: -4, 1: -1, 2: 5}, (2,))
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize(
+    ("brains", "scores", "winners", "teams", "finished", "cheer"),
+    [
+        ("human human hard human", {0: 12, 1: -3, 2: 7, 3: 5}, (0,), (0, 1, 2, 3), True, "win"),
+        ("human normal off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), True, "lose"),
+        ("human off human easy", {0: 3, 2: 3, 3: -6}, (), (0, 1, 2, 3), True, "tie"),
+        ("human human human easy", {0: -3, 1: -2, 2: 9, 3: -4}, (0, 2), (0, 1, 0, 1), True, "win"),
+        ("human human human human", {0: 60, 1: -20, 2: -20, 3: -20}, (0,), (0, 1, 1, 1), True, "win"),
+        ("human human off off", {0: 0, 1: 0}, (), (0, 1, 2, 3), False, None),
+    ],
+)
+def test_every_ending_is_shown(
+    controls, monkeypatch, tmp_path, language, brains, scores, winners, teams, finished, cheer
+):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade = Arcade(controls, language)
+    opened(arcade, brains, outcome(scores, winners, teams), finished, teams)
+    arcade.wait(2.4, fps=10, draw=True)
+    assert [name for name in arcade.sounds.heard if name in ("win", "lose", "tie")] == ([cheer] if cheer else [])
+    whole = pygame.Rect(0, 0, 1920, 1080)
+    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
+    lit.invert()
+    edge = [box for box in lit.get_bounding_rects() if box.left < 20 or box.right > whole.right - 20]
+    assert not edge, "nothing runs over the edge"
+
+
+def test_nobody_who_still_fires_leaves_the_results_unseen(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    for _ in range(10):
+        for act in (Act.FIRE, Act.BACK, Act.START, Act.EXTRA):
+            arcade.press(act)
+        arcade.frame(0.1)
+    assert arcade.stack.top is results
+    assert not results.ballot.votes
+
+
+def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.FIRE, KEYS[1])
+    arcade.frame()
+    assert arcade.shown(Results) is results
+    arcade.press(Act.FIRE, KEYS[3])
+    arcade.frame()
+    assert arcade.stack.top is results, "a free key cluster has no vote"
+    arcade.press(Act.FIRE, KEYS[0])
+    arcade.frame()
+    match = arcade.shown(MatchScene)
+    assert match.devices == [KEYS[0], KEYS[1], None, None]
+    assert replace(match.setup, seed=0) == replace(results.setup, seed=0)
+    assert match.setup.seed != results.setup.seed
+    assert len(arcade.stack.scenes) == 3, "the choice of the match still lies below"
+
+
+def test_start_waits_for_nobody(arcade: Arcade) -> None:
+    opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.START, KEYS[1])
+    assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[1]]
+
+
+def test_somebody_who_has_gone_holds_nobody_up(arcade: Arcade) -> None:
+    opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.FIRE, KEYS[0])
+    waited = arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
+    assert waited == pytest.approx(PATIENCE, abs=0.2)
+    assert arcade.shown(MatchScene).devices == [KEYS[0], None, None, None]
+
+
+def test_a_free_pad_votes_for_a_seat_whose_pad_has_gone(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    results.ballot.devices[1] = Device("pad", 999)
+    arcade.wait(LONG)
+    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Act.FIRE, KEYS[2])
+    arcade.frame()
+    assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[2]]
+
+
+def test_other_ways_on(arcade: Arcade) -> None:
+    opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.press(Act.ALT)
+    arcade.wait(1.0, draw=True)
+    arcade.shown(Best)
+    arcade.press(Act.FIRE)
+    arcade.shown(Results)
+    arcade.press(Act.EXTRA)
+    arcade.shown(GameChoice)
+    arcade.press(Act.BACK)
+    arcade.shown(Results)
+    opened(arcade, "human human hard off", LOST)
+    arcade.until(lambda: arcade.stack.top is arcade.title, IDLE + 1.0)
+
+
+def test_the_mouse_clicks_on_what_the_row_says(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard off", LOST)
+    arcade.wait(LONG)
+    arcade.click(960, 500)
+    assert arcade.stack.top is results
+    arcade.click(300, 980)
+    arcade.shown(MatchScene)
+
+
+def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) -> None:
+    results = opened(arcade, "human human hard human", outcome({0: 4, 1: 9, 2: 12, 3: -7}, (2,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    page = arcade.shown(Initials)
+    assert [claim.seat for claim in page.claims] == [0, 1], "an AI and a loss do not count"
+    arcade.press(Act.DOWN, KEYS[1])
+    arcade.wait(1.0)
+    for act in (Act.UP, Act.FIRE, Act.DOWN, Act.DOWN, Act.FIRE, Act.BACK, Act.FIRE):
+        arcade.press(act, KEYS[1])
+        arcade.press(Act.DOWN, KEYS[3])  # the others cannot interfere
+        arcade.press(Act.START, KEYS[2])
+        arcade.frame(draw=True)
+    arcade.press(Act.DOWN, KEYS[0])
+    assert [page.spellings[KEYS[seat]].spelled for seat in (0, 1)] == ["BAA", "ZCA"]
+    arcade.press(Act.START, KEYS[0])
+    assert arcade.shown(Initials) is page, "START of one player does not accept the letters of another"
+    arcade.press(Act.FIRE, KEYS[1])
+    arcade.wait(2.0, draw=True)
+    assert [row.initials for row in arcade.shown(Best).fresh] == ["BAA", "ZCA"]
+    arcade.press(Act.FIRE)
+    assert arcade.shown(Results) is results
+    kept, said = Scores.load(folders().data)
+    assert not said
+    assert [(row.initials, row.score) for row in kept.best(replace(ALONE, people=3))] == [("ZCA", 9), ("BAA", 4)]
+
+
+def test_after_ten_seconds_letters_are_taken_as_they_are_but_not_those_of_somebody_who_only_fired(
+    arcade: Arcade,
+) -> None:
+    opened(arcade, "human human human off", outcome({0: 4, 1: 9, 2: 3}, (1,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    arcade.wait(1.0)
+    arcade.press(Act.UP, KEYS[0])
+    for _ in range(30):
+        arcade.press(Act.FIRE, KEYS[1])
+    waited = 1.0 + arcade.until(lambda: isinstance(arcade.stack.top, Best))
+    assert waited == pytest.approx(SECONDS, abs=0.2)
+    assert [row.initials for row in arcade.shown(Best).fresh] == ["ZAA"]
+
+
+def test_rude_words_and_their_look_alikes_are_refused(arcade: Arcade) -> None:
+    assert all(map(rude, ("ASS", "AZZ", "FUK", "FVK", "FUC", "KVM", "DYK", "PUT", "CRL", "KRL", "FDP", "QUS", "TLT")))
+    assert not any(map(rude, ("AAA", "ANA", "BOB", "JOE", "MAX", "RUI", "ZOE", "LIS", "EVA", HARMLESS)))
+    opened(arcade, "human off off human", outcome({0: 4, 3: 3}, (0,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    arcade.wait(1.0)
+    for device in (KEYS[0], KEYS[3]):
+        for act in (Act.RIGHT, *[Act.UP] * 8, Act.RIGHT, *[Act.DOWN] * 18, Act.START):
+            arcade.press(act, device)
+    page = arcade.shown(Initials)
+    assert page.spellings[KEYS[0]].refused
+    assert not page.spellings[KEYS[0]].done
+    arcade.press(Act.UP, KEYS[0])
+    arcade.press(Act.FIRE, KEYS[0])
+    arcade.until(lambda: isinstance(arcade.stack.top, Best))
+    assert [row.initials for row in arcade.shown(Best).fresh] == ["ASR", HARMLESS]
+
+
+def test_only_the_top_eight_of_today_or_ever_are_asked_the_match_itself_included(arcade: Arcade) -> None:
+    for score in (20, 19, 18, 17, 16, 15, 14):
+        arcade.house.scores.add(replace(ALONE, people=3), "ABC", score)
+    opened(arcade, "human human human off", outcome({0: 4, 1: 9, 2: 3}, (1,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    assert [(claim.seat, claim.places) for claim in arcade.shown(Initials).claims] == [
+        (1, ((("results.today", 8), ("results.ever", 8)),))
+    ]
+
+
+def test_eight_better_ones_long_ago_leave_todays_table(arcade: Arcade) -> None:
+    long_ago = datetime(2020, 5, 1, 12)
+    for _ in range(9):
+        arcade.house.scores.add(replace(ALONE, people=2), "ABC", 20, long_ago)
+    opened(arcade, "human off off human", outcome({0: 4, 3: 5}, (3,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    assert [claim.places for claim in arcade.shown(Initials).claims] == [
+        ((("results.today", 2),),),
+        ((("results.today", 1),),),
+    ]
+
+
+def test_a_seat_for_which_an_ai_drove_claims_nothing(arcade: Arcade) -> None:
+    match = setup("human human off off", 1.0)
+    ended = outcome({0: 4, 1: 9}, (1,))
+    again = MatchScene(arcade.house, match, KEYS[:2]).again
+    results = Results(arcade.house, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1})
+    assert [claim.seat for claim in results.claims] == [0]
+
+
+def test_enter_counts_for_nobody_while_two_players_share_a_keyboard(arcade: Arcade) -> None:
+    opened(arcade, "human human off off", outcome({0: 4, 1: 9}, (1,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    arcade.wait(1.0)
+    arcade.press(Act.UP, KEYS[1])
+    arcade.stack.top.on(Press(Act.START, KEYS[1], among=(KEYS[1], KEYS[0], KEYS[2], KEYS[3])))
+    assert not any(spelling.done for spelling in arcade.shown(Initials).spellings.values())
+
+
+def test_nobody_chooses_and_nothing_is_written(arcade: Arcade) -> None:
+    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    arcade.until(lambda: arcade.stack.top is results)
+    assert not arcade.house.scores.tables()
+
+
+def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
+    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)), finished=False)
+    arcade.wait(5.0)
+    assert arcade.stack.top is results
+
+
+def test_a_low_score_is_no_record(arcade: Arcade) -> None:
+    for _ in range(10):
+        arcade.house.scores.add(ALONE, "ABC", 20)
+    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
+    arcade.wait(5.0)
+    assert arcade.stack.top is results
+
+
+def test_axes_hold_every_score_and_zero() -> None:
+    assert scale(-3, 12) == (-5, 15, 5)
+    assert scale(0, 0) == (0, 2, 1)
+    assert scale(-14, 0) == (-15, 0, 5)
+    for low, high in ((-130, 7), (0, 1), (-1, 0), (-40, 61)):
+        bottom, top, step = scale(low, high)
+        assert bottom <= low <= 0 <= high <= top
+        assert (top - bottom) // step <= 6
+
+
+def test_times_below_a_plot() -> None:
+    assert moments(180.0) == [0, 60, 120, 180]
+    assert moments(60.0) == [0, 15, 30, 45, 60]
+    assert moments(6.0) == [0, 2, 4, 6]
+
+
+def test_badges_part_and_stay_on_the_page() -> None:
+    assert spread([100, 110, 500], 54, 600) == [100, 154, 500]
+    assert spread([590, 110, 595], 54, 600) == [546, 110, 600]
+
+
+def test_a_team_is_the_sum_of_its_robots() -> None:
+    curve = team_curve((0, 2), [((0.0, 0), (3.0, 1)), ((0.0, 0), (2.0, -1), (5.0, -2))])
+    assert curve.series[-3:] == ((2.0, -1), (3.0, 0), (5.0, -1))
+
+
+def race(arcade: Arcade, lap: int, whole: int) -> Results:
+    """A race of three laps on the classic track that player 1 won, with a best lap and in all (ms)."""
+    human, ai = Seat("human", 0), Seat("hard", 1)
+    match = Setup("race", "classic", (human, ai, Seat("off", 2), Seat("off", 3)), 10, 3, "standard", 3)
+    facts = {"laps": 3, "best": lap / 1000.0, "total": whole / 1000.0}
+    rows = [
+        Row(0, 0, 1, 3, facts, {"lap": lap, "race": whole}, (lap / 1000.0, 12.0, 11.5)),
+        Row(1, 1, 2, 2, facts, {"lap": lap + 500, "race": 0}, (12.5, 13.0)),
+    ]
+    ended = Outcome(tuple(rows), (0,), (((0.0, 0), (30.0, 3)), ((0.0, 0), (30.0, 2)), ((0.0, 0),), ((0.0, 0),)), 60.0)
+    devices = [KEYS[0], None, None, None]
+    results = Results(arcade.house, ended, match, devices, MatchScene(arcade.house, match, devices).again, True)
+    arcade.open(results)
+    return results
+
+
+def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) -> None:
+    race(arcade, 9_870, 30_120)
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    [claim] = arcade.shown(Initials).claims
+    assert (claim.seat, [(table.feat, value) for table, value in claim.feats]) == (
+        0,
+        [("lap", 9_870), ("race", 30_120)],
+    )
+    arcade.wait(1.0)
+    arcade.press(Act.START, KEYS[0])
+    arcade.wait(2.0, draw=True)
+    arcade.shown(Best)
+    kept, said = Scores.load(folders().data)
+    assert not said
+    assert [row.score for row in kept.best(LAP)] == [9_870]
+    assert [row.score for row in kept.best(RACE)] == [30_120]
+    assert not kept.best(replace(RACE, length=5)), "five laps are another race"
+
+
+def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> None:
+    for _ in range(10):
+        arcade.house.scores.add(RACE, "ABC", 20_000)
+    race(arcade, 9_870, 30_120)
+    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
+    [claim] = arcade.shown(Initials).claims
+    assert [table.feat for table, _ in claim.feats] == ["lap"]
+
+
+def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None:
+    curves = [Curve((0,), ((1.0, 9.87), (2.0, 12.0), (3.0, 11.5))), Curve((1,), ((1.0, 12.5),)), Curve((2,), ())]
+    plot = LapPlot(100, 100, 800, 500, curves, 3)
+    assert plot.low <= 9.87 < plot.low + plot.step, "the axis begins just below the best lap, not at 0"
+    assert plot.high >= 12.5
+    [(x, y)] = plot.marked()
+    assert x == pytest.approx(plot.to(1.0, 9.87)[0])
+    assert y == pytest.approx(plot.to(1.0, 9.87)[1], abs=5.0)
+    assert [said for _, said in plot.marks()] == ["1", "2", "3"]
+    assert len(plot.corners(curves[1].series)) == 2, "an only lap is a stroke that can be seen"
+    assert len(plot.heads(0.1)) == 0
+    assert len(plot.heads(1.0)) == 2, "who drove no lap has no line"
+    assert LapPlot(100, 100, 800, 500, [Curve((0,), ())], 3).marked() == []
+
+
+@pytest.mark.parametrize(("brain", "records"), [("easy", 0), ("idle", 0), ("classic", 0), ("normal", 1), ("q2", 1)])
+def test_a_record_needs_an_opponent_no_weaker_than_normal(arcade: Arcade, brain: str, records: int) -> None:
+    results = opened(arcade, f"human {brain} off off", outcome({0: 4, 1: -4}, (0,)))
+    assert len(results.claims) == records

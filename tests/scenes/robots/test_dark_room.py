@@ -1,0 +1,77 @@
+"""Real robots in a dark room, on the emulated arena: even light until every one of them is seen."""
+
+from collections.abc import Iterator
+from random import Random
+
+import numpy as np
+import pytest
+
+from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.scenes.robots.flood_light import FADE, LIGHT, UNSEEN
+from pigaming_app.scenes.robots.match_scene import RealMatch
+from pigaming_app.scenes.robots.start_match import match_of
+from pigaming_app.scenes.robots.take_places import Gathering
+from tests.scenes.arcade import Arcade
+from tests.scenes.robots.test_real_match import arcade, kept, mat, match_for, play
+
+pytest.importorskip("cv2")
+__all__ = ["arcade", "kept", "mat"]  # fixtures
+ALL = (0, 1, 2, 3)
+
+
+@pytest.fixture(autouse=True)
+def _as_it_was(mat: EmulatedMat) -> Iterator[None]:
+    yield
+    mat.arena.camera.painter.ambient = 1.0
+
+
+def gathering(arcade: Arcade) -> tuple[RealMatch, Gathering]:
+    match = match_of(arcade.house, match_for("pitanks", "easy easy easy easy", 0.1), [], ALL)
+    assert isinstance(match, RealMatch)
+    assert match.gathering is not None
+    arcade.open(match)
+    return match, match.gathering
+
+
+def scattered(mat: EmulatedMat, trial: int) -> None:
+    """Robots near the rim of a mat on which nothing has been projected for a while."""
+    mat.arena.project(np.zeros((1080, 1920), np.uint8))
+    random = Random(trial)
+    for robot, (x, y) in enumerate(((60, 80), (1500, 90), (1520, 820), (90, 800))):
+        mat.arena.place(robot, (x + random.uniform(-20, 20), y + random.uniform(-30, 30), random.uniform(-3.1, 3.1)))
+    mat.arena.advance(0.5)
+    mat.arena.camera.newest()
+
+
+@pytest.mark.parametrize(("ambient", "trial"), [(0.02, 0), (0.02, 1), (0.02, 2), (0.02, 3), (0.05, 0), (1.0, 0)])
+def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedMat, ambient: float, trial: int) -> None:
+    mat.arena.camera.painter.ambient = ambient
+    scattered(mat, trial)
+    _, page = gathering(arcade)
+    play(arcade, 0.04, lit=True)
+    if ambient < 1.0:  # else they are seen at once
+        assert arcade.screen.get_at((960, 540))[:3] == (LIGHT,) * 3
+    for _ in range(60):
+        if not page.missing:
+            break
+        play(arcade, 0.05, lit=True)
+    assert page.missing == []
+    play(arcade, FADE + 0.1, lit=True)
+    assert arcade.screen.get_at((960, 540))[:3] == (0, 0, 0)
+    assert page.missing == [], "the discs are enough from now on"
+
+
+def test_the_light_comes_back_when_a_robot_disappears(arcade: Arcade, mat: EmulatedMat) -> None:
+    mat.arena.camera.painter.ambient = 0.02
+    scattered(mat, 1)
+    _, page = gathering(arcade)
+    play(arcade, 1.5, lit=True)
+    assert page.missing == []
+    mat.arena.faults.switch("marker_covered", True, 2)
+    play(arcade, UNSEEN + FADE + 0.3, lit=True)
+    assert page.missing == [2]
+    assert arcade.screen.get_at((960, 540))[:3] == (LIGHT,) * 3
+    mat.arena.faults.switch("marker_covered", False, 2)
+    play(arcade, 1.2 + FADE, lit=True)
+    assert page.missing == []
+    assert arcade.screen.get_at((960, 540))[:3] == (0, 0, 0)

@@ -1,0 +1,160 @@
+"""The operator's page of the robots: who is there, who is who, how late, and what is wrong."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import cast
+
+import pytest
+
+from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.hardware.session.real import RealMat
+from pigaming_app.scenes.robots.avoid_discs import hit
+from pigaming_app.scenes.robots.fleet_page import RobotsPage
+from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.window import Canvas
+from tests.scenes.arcade import Arcade
+
+pytest.importorskip("cv2")
+
+
+@pytest.fixture(scope="module")
+def mat() -> Iterator[EmulatedMat]:
+    mat = EmulatedMat(live=False)
+    yield mat
+    mat.end()
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path, mat: EmulatedMat) -> Iterator[Arcade]:
+    arcade = Arcade(controls)
+    arcade.house.mat = mat
+    arcade.open(RobotsPage(arcade.house))
+    arcade.wait(2.0, fps=50)
+    yield arcade
+    mat.close()
+
+
+def idle(arcade: Arcade, page: RobotsPage) -> None:
+    """Wait until nothing moves any more."""
+    for _ in range(60):
+        arcade.wait(0.5, fps=50)
+        if not page.check.busy:
+            return
+    raise AssertionError("still busy")
+
+
+def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedMat) -> None:
+    arcade.house.settings.radio = "stock"
+    page = RobotsPage(arcade.house)
+    arcade.open(page)
+    arcade.press(Act.UP)
+    assert page.focus.name == "radio"
+    assert "no deadman" in page._line()
+    arcade.press(Act.LEFT)
+    assert "no deadman" not in page._line()
+
+
+def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) -> None:
+    mat.arena.faults.switch("robot_off", True, 2)
+    mat.arena.faults.switch("marker_covered", True, 3)
+    arcade.wait(4.0, fps=50)
+    page = arcade.shown(RobotsPage)
+    heard, _, seen, _ = page.lines[0]
+    assert heard.startswith("5.")
+    assert "V" in heard
+    assert seen == "seen"
+    assert page.lines[2][0] == "not heard"
+    assert page.lines[3][2] == "not seen"
+    mat.arena.faults.switch("robot_off", False, 2)
+    mat.arena.faults.switch("marker_covered", False, 3)
+
+
+def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedMat) -> None:
+    page = arcade.shown(RobotsPage)
+    arcade.wait(1.0, fps=20, draw=True)
+    assert page.discs is not None
+    discs = page.discs.circles({0, 1, 2, 3})
+    assert len(discs) == 12
+    assert not hit(page.aside.placed, discs)
+    arcade.press(Act.DOWN)
+    assert page.focus.name == "latency"
+    box = page.focus.spots[0].rect
+    rows = page.aside.placed[0]
+    at = [rows.at[i] + (box.center[i] - rows.home.topleft[i]) * rows.scale for i in (0, 1)]
+    page.on(Press(Act.POINT, Device("mouse"), at=(at[0], at[1])))
+    assert page.focus.name == "pair", "the row is where it is shown"
+
+
+def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedMat) -> None:
+    page = arcade.shown(RobotsPage)
+    rig = page.check.rig
+    assert rig is not None
+    one, two = mat.arena.poses()[:2]
+    heard = mat.arena.firmwares
+    heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot  # each radio sits in the other robot
+    try:
+        arcade.press(Act.FIRE)
+        assert page.check.busy
+        idle(arcade, page)
+        assert rig.channels[:2] == (1, 0)
+        assert arcade.house.settings.radios == [2, 1, 3, 4]
+        assert "From now on" in page.sentence
+        assert Settings.load(folders().config)[0].radios == [2, 1, 3, 4]
+    finally:
+        heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot
+        mat.arena.place(0, one)
+        mat.arena.place(1, two)
+
+
+def test_any_press_stops_what_moves(arcade: Arcade, mat: EmulatedMat) -> None:
+    page = arcade.shown(RobotsPage)
+    arcade.press(Act.FIRE)
+    arcade.wait(1.2, fps=50)
+    assert any(robot.left for robot in mat.arena.robots)
+    arcade.press(Act.BACK)
+    assert arcade.shown(RobotsPage) is page
+    arcade.wait(0.3, fps=50)
+    assert not any(robot.left or robot.right for robot in mat.arena.robots)
+    assert not page.check.busy
+
+
+def test_the_delay_of_the_whole_loop_is_measured(arcade: Arcade) -> None:
+    page = arcade.shown(RobotsPage)
+    page.check.begin()
+    page.check._todo = [0]
+    assert page.check._next()
+    idle(arcade, page)
+    late = page.check.late[0]
+    assert late is not None
+    assert 0.05 < late < 0.15
+
+
+def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_changed(
+    controls: Controls, home: Path
+) -> None:
+    class Window:
+        projection = "1"
+
+    arcade = Arcade(controls, "pt")
+    settings = arcade.house.settings
+    settings.port = "/dev/nowhere"
+    arcade.house.mat = mat = RealMat(settings, cast(Canvas, Window()))
+    arcade.open(RobotsPage(arcade.house))
+    try:
+        page = arcade.shown(RobotsPage)
+        assert "calibra" in page._state()
+        arcade.wait(0.5)
+        arcade.until(lambda: mat.trouble is not None, 5.0)
+        assert "Não há nenhuma porta /dev/nowhere" in str(page._trouble())
+        arcade.press(Act.UP)
+        arcade.press(Act.LEFT)
+        assert settings.radio == "api2"
+        arcade.press(Act.RIGHT)
+        assert settings.radio == "api1"
+        assert Settings.load(folders().config)[0].radio == "api1"
+        arcade.wait(1.5, draw=True)
+    finally:
+        arcade.press(Act.BACK)
+    assert arcade.house.mat.trouble is None

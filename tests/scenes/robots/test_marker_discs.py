@@ -1,0 +1,61 @@
+"""What lights real robots: an even grey under every marker, whatever a game draws and whoever is near."""
+
+from math import hypot
+from typing import cast
+
+import pygame
+import pytest
+
+from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.scenes.robots.marker_discs import DISC, RING, Discs
+from pigaming_app.sim.plant import Sighting
+from pigaming_app.ui.draw.ink import GREY
+from pigaming_app.ui.input.controls import Controls
+
+LID = 36  # px, radius
+
+
+class Seen:
+    """A rig that sees robots there."""
+
+    def __init__(self, *sightings: Sighting) -> None:
+        self.sightings = list(sightings)
+        self.asked = 0.0
+
+    def sense(self, ahead: float = 0.0) -> list[Sighting]:
+        self.asked = ahead
+        return self.sightings
+
+
+def lit(screen: pygame.Surface, seen: Seen, robots: set[int]) -> None:
+    screen.fill((200, 255, 90))
+    Discs(cast(Rig, seen)).draw(screen, robots)
+
+
+@pytest.mark.parametrize("gap", [2 * LID, 100, 150, 400])
+def test_every_lid_is_lit_evenly_even_where_robots_touch(controls: Controls, gap: int) -> None:
+    screen = pygame.Surface((1920, 1080))
+    seen = Seen(Sighting(400.0, 300.0, 0.3, 0.0), Sighting(400.0 + gap, 300.0, 3.0, 0.0))
+    lit(screen, seen, {0, 1})
+    assert seen.asked > 0.0
+    for one in seen.sightings:
+        for x in range(-LID, LID + 1, 3):
+            for y in range(-LID, LID + 1, 3):
+                if hypot(x, y) <= LID:
+                    assert screen.get_at((round(160 + one.x + x), round(140 + one.y + y)))[:3] == GREY
+
+
+def test_the_ring_and_the_arrow_tell_whose_it_is_and_where_it_looks(controls: Controls) -> None:
+    screen = pygame.Surface((1920, 1080))
+    lit(screen, Seen(Sighting(400.0, 300.0, 0.0, 0.0)), {0})
+    assert screen.get_at((560, 440 - RING))[2] > 150  # player 1 is blue
+    assert screen.get_at((560, 440 - (DISC + RING) // 2))[:3] == (0, 0, 0)
+    ahead = [screen.get_at((560 + x, 440 + y))[2] for x in range(90, 135) for y in range(-20, 21)]
+    assert max(ahead) > 200
+
+
+def test_who_is_not_real_or_long_unseen_gets_no_disc(controls: Controls) -> None:
+    screen = pygame.Surface((1920, 1080))
+    lit(screen, Seen(Sighting(400.0, 300.0, 0.0, 0.0), Sighting(900.0, 300.0, 0.0, 3.0)), {1})
+    for x in (560, 1060):
+        assert screen.get_at((x, 440))[:3] == (200, 255, 90)

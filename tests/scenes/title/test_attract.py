@@ -1,0 +1,83 @@
+"""Every lesson and a whole round of attract mode run to their end, in both languages, without a failed scene."""
+
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import arenas
+from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.howto.lessons import LESSONS
+from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.results.high_score_tables import boards
+from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.title.attract import Attract, Demonstration, Page
+from pigaming_app.storage.scores import Table
+from pigaming_app.ui.i18n import LANGUAGES
+from pigaming_app.ui.input.controls import Controls
+from tests.scenes.arcade import Arcade
+
+LONGEST = 12.0  # s; the longest picture, machine A and then B, starts again after 9.1 s
+PHASES = 0.1  # s between two frames
+FASTEST = 0.08  # s of a frame in which a match still runs at full speed
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("game", LESSONS)
+def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls, game: str, language: str) -> None:
+    arcade = Arcade(controls, language)
+    lesson = HowTo(arcade.house, game)
+    frames = set()
+    for _ in range(round(LONGEST / PHASES)):
+        lesson.update(PHASES)
+        lesson.draw(arcade.screen)
+        frames.add(arcade.screen.get_buffer().raw[::4099])
+    assert len(frames) > LONGEST / PHASES / 2, "the pictures move"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
+    home: Path, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    shown: list[tuple[str, str]] = []
+    follow = Attract._next
+
+    def noted(attract: Attract) -> None:
+        follow(attract)
+        shown.append(named(attract.show))
+
+    def first(house: House) -> Attract:
+        for game in GAMES:
+            scores_of(house, game)
+        return Attract(house)
+
+    monkeypatch.setattr(Attract, "_next", noted)
+    chosen = {"language": language}
+    whole = 3 * len(GAMES) + 1
+    options = Options(
+        first=first, headless=True, step=FASTEST, frames=8000, over=lambda: len(shown) == whole, chosen=chosen
+    )
+    assert run(options) == 0
+    assert "a scene failed" not in (home / "data" / "pigaming.log").read_text()
+    assert shown[:3] == [(kind, shown[0][1]) for kind in ("Demonstration", "HowTo", "Best")]
+    assert {game for _, game in shown} == set(GAMES)
+    assert len(set(shown)) == whole - 1
+    assert shown[-1] == shown[0], "and round again"
+
+
+def named(show: object) -> tuple[str, str]:
+    """What is shown, and of which game."""
+    if isinstance(show, Page):
+        assert isinstance(show.page, HowTo | Best)
+        return type(show.page).__name__, show.page.game
+    assert isinstance(show, Demonstration)
+    return "Demonstration", show.stage.match.setup.game
+
+
+def scores_of(house: House, game: str) -> None:
+    """Somebody has scored in a game's first arena."""
+    rules = GAMES[game]
+    contest = Table(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
+    for board in boards(contest):
+        house.scores.add(board.table, "ABC", 9)

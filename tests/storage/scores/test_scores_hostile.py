@@ -1,0 +1,195 @@
+"""Scores files that somebody spoilt: the arcade starts, one sentence says so, and the good rows are there."""
+
+import os
+from dataclasses import asdict, replace
+from datetime import UTC, datetime, timedelta, timezone
+
+import pytest
+import tomli_w
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pigaming_app.scenes.results.high_score_tables import contests
+from pigaming_app.storage.scores import FILE, Scores, Table
+
+GOOD = '{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }'
+TABLE = Table("pitanks", "classic", "points", rules="plain", length=2, people=1)
+OLDER = Table("pitanks", "classic", "points")
+HEAD = 'format = 2\n[[table]]\ngame = "pitanks"\narena = "{arena}"\nfeat = "points"\ntimed = false\nrules = "plain"\n'
+ROWS = [
+    '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00Z }',
+    '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00 }',
+    '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00+23:59 }',
+    '{ initials = "ABC", score = 1, when = 9999-12-31T23:59:59Z }',
+    '{ initials = "ABC", score = 1, when = 9999-12-31T23:59:59-23:59 }',
+    '{ initials = "ABC", score = 1, when = 9999-12-31T23:59:59 }',
+    '{ initials = "ABC", score = 1, when = 2026-11-21 }',
+    '{ initials = "ABC", score = 1, when = 12:00:00 }',
+    '{ initials = "ABC", score = 1, when = "today" }',
+    '{ initials = "ABC", score = 1 }',
+    '{ initials = "ABC", score = 1.5, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "ABC", score = nan, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "ABC", score = -inf, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "ABC", score = true, when = 2026-11-21T12:00:00Z }',
+    f'{{ initials = "ABC", score = {"9" * 400}, when = 2026-11-21T12:00:00Z }}',
+    f'{{ initials = "ABC", score = 0x{"f" * 5000}, when = 2026-11-21T12:00:00Z }}',
+    '{ initials = "ABC", score = 1000001, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "ABC", ms = 0, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "ABC", ms = -5, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "abc", score = 1, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "", score = 1, when = 2026-11-21T12:00:00Z }',
+    "{ initials = 3, score = 1, when = 2026-11-21T12:00:00Z }",
+    '{ initials = "ABC", score = 1, when = 2026-11-21T12:00:00Z, photo = "me.png" }',
+    "7",
+    "[]",
+    "{}",
+]
+NAMES = ["''", '"a.b"', '"a\\nb"', '"Ação"', '"\\u0000"', f'"{"x" * 5000}"']
+
+
+def good(scores):
+    return [row.score for table in (TABLE, OLDER) for row in scores.best(table)]
+
+
+def loaded(folder):
+    """The scores of a folder, which can be saved and loaded again without another word."""
+    scores, said = Scores.load(folder)
+    assert all("\n" not in line and len(line) < 500 for line in said)
+    scores.add(TABLE, "XYZ", 3)
+    scores.save(folder)
+    assert Scores.load(folder)[1] == []
+    return scores, said
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_a_bad_row_costs_only_itself(tmp_path, row):
+    head = HEAD.format(arena="classic") + "length = 2\npeople = 1\nside = 0\n"
+    (tmp_path / FILE).write_text(f"{head}rows = [{row}, {GOOD}]\n")
+    scores, said = loaded(tmp_path)
+    assert good(scores) == [4, 3]
+    assert said == [f"{tmp_path / FILE}: 1 entry is not a score (in pitanks.classic); ignored."]
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_a_bad_row_of_version_130_costs_only_itself(tmp_path, row):
+    (tmp_path / "scores.toml").write_text(f"[pitanks]\nclassic = [{row}, {GOOD}]\n")
+    scores, said = loaded(tmp_path)
+    assert good(scores) == [3, 4]
+    assert len(said) == 1
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "length = true\npeople = 1\nside = 0",
+        "length = nan\npeople = 1\nside = 0",
+        "length = -1\npeople = 1\nside = 0",
+        f"length = {'9' * 400}\npeople = 1\nside = 0",
+        "length = 2\npeople = true\nside = 0",
+        "length = 2\npeople = -1\nside = 0",
+        "length = 2\npeople = 1",
+        "length = 2\npeople = 1\nside = 0\nextra = 0",
+    ],
+)
+def test_a_table_with_bad_conditions_costs_only_itself(tmp_path, lines):
+    first = HEAD.format(arena="islands") + f"{lines}\nrows = [{GOOD}]\n"
+    second = HEAD.format(arena="classic").partition("\n")[2] + f"length = 2\npeople = 1\nside = 0\nrows = [{GOOD}]\n"
+    (tmp_path / FILE).write_text(first + second)
+    scores, said = loaded(tmp_path)
+    assert good(scores) == [4, 3]
+    assert len(said) == 1
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_odd_names_are_names_or_ignored(tmp_path, name):
+    (tmp_path / "scores.toml").write_text(f"[pitanks]\nclassic = [{GOOD}]\n{name} = [{GOOD}]\n[{name}]\n{name} = [3]\n")
+    scores, said = loaded(tmp_path)
+    assert good(scores) == [3, 4]
+    assert len(said) == 1
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x = " + "[" * 2000 + "]" * 2000,
+        "[" + ".".join("a" * 2000) + "]\n",
+        "x = " + "{a=" * 2000 + "1" + "}" * 2000,
+        f"format = {'9' * 5000}\n",
+        "format = 3\n",
+        "format = true\n",
+        "[pitanks]\n",
+        "format = 2\nformat = 2\n",
+        "\x00\x01",
+    ],
+)
+def test_an_unreadable_file_is_put_aside_and_the_one_before_serves(tmp_path, text):
+    before = Scores()
+    before.add(TABLE, "ABC", 4)
+    before.save(tmp_path)
+    before.add(TABLE, "ABC", 5)
+    before.save(tmp_path)
+    (tmp_path / FILE).write_text(text)
+    scores, said = loaded(tmp_path)
+    assert good(scores) == [4, 3]
+    assert len(said) == 1
+    assert len(list(tmp_path.glob(f"{FILE}.broken-*"))) == 1
+
+
+@pytest.mark.parametrize("name", [FILE, "scores.toml"])
+def test_a_file_of_100_mb_is_put_aside_unread(tmp_path, name):
+    with (tmp_path / name).open("wb") as file:
+        file.truncate(100_000_000)
+    scores, said = loaded(tmp_path)
+    assert good(scores) == [3]
+    assert len(said) == 1
+    assert "larger than" in said[0]
+
+
+@pytest.mark.parametrize("make", [os.mkdir, getattr(os, "mkfifo", os.mkdir)])
+@pytest.mark.parametrize("name", [FILE, "scores.toml"])
+def test_a_folder_or_a_pipe_in_its_place_is_put_aside(tmp_path, name, make):
+    make(tmp_path / name)
+    scores, said = loaded(tmp_path)
+    assert good(scores) == [3]
+    assert len(said) == 1
+
+
+def test_thousands_of_tables_and_rows_are_read_and_bounded(tmp_path):
+    many = "\n".join(f"arena{i} = [{GOOD}]" for i in range(2000))
+    long = ",".join(GOOD.replace("4", str(i)) for i in range(2000))
+    (tmp_path / "scores.toml").write_text(f"[pitanks]\n{many}\nclassic = [{long}]\n")
+    scores, said = loaded(tmp_path)
+    assert not said
+    assert len(scores.tables()) == 2002
+    assert [row.score for row in scores.best(OLDER)] == [*range(1999, 1989, -1)]
+    assert (tmp_path / FILE).stat().st_size < 1_000_000
+
+
+STRANGE = st.one_of(
+    st.booleans(),
+    st.integers(-(10**400), 10**400),
+    st.floats(),
+    st.text(st.characters(exclude_categories=["Cs"]), max_size=8),
+    st.datetimes(),
+    st.datetimes(timezones=st.sampled_from([UTC, timezone(timedelta(hours=-23))])),
+    st.dates(),
+    st.lists(st.integers(), max_size=3),
+    st.dictionaries(st.sampled_from(["", "a.b", "rows", "when"]), st.integers(), max_size=2),
+)
+KEYS = st.sampled_from([*asdict(TABLE), "initials", "score", "ms", "when", "rows"])
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.dictionaries(KEYS, STRANGE, max_size=2), max_size=4), st.lists(STRANGE, max_size=2))
+def test_whatever_a_file_holds_it_is_read_and_written_again(tmp_path_factory, changes, strangers):
+    folder = tmp_path_factory.mktemp("strange")
+    row = {"initials": "ABC", "score": 4, "when": datetime(2026, 11, 21, tzinfo=UTC)}
+    table, rows = asdict(TABLE), [{**row, **one} for one in changes]
+    new = {"format": 2, "table": [{**table, "rows": rows}, *({**table, "rows": [row], **one} for one in changes)]}
+    old = {"pitanks": {"classic": [*rows, *strangers], "islands": [row]}}
+    (folder / FILE).write_text(tomli_w.dumps(new), encoding="utf-8")
+    (folder / "scores.toml").write_text(tomli_w.dumps(old), encoding="utf-8")
+    scores, said = loaded(folder)
+    assert len(said) <= 2
+    assert [one.score for one in scores.best(replace(OLDER, arena="islands"))] == [4]
+    assert all(contests(scores)), "the page can sort what there is"

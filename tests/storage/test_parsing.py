@@ -1,0 +1,92 @@
+"""Whatever stands in a file, reading it ends soon: with a value that can be checked, or with one short line."""
+
+import os
+from math import inf
+
+import pytest
+
+from pigaming_app.storage.parsing import DEPTH, LINE, ParseError, json_of, one_line, read, read_text, shown, toml_of
+
+DEEP_TOML = {
+    "lists": "a = " + "[" * 2000 + "]" * 2000,
+    "inline tables": "a = " + "{a = " * 2000 + "1" + "}" * 2000,
+    "a dotted key": ".".join("a" * 2000) + " = 1",
+    "a long dotted key": ".".join("a" * 400_000) + " = 1",
+    "a dotted header": "[" + " . ".join("a" * 2000) + "]",
+    "just too deep": "a = " + "[" * (DEPTH + 1) + "]" * (DEPTH + 1),
+}
+DEEP_JSON = {"lists": "[" * 2000 + "]" * 2000, "tables": '{"a":' * 100_000 + "1" + "}" * 100_000}
+
+
+@pytest.mark.parametrize("text", DEEP_TOML.values(), ids=DEEP_TOML)
+def test_deep_toml_is_refused(text):
+    with pytest.raises(ParseError, match="nested more than"):
+        toml_of(text)
+
+
+@pytest.mark.parametrize("text", DEEP_JSON.values(), ids=DEEP_JSON)
+def test_deep_json_is_refused(text):
+    with pytest.raises(ParseError, match="nested more than"):
+        json_of(text)
+
+
+@pytest.mark.parametrize("digits", [20, 400, 4000])
+def test_a_number_beyond_64_bits_is_infinite(digits):
+    number = "9" * digits
+    assert toml_of(f"a = {number}\nb = [-{number}]") == {"a": inf, "b": [-inf]}
+    assert json_of(f'{{"a": {number}, "b": [-{number}]}}') == {"a": inf, "b": [-inf]}
+    assert json_of(number) == inf
+
+
+def test_the_limits_of_64_bits_stay_whole():
+    assert toml_of(f"a = {2**63 - 1}\nb = {-(2**63)}") == {"a": 2**63 - 1, "b": -(2**63)}
+
+
+def test_5000_digits_end_in_a_value_or_a_line():
+    assert json_of("[" + "9" * 5000 + "]") == [inf]
+    with pytest.raises(ParseError, match="too many digits"):
+        toml_of("a = " + "9" * 5000)
+
+
+@pytest.mark.parametrize("text", ["a =", "a = 1979-13-01", "a = 0000-01-01", '"\x00" = 1', "a = \n" * 3000, "\ufeff"])
+def test_broken_toml_is_one_short_line(text):
+    with pytest.raises(ParseError) as refused:
+        toml_of(text)
+    assert len(str(refused.value)) <= LINE + 1
+    assert str(refused.value).isprintable()
+
+
+@pytest.mark.parametrize("text", ["", "{", "\x00", b"\xff\xfe\x00", b"\xed\xa0\x80", '"\n"'])
+def test_broken_json_is_one_short_line(text):
+    with pytest.raises(ParseError) as refused:
+        json_of(text)
+    assert str(refused.value).isprintable()
+
+
+def test_a_file_is_read_up_to_the_limit(tmp_path):
+    (tmp_path / "file").write_bytes(b"\xef\xbb\xbfabc\r\n")
+    assert read_text(tmp_path / "file", 8) == "abc\r\n"
+    with pytest.raises(OSError, match="larger than 7 bytes"):
+        read(tmp_path / "file", 7)
+
+
+def test_bytes_that_are_not_utf_8_are_refused(tmp_path):
+    (tmp_path / "file").write_bytes(b"\xff\xfe")
+    with pytest.raises(ParseError, match="not text in UTF-8"):
+        read_text(tmp_path / "file")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="devices and pipes are files on POSIX only")
+def test_devices_and_pipes_are_refused_at_once(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path / "pipe", tmp_path, *map(type(tmp_path), ("/dev/zero", "/dev/full"))):
+        with pytest.raises(OSError, match="not a file"):
+            read(path)
+
+
+def test_a_message_is_one_line_whatever_it_quotes():
+    assert one_line("a\nb\x1b[2J\u2028\udcff") == r"a\nb\x1b[2J\u2028\udcff"
+    assert len(one_line("x" * 100_000)) <= LINE + 1
+    assert shown("a" * 300).startswith("'aaaa")
+    assert shown("a" * 300).endswith("aaaa'")
+    assert shown([10**30] * 50).isprintable()

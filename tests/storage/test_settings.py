@@ -1,0 +1,191 @@
+"""Settings survive pulled plugs, broken files and full disks; what is wrong in them is said, and costs only itself."""
+
+import errno
+import os
+import tomllib
+from dataclasses import replace
+
+import pytest
+
+from pigaming_app.storage import safe_files as keeping
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import FILE, Choice, Settings, folders
+
+
+def test_without_a_file_there_are_defaults_and_nothing_is_said(tmp_path):
+    assert Settings.load(tmp_path / "new") == (Settings(), [])
+
+
+def test_what_is_saved_comes_back(tmp_path):
+    changed = Settings(language="pt", music=0, shake=False, attract_seconds=90.0)
+    changed.choice("race").goal = 5
+    changed.choice("pitanks").arena = "islands"
+    changed.save(tmp_path / "new")
+    assert Settings.load(tmp_path / "new") == (changed, [])
+
+
+def test_the_version_before_stays_beside_it(tmp_path):
+    Settings(music=1).save(tmp_path)
+    Settings(music=2).save(tmp_path)
+    assert tomllib.loads((tmp_path / f"{FILE}.bak").read_text())["music"] == 1
+
+
+def test_a_broken_file_is_kept_aside_and_said_once(tmp_path):
+    (tmp_path / FILE).write_text("language = \n")
+    settings, said = Settings.load(tmp_path)
+    (aside,) = tmp_path.glob(f"{FILE}.broken-*")
+    assert settings == Settings()
+    assert aside.read_text() == "language = \n"
+    assert len(said) == 1
+    assert all(part in said[0] for part in (str(tmp_path / FILE), "line 1", aside.name))
+    assert Settings.load(tmp_path) == (Settings(), [])
+
+
+def test_the_one_before_serves_when_the_last_is_broken(tmp_path):
+    Settings(language="pt").save(tmp_path)
+    Settings(language="pt").save(tmp_path)
+    (tmp_path / FILE).write_bytes(b"\xff\x00")
+    settings, said = Settings.load(tmp_path)
+    assert settings.language == "pt"
+    assert "it is not text in UTF-8" in said[0]
+    assert said[0].endswith("the version before it is back.")
+    assert Settings.load(tmp_path) == (settings, [])
+
+
+def test_notepad_may_have_edited_it(tmp_path):
+    (tmp_path / FILE).write_bytes(b"\xef\xbb\xbfmusic = 3\r\n")
+    assert Settings.load(tmp_path) == (Settings(music=3), [])
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ("music = 11", "music = 11 is not between 0 and 10; 6 is used"),
+        ("music = 3.5", "music = 3.5 is not a whole number; 6 is used"),
+        ("music = true", "music = True is not a whole number; 6 is used"),
+        ('language = "de"', "language = 'de' is none of en, pt; 'en' is used"),
+        ("language = []", "language = [] is none of en, pt; 'en' is used"),
+        ("shake = 1", "shake = 1 is neither true nor false; True is used"),
+        ("attract_seconds = nan", "attract_seconds = nan is not between 5.0 and 3600.0; 60.0 is used"),
+        ("games = 3", "games is not a table; it is ignored"),
+        ("[games.race]\ngoal = -1", "games.race.goal = -1 is not between 0 and 99; 0 is used"),
+        ("[games.race]\narena = 3", "games.race.arena = 3 is not a short text; '' is used"),
+        ("[games.race]\nwheels = 3", "games.race.wheels is not a setting; it is ignored"),
+        ("[games]\nrace = 3", "race is not a table; it is ignored"),
+        ("[music]", "music = {} is not a whole number; 6 is used"),
+        ("loudness = 3", "loudness is not a setting; it is ignored"),
+    ],
+)
+def test_a_wrong_line_is_named_and_costs_only_itself(tmp_path, line, reason):
+    (tmp_path / FILE).write_text(f"sounds = 1\n{line}\n")
+    settings, said = Settings.load(tmp_path)
+    assert settings == replace(Settings(), sounds=1, games=settings.games)
+    assert all(choice == Choice() for choice in settings.games.values())
+    assert said == [f"{tmp_path / FILE}: {reason}."]
+
+
+def test_what_an_older_arcade_kept_goes_to_its_only_game(tmp_path):
+    (tmp_path / FILE).write_text('arena = "islands"\nminutes = 3\nvariant = "plain"\n')
+    settings, said = Settings.load(tmp_path)
+    assert settings.choice("pitanks") == Choice("islands", 3, "plain")
+    assert said == []
+
+
+def test_a_whole_number_will_do_for_seconds(tmp_path):
+    (tmp_path / FILE).write_text("attract_seconds = 30\n")
+    seconds = Settings.load(tmp_path)[0].attract_seconds
+    assert (seconds, type(seconds)) == (30.0, float)
+
+
+@pytest.mark.parametrize(
+    ("number", "reason"),
+    [(errno.ENOSPC, "the disk is full"), (errno.EROFS, "no permission"), (errno.EIO, os.strerror(errno.EIO))],
+)
+def test_where_nothing_can_be_written_the_old_file_is_intact(tmp_path, monkeypatch, number, reason):
+    Settings(music=1).save(tmp_path)
+    Settings(music=2).save(tmp_path)
+
+    def refuse(_file):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(keeping.os, "fsync", refuse)
+    with pytest.raises(NotSaved, match=f"^.*{FILE} was not saved: {reason}.$"):
+        Settings(music=3).save(tmp_path)
+    assert Settings.load(tmp_path) == (Settings(music=2), [])
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f".{FILE}.lock", FILE, f"{FILE}.bak"]
+
+
+def test_a_plug_pulled_before_the_last_step_leaves_the_old_file(tmp_path, monkeypatch):
+    Settings(music=1).save(tmp_path)
+    moves = []
+
+    def pulled(source, target):
+        moves.append(target)
+        if len(moves) == 2:  # the first is the .bak
+            raise KeyboardInterrupt
+        os.rename(source, target)
+
+    monkeypatch.setattr(keeping.os, "replace", pulled)
+    with pytest.raises(KeyboardInterrupt):
+        Settings(music=3).save(tmp_path)
+    assert Settings.load(tmp_path) == (Settings(music=1), [])
+
+
+def test_a_file_in_place_of_the_folder_is_said_and_harmed_by_nothing(tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(NotSaved):
+        Settings().save(tmp_path / "file")
+    assert (tmp_path / "file").read_text() == "in the way"
+
+
+def test_a_folder_in_place_of_the_file_is_put_aside(tmp_path):
+    (tmp_path / FILE).mkdir()
+    assert len(Settings.load(tmp_path)[1]) == 1
+    Settings(music=3).save(tmp_path)
+    assert Settings.load(tmp_path) == (Settings(music=3), [])
+
+
+def test_one_variable_moves_all_folders(home):
+    where = folders()
+    assert {where.config.parent, where.data.parent, where.cache.parent} == {home}
+
+
+def test_without_it_they_are_the_platforms_own(monkeypatch):
+    monkeypatch.delenv("PIGAMING_HOME")
+    where = folders()
+    assert len({where.config, where.cache}) == 2
+    assert all("pigaming" in str(folder) for folder in (where.config, where.data, where.cache))
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ("real = [1, 5]", "not a list of different numbers from 1 to 4"),
+        ("real = [2, 2]", "not a list of different numbers from 1 to 4"),
+        ("real = 3", "not a list of different numbers from 1 to 4"),
+        ("radios = [1, 2]", "not all of 1, 2, 3, 4"),
+        ("baud = 7", "not between 1200 and 921600"),
+        ('radio = "morse"', "none of api2"),
+        ("mat = 1", "neither true nor false"),
+    ],
+)
+def test_what_is_wrong_about_camera_and_radio_is_named(tmp_path, line, reason):
+    (tmp_path / FILE).write_text(line + "\n")
+    settings, said = Settings.load(tmp_path)
+    assert settings == Settings()
+    assert len(said) == 1
+    assert reason in said[0]
+
+
+def test_the_robots_and_their_radios_are_kept(tmp_path):
+    chosen = Settings(mat=True, real=[3, 1], radios=[2, 1, 3, 4], port="/dev/ttyUSB1", radio="stock", camera=2)
+    chosen.save(tmp_path)
+    assert Settings.load(tmp_path) == (chosen, [])
+
+
+def test_choosing_what_does_not_fit_says_why_and_changes_nothing():
+    settings = Settings()
+    with pytest.raises(ValueError, match="baud = 7 is not between 1200 and 921600"):
+        settings.choose("baud", 7)
+    settings.choose("baud", 115200)
+    assert settings == Settings(baud=115200)

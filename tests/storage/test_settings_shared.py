@@ -1,0 +1,155 @@
+"""Several arcades on one folder: each writes only the settings that it has changed itself."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import settings as runs
+from hypothesis import strategies as st
+
+from pigaming_app.storage.settings import FILE, LONGEST, MOST_GAMES, MOST_SENTENCES, Choice, Settings
+
+ROOT = Path(__file__).parents[2]
+MUSIC = """
+import sys
+from pathlib import Path
+from pigaming_app.storage.settings import Settings
+folder, name = Path(sys.argv[1]), sys.argv[2]
+settings, _ = Settings.load(folder)
+for value in [*range(9), int(sys.argv[3])]:
+    setattr(settings, name, value)
+    settings.choice("race").goal = 7
+    settings.choice(name).minutes = value
+    settings.save(folder)
+"""
+
+
+def test_what_two_copies_change_is_kept(tmp_path, caplog):
+    Settings().save(tmp_path)
+    one, other = Settings.load(tmp_path)[0], Settings.load(tmp_path)[0]
+    one.language, one.choice("race").goal = "pt", 5
+    other.music, other.choice("race").arena = 2, "kidney"
+    one.save(tmp_path)
+    other.save(tmp_path)
+    kept, said = Settings.load(tmp_path)
+    assert not said
+    assert (kept.language, kept.music, kept.choice("race")) == ("pt", 2, Choice("kidney", goal=5))
+    expected = "settings of another copy of the arcade kept: language, games.race.goal."
+    assert [record.message for record in caplog.records] == [expected]
+    assert (other.language, one.music) == ("en", 6), "a copy goes on as it was set"
+
+
+def test_looking_at_a_game_changes_nothing_that_another_copy_chose(tmp_path):
+    one, other = Settings.load(tmp_path)[0], Settings.load(tmp_path)[0]
+    one.choice("race").arena = "kidney"
+    one.save(tmp_path)
+    other.choice("race")
+    other.save(tmp_path)
+    assert Settings.load(tmp_path)[0].choice("race").arena == "kidney"
+
+
+def test_of_two_choices_the_later_one_holds_and_the_log_names_it(tmp_path, caplog):
+    one, other = Settings.load(tmp_path)[0], Settings.load(tmp_path)[0]
+    one.music, other.music = 1, 2
+    one.save(tmp_path)
+    other.save(tmp_path)
+    one.save(tmp_path)
+    assert Settings.load(tmp_path)[0].music == 2
+    replaced, kept = (record.message for record in caplog.records)
+    assert replaced == "settings of another copy of the arcade replaced: music."
+    assert kept == "settings of another copy of the arcade kept: music."
+
+
+@runs(max_examples=15, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 2), st.sampled_from(("music", "sounds", "goal", "save")), st.integers(0, 9))))
+def test_copies_in_any_order_keep_the_last_saved_choice_of_every_setting(tmp_path_factory, story):
+    folder = tmp_path_factory.mktemp("shared")
+    copies = [Settings.load(folder)[0] for _ in range(3)]
+    there = {"music": 6, "sounds": 8, "goal": 0}
+    known = [dict(there) for _ in copies]  # as each copy loaded or saved it last
+    mine = [dict(there) for _ in copies]
+    for copy, name, value in [*story, *((copy, "save", 0) for copy in range(3))]:
+        settings = copies[copy]
+        if name == "save":
+            settings.save(folder)
+            there |= {key: now for key, now in mine[copy].items() if now != known[copy][key]}
+            known[copy] = dict(mine[copy])
+        else:
+            mine[copy][name] = value
+            setattr(settings.choice("race") if name == "goal" else settings, name, value)
+    kept = Settings.load(folder)[0]
+    assert {"music": kept.music, "sounds": kept.sounds, "goal": kept.choice("race").goal} == there
+
+
+def test_parallel_processes_keep_the_choices_of_all(tmp_path):
+    wanted = {"music": 3, "sounds": 5, "display": 7}
+    copies = [
+        subprocess.Popen([sys.executable, "-c", MUSIC, str(tmp_path), name, str(value)], cwd=ROOT)
+        for name, value in wanted.items()
+    ]
+    assert [copy.wait() for copy in copies] == [0, 0, 0]
+    kept, said = Settings.load(tmp_path)
+    assert not said
+    assert {name: getattr(kept, name) for name in wanted} == wanted
+    assert {name: kept.choice(name).minutes for name in wanted} == wanted
+    assert kept.choice("race").goal == 7
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        f"music = {'9' * 400}",
+        f"music = 0x{'f' * 5000}",
+        f"attract_seconds = {'9' * 400}",
+        "attract_seconds = inf",
+        "attract_seconds = -1e308",
+        "corners = [true, true, true, true, true, true, true, true]",
+        f"corners = [{','.join('1' * 5000)}]",
+        "real = [true]",
+        'port = "a\\u0000b"',
+        'port = "a\\nb"',
+        f'port = "{"x" * 5000}"',
+        '"" = 1',
+        '"a.b\\nc" = 1',
+        f'"{"k" * 5000}" = 1',
+        "music = 0001-01-01T00:00:00Z",
+        'games = ""',
+        f'[games."{"g" * (LONGEST + 1)}"]\ngoal = 3',
+        '[games."a\\nb"]\nvolume = 3',
+        "[music]\na = 1",
+        "[[games.race]]\ngoal = 3",
+    ],
+)
+def test_an_odd_line_is_named_in_one_line_and_costs_only_itself(tmp_path, line):
+    (tmp_path / FILE).write_text(f"sounds = 1\n{line}\n")
+    settings, said = Settings.load(tmp_path)
+    assert settings.sounds == 1
+    assert len(said) == 1
+    assert "\n" not in said[0]
+    assert len(said[0]) < 400
+    settings.save(tmp_path)
+    assert Settings.load(tmp_path) == (settings, [])
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["x = " + "[" * 2000 + "]" * 2000, "x = " + "{a=" * 2000 + "1" + "}" * 2000, f"music = {'9' * 5000}", "\x00"],
+)
+def test_an_unreadable_file_is_put_aside(tmp_path, text):
+    (tmp_path / FILE).write_text(text)
+    settings, said = Settings.load(tmp_path)
+    assert settings == Settings()
+    assert len(said) == 1
+    assert list(tmp_path.glob(f"{FILE}.broken-*"))
+
+
+def test_thousands_of_odd_lines_are_summed_up(tmp_path):
+    lines = [f"key{i} = {i}" for i in range(3000)] + [f"[games.game{i}]\ngoal = 3" for i in range(3000)]
+    (tmp_path / FILE).write_text("sounds = 1\n" + "\n".join(lines))
+    settings, said = Settings.load(tmp_path)
+    assert settings.sounds == 1
+    assert len(settings.games) == MOST_GAMES
+    assert len(said) == MOST_SENTENCES + 1
+    assert said[-1].endswith(f"{6000 - MOST_GAMES - MOST_SENTENCES} more lines are wrong; they are ignored.")
