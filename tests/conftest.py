@@ -2,16 +2,23 @@
 
 import os
 import tempfile
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from pigaming_app.sim.kernel import _cache_folder
 
+if TYPE_CHECKING:
+    from pigaming_app.ui.input.controls import Controls
+
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["SDL_AUDIODRIVER"] = "dummy"
 os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
+os.environ["SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS"] = "1"  # as in the arcade: pads count though a window was closed
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))  # before home moves: compiling takes long
 
 
@@ -27,3 +34,32 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The user's folders of one test."""
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
     return tmp_path / "home"
+
+
+@pytest.fixture
+def _home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+
+
+@pytest.fixture
+def controls() -> "Iterator[Controls]":
+    """The devices of an arcade whose window is open, but seen by nobody."""
+    import pygame
+
+    from pigaming_app.ui.input.controls import Controls
+
+    pygame.display.init()
+    pygame.display.set_mode((1920, 1080))
+    pygame.event.clear()
+    yield Controls()
+    pygame.event.clear()
+
+
+@pytest.fixture
+def _no_threads_stay() -> Iterator[None]:
+    before = set(threading.enumerate())
+    yield
+    end = time.monotonic() + 3.0
+    while left := set(threading.enumerate()) - before:
+        assert time.monotonic() < end, f"still there: {left}"
+        time.sleep(0.01)

@@ -32,7 +32,7 @@ DEBTS = {
     ("ui", "hardware"),
     ("ui", "scenes"),
 }
-ONLY_IN = {"pygame": {"ui", "scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
+ONLY_IN = {"pygame": {"ui", "scenes", "jobs", "hardware"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
