@@ -9,13 +9,15 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib import import_module
-from math import degrees
+from math import atan2, degrees
 from operator import attrgetter
 from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai import make
+from pigaming_app.ai import make, qlearning, sectors
+from pigaming_app.ai.classic import Unknown
+from pigaming_app.ai.rewards import RECIPES
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.choices import choose
@@ -28,7 +30,7 @@ from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race.state import Rules as RaceRules
 from pigaming_app.scenes import initials
 from pigaming_app.scores import table
-from pigaming_app.sim import action, arena, circuit, contact, drivetrain, robots, walker, world
+from pigaming_app.sim import action, angles, arena, circuit, contact, drivetrain, robots, walker, world
 from pigaming_app.sim.record import fields_of
 
 race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
@@ -45,12 +47,13 @@ CONSTANTS = {  # by section of docs/games.md, the modules in which its constants
 }
 
 ROOT = Path(__file__).resolve().parent.parent
-GAMES_PAGE = ROOT / "docs" / "games.md"
+GAMES_PAGE, THESIS_PAGE = ROOT / "docs" / "games.md", ROOT / "docs" / "thesis.md"
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
 QUANTITY = re.compile(r"×?(?P<numbers>−?[\d./]+(?:(?:, | to )[\d./]+)*) ?(?P<unit>[^\d(]*)")
 WORDS = {"yes": 1, "no": 0}
+AS_IN_CODE = {"", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  # units that need no conversion
 
 
 @dataclass(frozen=True)
@@ -111,7 +114,7 @@ def in_code(row):
 
 
 def converted(value, unit):
-    """A value of the code in a unit of the page. Whole numbers of the code that are shown in s are ticks."""
+    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError for other units."""
     ticks = isinstance(value, int)
     units = {
         "cm": lambda: value * drivetrain.MM / 10,
@@ -122,7 +125,7 @@ def converted(value, unit):
         "s": lambda: value / world.HZ if ticks else value,
         "s a meter": lambda: 1 / (value * world.HZ),
     }
-    return units[unit]() if unit in units else value
+    return value if unit in AS_IN_CODE else units[unit]()
 
 
 def quantities(cell):
@@ -198,6 +201,71 @@ def test_every_variant_and_strength_has_its_column():
 )
 def test_a_cell_is_compared_in_its_units(cell, value, same):
     assert agrees(cell, value) is same
+
+
+def quoted():
+    """What docs/thesis.md says of this program, as the code has it."""
+    tanks, shop, track = (match_of(game).state.rules for game in ("pitanks", "factory", "race"))
+    one, two, unknown = RECIPES[1], RECIPES[2], Unknown()
+    yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
+    yield f"{world.WIDTH:g} × {world.HEIGHT:g} px; nominal mat 2.11 × 1.19 m, so {drivetrain.MM} mm a pixel"
+    yield f"{tanks.speed:g} px/s (0.34 m/s) and {tanks.turn_rate} rad/s"
+    yield f"×{tanks.turbo_factor}, from a meter of {1 / tanks.turbo_drain / world.HZ:g} s"
+    yield f"refills in {1 / tanks.turbo_refill / world.HZ:g} s"
+    yield f"first-order lag of {robots.LAG} s"
+    yield f"one a bullet, from {arena.HEALTH}"
+    yield f"{tanks.bullet_speed:g} px/s, radius {tanks.bullet_radius:g} px, one each {tanks.cooldown / world.HZ:g} s"
+    yield f"at most {tanks.bullets_alive} alive"
+    yield f"{tanks.protection / world.HZ:g} s of protection, none in `classic`"
+    yield f"after {shop.replace / world.HZ:g} s it is replaced"
+    yield f"three workers, {shop.walk:g} px/s, {shop.process / world.HZ:g} s a pallet"
+    yield f"{GAMES['factory'].default_goal} a team; 2 to {GAMES['factory'].goals[-1]} by choice"
+    yield f"nobody collects for {shop.collect / world.HZ:g} s"
+    yield f"{GAMES['race'].default_goal}; 1 to {GAMES['race'].goals[-1]} by choice"
+    yield f"{track.speed:g} px/s, that is ×{track.speed / tanks.speed:g}"
+    yield f"×{Fraction(track.mud).limit_denominator(9)} | **open**: ×2/3 or ×1/3"
+    yield f"{track.patience / world.HZ:g} s after the first has finished"
+    yield f"fires from {unknown.engage:g} px; decides every {unknown.period} ticks; aims to {unknown.tolerance:g} rad"
+    yield f"{unknown.beside:g} px behind the wall; there within {unknown.arrived:g} px"
+    yield f"| {sectors.STATES:,} | **same**"
+    yield f"| {qlearning.PAIRS:,} | **same**"
+    yield f"every {one.period} ticks; a turn of {degrees(one.period / world.HZ * tanks.turn_rate):.0f}° at most"
+    yield f"| γ = {one.gamma:g} |"
+    yield f"the same, in a line over {one.ceiling:,} experiences"
+    yield f"no longer learns; temperature 1/{1 / one.cold:g}"
+    yield f"of the closest wall: +10 | +{one.hit:g} |"
+    yield f"looking at the opponent: −1 | −{-one.miss:g}; looking is sector 0"
+    yield f"−1, once | −{-one.behind:g};"
+    yield f"at every step | −{-two.behind:g};"
+    yield f"staying still: −10 | −{-two.still:g};"
+
+
+def test_the_page_on_the_thesis_says_of_this_program_what_is_so():
+    page = THESIS_PAGE.read_text(encoding="utf-8")
+    assert [text for text in quoted() if text not in page] == []
+
+
+def test_the_page_on_the_thesis_has_the_results_of_the_readme():
+    triple = re.compile(r"\d+ / \d+ / \d+")
+    page, readme = (triple.findall(path.read_text(encoding="utf-8")) for path in (THESIS_PAGE, ROOT / "README.md"))
+    assert page == readme
+    assert len(page) == 8
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
+    class Camper:
+        def think(self, state, seat):
+            own, other = state.robots[seat], state.robots[1 - seat]
+            turn = angles.turn_to(atan2(other.y - own.y, other.x - own.x) - own.heading)
+            action.press(state.actions[seat], 0.0, 4.0 * turn, 1, 0)
+
+    match = match_of("pitanks", "classic")
+    match.sit(seed % 2, Camper())
+    match.sit(1 - seed % 2, make("pitanks", "classic", seed))
+    while not match.over:
+        match.tick()
+    assert match.outcome().winners == (seed % 2,)
 
 
 @pytest.mark.parametrize(("charge", "boosts"), [(0.0999, 0), (0.1001, 1)])
