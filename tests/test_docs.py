@@ -114,7 +114,7 @@ def in_code(row):
 
 
 def converted(value, unit):
-    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError for other units."""
+    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError for another."""
     ticks = isinstance(value, int)
     units = {
         "cm": lambda: value * drivetrain.MM / 10,
