@@ -1,0 +1,316 @@
+"""The pages under docs/ agree with the code: numbers, arena files, links.
+
+A table whose last column is headed `name` is compared row by row. The name is looked up in the code; the cell holds the
+value with its unit, and in brackets the same in other units. Columns headed by names in backticks are variants or
+strengths of AIs.
+"""
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from importlib import import_module
+from math import atan2, degrees
+from operator import attrgetter
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.ai import make, qlearning, sectors
+from pigaming_app.ai.classic import Unknown
+from pigaming_app.ai.rewards import RECIPES
+from pigaming_app.games import GAMES
+from pigaming_app.games.arenas import parse
+from pigaming_app.games.choices import choose
+from pigaming_app.games.factory import floor, state
+from pigaming_app.games.factory import rules as factory_rules
+from pigaming_app.games.factory.start import Rules as FactoryRules
+from pigaming_app.games.match import Match
+from pigaming_app.games.pitanks import state as pitanks
+from pigaming_app.games.race import rules as race_rules
+from pigaming_app.games.race.state import Rules as RaceRules
+from pigaming_app.scenes import initials
+from pigaming_app.scores import table
+from pigaming_app.sim import action, angles, arena, circuit, contact, drivetrain, robots, walker, world
+from pigaming_app.sim.record import fields_of
+
+race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
+
+GAME_OF = {"PiTanks": "pitanks", "Robot Factory": "factory", "Robot Race": "race"}
+RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": RaceRules}
+CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
+    "Units, arena, robots": (world, robots, drivetrain, action, contact),
+    "PiTanks": (pitanks, arena),
+    "Robot Factory": (state, walker, factory_rules),
+    "Robot Race": (race, race_rules),
+    "Results and tables of best scores": (table, initials),
+    "Arena files": (world, arena, race, circuit, floor),
+}
+
+ROOT = Path(__file__).resolve().parent.parent
+GAMES_PAGE, THESIS_PAGE = ROOT / "docs" / "games.md", ROOT / "docs" / "thesis.md"
+PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
+PAGES += sorted((ROOT / "docs").glob("*.md"))
+NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
+QUANTITY = re.compile(r"×?(?P<numbers>−?[\d./]+(?:(?:, | to )[\d./]+)*) ?(?P<unit>[^\d(]*)")
+WORDS = {"yes": 1, "no": 0}
+AS_IN_CODE = {"", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  # units that need no conversion
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of a table of numbers: where it stands, the column's heading, what the page says, what it is called."""
+
+    section: str
+    first: str  # heading of the first column
+    column: str  # variant or strength; empty: the only one
+    cell: str
+    name: str
+
+
+def prose(page):
+    """The lines of a page that are no code."""
+    return re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def rows(text):
+    """Every number of the tables that end with a column `name`."""
+    section, head = "", None
+    for line in text.splitlines():
+        if line.startswith("## "):
+            section = line[3:]
+        if not line.startswith("|"):
+            head = None
+        elif head is None:
+            head = cells(line)
+        elif head[-1] == "name" and not set(line) <= set("|- "):
+            first, *values, name = cells(line)
+            assert len(values) == len(head) - 2, line
+            assert first, line
+            for column, cell in zip(head[1:-1], values, strict=True):
+                yield Row(section, head[0], column.strip("`") if "`" in column else "", cell, name.strip("`"))
+
+
+def match_of(game, variant=None):
+    return Match(choose(game, ["idle", "idle"], None, None, 1, variant, None, ["idle"]))
+
+
+def in_code(row):
+    """The value that the code has for a row. Raises KeyError for a name that it does not have."""
+    root, _, path = row.name.partition(".")
+    if root == "mind":
+        return attrgetter(path)(make(GAME_OF[row.first], row.column, 1).mind)
+    if root in ("Rules", "Game"):
+        game = GAME_OF[row.section]
+        return attrgetter(path)(match_of(game, row.column or None).state.rules if root == "Rules" else GAMES[game])
+    found = [getattr(module, row.name) for module in CONSTANTS[row.section] if hasattr(module, row.name)]
+    if not found:
+        raise KeyError(row.name)
+    assert len(set(found)) == 1, f"{row.name} means several things in {row.section}"
+    return found[0]
+
+
+def converted(value, unit):
+    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError for another."""
+    ticks = isinstance(value, int)
+    units = {
+        "cm": lambda: value * drivetrain.MM / 10,
+        "cm/s": lambda: value * drivetrain.MM / 10,
+        "°": lambda: degrees(value),
+        "°/s": lambda: degrees(value),
+        "%": lambda: 100 * value,
+        "s": lambda: value / world.HZ if ticks else value,
+        "s a meter": lambda: 1 / (value * world.HZ),
+    }
+    return value if unit in AS_IN_CODE else units[unit]()
+
+
+def quantities(cell):
+    """The numbers of a cell, each list with its unit and the decimals shown; the first one is exact."""
+    if cell in WORDS:
+        return [((Fraction(WORDS[cell]),), "", 0)]
+    found = []
+    for match in QUANTITY.finditer(cell):
+        texts = re.split(", | to ", match["numbers"].replace("−", "-"))
+        numbers = tuple(map(Fraction, texts))
+        if " to " in match["numbers"]:
+            numbers = tuple(map(Fraction, range(int(numbers[0]), int(numbers[1]) + 1)))
+        found.append((numbers, match["unit"].rstrip(" )"), len(texts[0].partition(".")[2])))
+    return found
+
+
+def agrees(cell, value):
+    """Whether a cell shows a value: its first quantity exactly, those in brackets as far as they are rounded."""
+    found = quantities(cell)
+    assert found, f"no number in {cell!r}"
+    for i, (numbers, unit, decimals) in enumerate(found):
+        values = value if isinstance(value, tuple) else (value,)
+        leeway = 1e-9 if i == 0 else 0.5000001 * 10**-decimals
+        wanted = [converted(one, unit) for one in values]
+        if len(wanted) != len(numbers) or any(
+            abs(shown - one) > leeway for shown, one in zip(map(float, numbers), wanted, strict=True)
+        ):
+            return False
+    return True
+
+
+ROWS = list(rows(GAMES_PAGE.read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.section}-{row.name}-{row.column or row.first}")
+def test_a_number_on_the_page_is_that_of_the_code(row):
+    assert agrees(row.cell, in_code(row)), f"the page says {row.cell}, the code {in_code(row)}"
+
+
+@pytest.mark.parametrize("section", GAME_OF)
+def test_every_number_of_the_rules_is_on_the_page(section):
+    named = {row.name for row in ROWS if row.section == section}
+    assert {f"Rules.{field.name}" for field in fields_of(RULES[GAME_OF[section]])} <= named
+
+
+def test_every_variant_and_strength_has_its_column():
+    columns = {row.column for row in ROWS if row.section == "PiTanks" and row.column}
+    assert columns == set(GAMES["pitanks"].variants)
+    for section in GAME_OF:
+        columns = {row.column for row in ROWS if row.section == "Opponents" and row.first == section}
+        assert columns == {"easy", "normal", "hard"}
+
+
+@pytest.mark.parametrize(
+    ("cell", "value", "same"),
+    [
+        ("260 px/s (34.3 cm/s)", 260.0, True),
+        ("260 px/s (34.4 cm/s)", 260.0, False),
+        ("261 px/s", 260.0, False),
+        ("0.5 s (25 ticks)", 25, True),
+        ("0.5 s (24 ticks)", 25, False),
+        ("0.08 s", 0.08, True),
+        ("2 s a meter", 0.01, True),
+        ("×1/3", 1 / 3, True),
+        ("×0.33", 1 / 3, False),
+        ("0.21 rad (12 °)", 0.21, True),
+        ("2 to 8", (2, 3, 4, 5, 6, 7, 8), True),
+        ("2 to 8", (2, 3, 4, 5, 6, 7), False),
+        ("1, 2, 3, 5 min", (1, 2, 3, 5), True),
+        ("1, 2, 5 min", (1, 2, 3, 5), False),
+        ("yes", 0, False),
+    ],
+)
+def test_a_cell_is_compared_in_its_units(cell, value, same):
+    assert agrees(cell, value) is same
+
+
+def quoted():
+    """What docs/thesis.md says of this program, as the code has it."""
+    tanks, shop, track = (match_of(game).state.rules for game in ("pitanks", "factory", "race"))
+    one, two, unknown = RECIPES[1], RECIPES[2], Unknown()
+    yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
+    yield f"{world.WIDTH:g} × {world.HEIGHT:g} px; nominal mat 2.11 × 1.19 m, so {drivetrain.MM} mm a pixel"
+    yield f"{tanks.speed:g} px/s (0.34 m/s) and {tanks.turn_rate} rad/s"
+    yield f"×{tanks.turbo_factor}, from a meter of {1 / tanks.turbo_drain / world.HZ:g} s"
+    yield f"refills in {1 / tanks.turbo_refill / world.HZ:g} s"
+    yield f"first-order lag of {robots.LAG} s"
+    yield f"one a bullet, from {arena.HEALTH}"
+    yield f"{tanks.bullet_speed:g} px/s, radius {tanks.bullet_radius:g} px, one each {tanks.cooldown / world.HZ:g} s"
+    yield f"at most {tanks.bullets_alive} alive"
+    yield f"{tanks.protection / world.HZ:g} s of protection, none in `classic`"
+    yield f"after {shop.replace / world.HZ:g} s it is replaced"
+    yield f"three workers, {shop.walk:g} px/s, {shop.process / world.HZ:g} s a pallet"
+    yield f"{GAMES['factory'].default_goal} a team; 2 to {GAMES['factory'].goals[-1]} by choice"
+    yield f"nobody collects for {shop.collect / world.HZ:g} s"
+    yield f"{GAMES['race'].default_goal}; 1 to {GAMES['race'].goals[-1]} by choice"
+    yield f"{track.speed:g} px/s, that is ×{track.speed / tanks.speed:g}"
+    yield f"×{Fraction(track.mud).limit_denominator(9)} | **open**: ×2/3 or ×1/3"
+    yield f"{track.patience / world.HZ:g} s after the first has finished"
+    yield f"fires from {unknown.engage:g} px; decides every {unknown.period} ticks; aims to {unknown.tolerance:g} rad"
+    yield f"{unknown.beside:g} px behind the wall; there within {unknown.arrived:g} px"
+    yield f"| {sectors.STATES:,} | **same**"
+    yield f"| {qlearning.PAIRS:,} | **same**"
+    yield f"every {one.period} ticks; a turn of {degrees(one.period / world.HZ * tanks.turn_rate):.0f}° at most"
+    yield f"| γ = {one.gamma:g} |"
+    yield f"the same, in a line over {one.ceiling:,} experiences"
+    yield f"no longer learns; temperature 1/{1 / one.cold:g}"
+    yield f"of the closest wall: +10 | +{one.hit:g} |"
+    yield f"looking at the opponent: −1 | −{-one.miss:g}; looking is sector 0"
+    yield f"−1, once | −{-one.behind:g};"
+    yield f"at every step | −{-two.behind:g};"
+    yield f"staying still: −10 | −{-two.still:g};"
+
+
+def test_the_page_on_the_thesis_says_of_this_program_what_is_so():
+    page = THESIS_PAGE.read_text(encoding="utf-8")
+    assert [text for text in quoted() if text not in page] == []
+
+
+def test_the_page_on_the_thesis_has_the_results_of_the_readme():
+    triple = re.compile(r"\d+ / \d+ / \d+")
+    page, readme = (triple.findall(path.read_text(encoding="utf-8")) for path in (THESIS_PAGE, ROOT / "README.md"))
+    assert page == readme
+    assert len(page) == 8
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
+    class Camper:
+        def think(self, state, seat):
+            own, other = state.robots[seat], state.robots[1 - seat]
+            turn = angles.turn_to(atan2(other.y - own.y, other.x - own.x) - own.heading)
+            action.press(state.actions[seat], 0.0, 4.0 * turn, 1, 0)
+
+    match = match_of("pitanks", "classic")
+    match.sit(seed % 2, Camper())
+    match.sit(1 - seed % 2, make("pitanks", "classic", seed))
+    while not match.over:
+        match.tick()
+    assert match.outcome().winners == (seed % 2,)
+
+
+@pytest.mark.parametrize(("charge", "boosts"), [(0.0999, 0), (0.1001, 1)])
+@pytest.mark.parametrize("game", GAMES)
+def test_turbo_starts_from_a_tenth_of_the_meter(game, charge, boosts):
+    class Pressing:
+        def think(self, state, seat):
+            action.press(state.actions[seat], 1.0, 0.0, 0, 1)
+
+    match = match_of(game)
+    match.sit(0, Pressing())
+    match.state.robots[0].turbo = charge
+    match.tick()
+    assert match.state.robots[0].boosting == boosts
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_the_example_of_an_arena_can_be_played(game):
+    page = GAMES_PAGE.read_text(encoding="utf-8")
+    (source,) = re.findall(rf"^```toml\n(# assets/arenas/{game}/.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)
+    setup = choose(game, ["idle", "idle"], "example", None, 1, None, None, ["idle"])
+    match = Match(setup, arena=parse(game, source, "example.toml"))
+    match.tick()
+    assert match.state.tick == 1
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_to_files_and_headings_that_exist(page):
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose(page)):
+        if re.match(r"[a-z]+:", target):
+            continue
+        path, _, heading = target.partition("#")
+        there = (page.parent / path).resolve() if path else page
+        assert there.exists(), f"{page.name}: {target}"
+        assert there.is_relative_to(ROOT), f"{page.name}: {target}"
+        if heading:
+            assert heading in anchors(there), f"{page.name}: {target}"
+
+
+def anchors(page):
+    """The anchors that GitHub gives the headings of a page."""
+    titles = re.findall(r"^#+ (.+)$", prose(page), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_page_names_only_what_the_repository_has(page):
+    assert not NEVER_NAMED.search(page.read_text(encoding="utf-8"))
