@@ -94,12 +94,12 @@ def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def goal(arguments: argparse.Namespace) -> int | None:
     """The goal that was asked for; None: the game's own. Raises Wrong for the goal of another game."""
-    from pigaming_app.games import GAMES
+    from pigaming_app.games.registry import games
 
     for word in ("laps", "pallets"):
         wished: int | None = getattr(arguments, word)
         if wished is not None:
-            if arguments.game in GAMES and GAMES[arguments.game].goal != word:
+            if arguments.game in games() and games()[arguments.game].goal != word:
                 raise Wrong(f"--{word}: {arguments.game} is not played for {word}")
             return wished
     return None
@@ -140,10 +140,10 @@ def duel(arguments: argparse.Namespace) -> int:
     """Many matches of two brains."""
     from pigaming_app.ai import BRAINS
     from pigaming_app.ai.experiments import league
-    from pigaming_app.games import GAMES
+    from pigaming_app.games.registry import games
     from pigaming_app.games.setup import one_of
 
-    one_of("game", arguments.game, list(GAMES))
+    one_of("game", arguments.game, list(games()))
     for brain in (arguments.left, arguments.right):
         one_of("brain", brain, list(BRAINS[arguments.game]))
     result = league.duel(
@@ -185,14 +185,14 @@ def train(arguments: argparse.Namespace) -> int:
 
 def bench(arguments: argparse.Namespace) -> int:
     """How fast it all is here."""
-    from pigaming_app.games import GAMES
+    from pigaming_app.games.registry import games
     from pigaming_app.games.setup import one_of
     from pigaming_app.jobs.bench import job as benches
 
     if arguments.game == "robots":
         figures = _bench_robots()
     else:
-        one_of("game", arguments.game, [*GAMES, "robots"])
+        one_of("game", arguments.game, [*games(), "robots"])
         figures = benches.measure(arguments.game)
     if arguments.json:
         print(json.dumps(figures))

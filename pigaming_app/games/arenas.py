@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from pigaming_app import ASSETS
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_by
 from pigaming_app.storage.parsing import ParseError, read_text, reason
@@ -31,4 +31,4 @@ def load(game: str, name: str) -> Arena:
 
 def parse(game: str, source: str, file: str) -> Arena:
     """Check the text of an arena file of a game. Raises ArenaError, which names `file`, the key and the reason."""
-    return parse_by(source, file, GAMES[game].read)
+    return parse_by(source, file, games()[game].read)

@@ -13,10 +13,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
 from pigaming_app.sim.action import STEPS, press
 from pigaming_app.sim.arena import ArenaError
@@ -156,7 +156,7 @@ def _setup(table: Mapping[str, Any]) -> Setup:
         str(table["variant"]),
         int(table["goal"]),
     )
-    rules = GAMES[game]
+    rules = games()[game]
     if variant not in rules.variants or not 0 < minutes <= 60 or goal not in (*rules.goals, rules.default_goal):
         raise ValueError("setup")
     check_teams(rules, [seat.team for seat in seats if seat.brain != "off"])

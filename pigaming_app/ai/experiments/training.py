@@ -17,9 +17,9 @@ from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.learner import Learned, LearnerMind, Table, learn, learn_last, player, temperature
 from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
-from pigaming_app.games import GAMES
 from pigaming_app.games.batch import started
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import can_compile, compiled, compiled_before, engine_hash
 from pigaming_app.sim.record import copy, fields_of, packed, unpack
@@ -53,18 +53,18 @@ def make_training(judge: Callable[[Any], None]) -> Loop:
 @cache
 def plain_training() -> Loop:
     """The loop over plain records."""
-    return make_training(GAMES[GAME].judge)
+    return make_training(games()[GAME].judge)
 
 
 @cache
 def compiled_training() -> Loop:
     """The loop over NumPy records. Raises ImportError without numba."""
-    return compiled(make_training(GAMES[GAME].judge))
+    return compiled(make_training(games()[GAME].judge))
 
 
 def cached() -> bool:
     """Whether the compiled loop already lies on disk, so that it loads in a moment."""
-    return can_compile() and compiled_before(make_training(GAMES[GAME].judge))
+    return can_compile() and compiled_before(make_training(games()[GAME].judge))
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ class Training:
 
     def look(self) -> Any:
         """The match as `run` last left it, a plain record (of plain training: the match itself); only to look at."""
-        return unpack(GAMES[GAME].state, self._seen[0]) if self.fast else self._seen[0]
+        return unpack(games()[GAME].state, self._seen[0]) if self.fast else self._seen[0]
 
     @property
     def recipe(self) -> Recipe:

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from pigaming_app.ai import seated
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.games.replay import load, save
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
@@ -25,7 +25,7 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
-    for game in GAMES:
+    for game in games():
         scores_of(arcade.house, game)
     attract = Attract(arcade.house)
     arcade.open(attract)
