@@ -124,8 +124,9 @@ def play(arguments: argparse.Namespace) -> int:
 def replay(arguments: argparse.Namespace) -> int:
     """Watch a replay, or prove it."""
     from pigaming_app.games import replay as replays
+    from pigaming_app.jobs import replay_files
 
-    found = replays.load(arguments.file)
+    found = replay_files.load(arguments.file)
     if arguments.verify:
         same = replays.verify(found)
         print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")

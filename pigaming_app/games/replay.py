@@ -10,7 +10,6 @@ import json
 import zlib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 from pigaming_app.games.arenas import parse
@@ -22,9 +21,8 @@ from pigaming_app.sim.action import STEPS, press
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import digest
+from pigaming_app.sim.toml_table import printable, quoted
 from pigaming_app.sim.world import HZ, ROBOTS
-from pigaming_app.storage.parsing import ParseError, json_of, one_line, read, reason, shown
-from pigaming_app.storage.safe_files import write
 
 MAGIC = "pigaming-replay-1"
 BYTES = 3 * ROBOTS  # a tick
@@ -47,8 +45,8 @@ class Replay:
     digest: str  # of the state after the last tick
 
 
-def save(match: Match, path: Path) -> None:
-    """Write the replay of a match as far as it has been played, whole or not at all. Raises NotSaved."""
+def encode(match: Match) -> bytes:
+    """The file of a match as far as it has been played."""
     ticks = bytes(match.log.ticks)
     columns = b"".join(ticks[i::BYTES] for i in range(BYTES))
     packed = zlib.compress(columns, 9)
@@ -61,19 +59,15 @@ def save(match: Match, path: Path) -> None:
         "digest": digest(match.state),
     }
     head["check"] = _check(head, packed)
-    write(path, json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed)
+    return json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed
 
 
-def load(path: Path) -> Replay:
-    """Read and check a replay. Raises ReplayError."""
+def decode(raw: bytes, name: str) -> Replay:
+    """Check and unpack the file `name`. Raises ReplayError, which begins with the name."""
     try:
-        raw = read(path, MOST_BYTES)
-    except OSError as error:
-        raise ReplayError(f"{path.name}: cannot be read ({reason(error)})") from None
-    try:
-        return _read(raw)
+        return _decode(raw)
     except ReplayError as error:
-        raise ReplayError(f"{path.name}: {error}") from None
+        raise ReplayError(f"{name}: {error}") from None
 
 
 def play(replay: Replay) -> Match:
@@ -113,16 +107,16 @@ def _check(head: Mapping[str, Any], packed: bytes) -> str:
     return hashlib.sha256(json.dumps(rest, sort_keys=True).encode() + packed).hexdigest()
 
 
-def _read(raw: bytes) -> Replay:
+def _decode(raw: bytes) -> Replay:
     line, newline, packed = raw.partition(b"\n")
     try:
-        head = json_of(line) if newline and len(line) < MOST_HEAD else None
-    except ParseError:
+        head = json.loads(line) if newline and len(line) < MOST_HEAD else None
+    except (ValueError, RecursionError, MemoryError):
         head = None
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
     if head["format"] != MAGIC:
-        raise ReplayError(f"a replay of another format ({shown(head['format'])}); this engine reads {MAGIC}")
+        raise ReplayError(f"a replay of another format ({quoted(head['format'])}); this engine reads {MAGIC}")
     if head.get("check") != _check(head, packed):
         raise ReplayError("damaged: it has been cut short or edited")
     if head.get("engine") != engine_hash():
@@ -135,7 +129,7 @@ def _read(raw: bytes) -> Replay:
             raise ValueError("ticks")
         columns = zlib.decompressobj().decompress(packed, BYTES * MOST_TICKS)
     except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
-        raise ReplayError(one_line(f"not a replay that makes sense ({type(error).__name__}: {error})")) from None
+        raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {printable(str(error))})") from None
     if len(columns) != count * BYTES:
         raise ReplayError("not a replay that makes sense (the number of ticks)")
     ticks = bytearray(len(columns))

@@ -7,14 +7,13 @@ and where it stands in its training are one record, so training can stop anywher
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.qlearning import table_files as tables
-from pigaming_app.ai.qlearning.learner import Learned, LearnerMind, Table, learn, learn_last, player, temperature
+from pigaming_app.ai.qlearning.learner import LearnerMind, Table, learn, learn_last, temperature
+from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.games.batch import started
@@ -168,11 +167,11 @@ class Training:
         frozen = self._tables.copy() if self.fast else copy(self._tables[0])
         return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
 
-    def save(self, path: Path, name: str) -> None:
-        """Keep what has been learned so far as a file. Raises NotSaved."""
+    def trained(self, name: str) -> Trained:
+        """A copy of what has been learned so far, with what it was trained for."""
         reward = next((number for number, recipe in RECIPES.items() if recipe == self.recipe), 0)
         rows = self._tables.copy() if self.fast else packed(self._tables)
-        tables.save(Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash()), path)
+        return Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash())
 
     def measure(self, opponent: "str | Checkpoint" = "classic", matches: int = 100) -> tuple[int, int, int]:
         """Wins, ties and losses of what has been learned so far, in matches by the rules of the training."""
@@ -193,9 +192,8 @@ class Training:
         self._seen = self._matches
 
 
-def load(path: Path, fast: bool | None = None) -> Training:
-    """A training that goes on from a file, with a fresh match. Raises TableError, ArenaError."""
-    kept = tables.load(path)
+def resumed(kept: Trained, fast: bool | None = None) -> Training:
+    """A training that goes on where another ended, with a fresh match. Raises ArenaError."""
     return Training(kept.recipe, kept.seed, kept.arena, fast, kept.rows[0], kept.minutes)
 
 

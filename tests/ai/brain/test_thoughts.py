@@ -10,7 +10,8 @@ from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL,
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Learned, Table, player
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Table
+from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.race import racer
 from pigaming_app.games.factory.state import INPUT, RAW, A
@@ -118,7 +119,7 @@ def test_no_text_is_written_that_no_brain_says():
     from pigaming_app import ASSETS
 
     package = ASSETS.parent / "pigaming_app"
-    files = [*(package / "ai").glob("*.py"), *(package / "scenes" / "brain").glob("*.py"), package / "scenes/match.py"]
+    files = [file for room in ("ai", "scenes/brain", "scenes/play") for file in (package / room).rglob("*.py")]
     sources = "\n".join(file.read_text(encoding="utf-8") for file in files)
     keys = [key.removeprefix("brain.") for key in texts("en") if key.startswith("brain.")]
     assert len(keys) > 40

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.ai import seated
 from pigaming_app.games.registry import games
-from pigaming_app.games.replay import load, save
+from pigaming_app.jobs.replay_files import load, save
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, Demonstration, Page
