@@ -19,8 +19,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
 from pigaming_app.sim.action import STEPS, press
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import digest
+from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.toml_table import printable, quoted
 from pigaming_app.sim.world import HZ, ROBOTS
 

@@ -23,7 +23,8 @@ from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError
 from pigaming_app.scenes.lab import table_files
-from pigaming_app.sim.kernel import can_compile, engine_hash
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.world import HZ
 from pigaming_app.storage.safe_files import check_target, write
 

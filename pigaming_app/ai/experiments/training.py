@@ -20,9 +20,10 @@ from pigaming_app.games.batch import started
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.kernel import can_compile, compiled, compiled_before, engine_hash
+from pigaming_app.sim.kernel import can_compile, compiled, compiled_before
 from pigaming_app.sim.record import copy, fields_of, packed, unpack
 from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.world import HZ
 
 GAME, VARIANT, ARENA, MINUTES = "pitanks", "classic", "classic", 2.0

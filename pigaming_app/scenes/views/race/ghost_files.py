@@ -18,7 +18,7 @@ from typing import Any
 
 from pigaming_app.games.race.state import LINES
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.kernel import engine_hash
+from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.storage.parsing import json_of, shown
 from pigaming_app.storage.safe_files import NotSaved, keep, recall
 
