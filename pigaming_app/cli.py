@@ -127,6 +127,9 @@ def replay(arguments: argparse.Namespace) -> int:
     from pigaming_app.jobs import replay_files
 
     found = replay_files.load(arguments.file)
+    if found.other_engine:
+        name = arguments.file.name
+        print(f"{name}: recorded with another version of the engine; it may play out differently", file=sys.stderr)
     if arguments.verify:
         same = replays.verify(found)
         print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")

@@ -24,7 +24,7 @@ from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.toml_table import printable, quoted
 from pigaming_app.sim.world import HZ, ROBOTS
 
-MAGIC = "pigaming-replay-1"
+FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 has the engine hash of 1.4.0 and before
 BYTES = 3 * ROBOTS  # a tick
 MOST_TICKS = 60 * 60 * HZ
 MOST_HEAD = 1_000_000  # bytes; an arena's file has at most 100,000, which JSON escapes
@@ -32,7 +32,7 @@ MOST_BYTES = MOST_HEAD + BYTES * MOST_TICKS  # hardly ever: ticks are packed
 
 
 class ReplayError(ValueError):
-    """A file that is not a replay of this engine, in one line."""
+    """A file that is not a replay, in one line."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,12 @@ class Replay:
     source: str  # the text of the arena's file
     ticks: bytes  # BYTES for each tick
     digest: str  # of the state after the last tick
+    engine: str  # hash of the engine it was recorded with
+
+    @property
+    def other_engine(self) -> bool:
+        """Whether it was recorded with another version of the engine, so that it may play out differently."""
+        return self.engine != engine_hash()
 
 
 def encode(match: Match) -> bytes:
@@ -51,7 +57,7 @@ def encode(match: Match) -> bytes:
     columns = b"".join(ticks[i::BYTES] for i in range(BYTES))
     packed = zlib.compress(columns, 9)
     head: dict[str, Any] = {
-        "format": MAGIC,
+        "format": FORMATS[-1],
         "engine": engine_hash(),
         "setup": asdict(match.setup),
         "arena": match.arena.source,
@@ -115,15 +121,14 @@ def _decode(raw: bytes) -> Replay:
         head = None
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
-    if head["format"] != MAGIC:
-        raise ReplayError(f"a replay of another format ({quoted(head['format'])}); this engine reads {MAGIC}")
+    if head["format"] not in FORMATS:
+        raise ReplayError(f"a replay of another format ({quoted(head['format'])}); known are {', '.join(FORMATS)}")
     if head.get("check") != _check(head, packed):
         raise ReplayError("damaged: it has been cut short or edited")
-    if head.get("engine") != engine_hash():
-        raise ReplayError("recorded with another version of the engine, so it would play out differently")
     try:
         setup = _setup(head["setup"])
         count, source, last = int(head["ticks"]), str(head["arena"]), str(head["digest"])
+        engine = str(head["engine"])
         parse(setup.game, source, setup.arena)
         if not 0 <= count <= MOST_TICKS:
             raise ValueError("ticks")
@@ -135,7 +140,7 @@ def _decode(raw: bytes) -> Replay:
     ticks = bytearray(len(columns))
     for i in range(BYTES):
         ticks[i::BYTES] = columns[i * count : (i + 1) * count]
-    return Replay(setup, source, bytes(ticks), last)
+    return Replay(setup, source, bytes(ticks), last, engine)
 
 
 def _setup(table: Mapping[str, Any]) -> Setup:

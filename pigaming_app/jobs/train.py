@@ -24,7 +24,6 @@ from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError
 from pigaming_app.scenes.lab import table_files
 from pigaming_app.sim.kernel import can_compile
-from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.world import HZ
 from pigaming_app.storage.safe_files import check_target, write
 
@@ -117,12 +116,15 @@ def _begin(arguments: argparse.Namespace) -> training.Training:
     if not arguments.resume:
         return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
     kept = table_files.load(arguments.out)
-    asked = (recipe, arguments.seed, arguments.arena, arguments.minutes, engine_hash())
-    words = ("reward (or --set)", "seed", "arena", "minutes", "version of the engine")
-    there = (kept.recipe, kept.seed, kept.arena, kept.minutes, kept.engine)
+    asked = (recipe, arguments.seed, arguments.arena, arguments.minutes)
+    words = ("reward (or --set)", "seed", "arena", "minutes")
+    there = (kept.recipe, kept.seed, kept.arena, kept.minutes)
     for word, wish, found in zip(words, asked, there, strict=True):
         if wish != found:
             raise ChoiceError(f"--resume: {arguments.out.name} was trained with another {word}")
+    if kept.other_engine:
+        name = arguments.out.name
+        print(f"{name}: trained with another version of the engine; what it learned may fit less", file=sys.stderr)
     return training.resumed(kept, fast)
 
 

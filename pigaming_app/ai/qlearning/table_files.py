@@ -52,6 +52,11 @@ class Trained:
         """Matches that it was trained for."""
         return int(self.rows["matches"][0])
 
+    @property
+    def other_engine(self) -> bool:
+        """Whether it was trained with another version of the engine, so that measured results may differ."""
+        return self.engine != engine_hash()
+
 
 def encode(trained: Trained) -> bytes:
     """The file of a trained table."""
@@ -174,8 +179,3 @@ def _recipe(numbers: Any) -> Recipe:
 def _check(head: Mapping[str, Any], q: Any, n: Any) -> str:
     told = json.dumps({key: value for key, value in head.items() if key != "check"}, sort_keys=True)
     return hashlib.sha256(told.encode() + q.tobytes() + n.tobytes()).hexdigest()
-
-
-def of_this_engine(trained: Trained) -> bool:
-    """Whether it was trained on the very rules and physics that are here now."""
-    return trained.engine == engine_hash()

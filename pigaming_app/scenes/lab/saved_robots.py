@@ -67,7 +67,10 @@ def keep(training: Training, name: str) -> None:
 def fetch(name: str, fast: bool) -> Training:
     """A robot as it was saved. Raises NotKept."""
     try:
-        return resumed(table_files.load(file_of(name)), fast)
+        trained = table_files.load(file_of(name))
+        if trained.other_engine:
+            log.warning("%s was trained with another version of the engine", file_of(name))
+        return resumed(trained, fast)
     except (TableError, ArenaError) as trouble:
         log.warning("%s", trouble)
         raise NotKept("lab.broken") from trouble

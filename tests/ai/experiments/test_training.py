@@ -152,7 +152,7 @@ def test_a_training_kept_in_a_file_goes_on_as_if_nothing_had_happened(kept, fast
 def test_a_file_says_what_it_was_trained_for_and_on(kept):
     trained = read(kept)
     assert (trained.name, trained.reward, trained.recipe, trained.matches) == ("mine", 2, RECIPES[2], 2)
-    assert tables.of_this_engine(trained)
+    assert not trained.other_engine
     assert kept.stat().st_size < 100_000
 
 
@@ -249,7 +249,7 @@ def test_the_tables_that_come_with_the_arcade_were_trained_on_this_engine(name):
     assert (trained.name, trained.reward, trained.recipe) == (name, int(name[1]), RECIPES[int(name[1])])
     assert (trained.matches, trained.minutes, trained.arena) == (200, 2.0, "classic")
     assert BRAINS["pitanks"][name].known(False)[0].experiences == 200 * 2 * 1200
-    assert tables.of_this_engine(trained), "run `python -m tests.bench.reproduce_table --ship`"
+    assert not trained.other_engine, "run `python -m tests.bench.reproduce_table --ship`"
 
 
 def test_they_fare_against_the_frozen_machine_about_as_published():
