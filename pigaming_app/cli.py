@@ -94,12 +94,12 @@ def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def goal(arguments: argparse.Namespace) -> int | None:
     """The goal that was asked for; None: the game's own. Raises Wrong for the goal of another game."""
-    from pigaming_app.games import GAMES
+    from pigaming_app.games.registry import games
 
     for word in ("laps", "pallets"):
         wished: int | None = getattr(arguments, word)
         if wished is not None:
-            if arguments.game in GAMES and GAMES[arguments.game].goal != word:
+            if arguments.game in games() and games()[arguments.game].goal != word:
                 raise Wrong(f"--{word}: {arguments.game} is not played for {word}")
             return wished
     return None
@@ -124,8 +124,12 @@ def play(arguments: argparse.Namespace) -> int:
 def replay(arguments: argparse.Namespace) -> int:
     """Watch a replay, or prove it."""
     from pigaming_app.games import replay as replays
+    from pigaming_app.jobs import replay_files
 
-    found = replays.load(arguments.file)
+    found = replay_files.load(arguments.file)
+    if found.other_engine:
+        name = arguments.file.name
+        print(f"{name}: recorded with another version of the engine; it may play out differently", file=sys.stderr)
     if arguments.verify:
         same = replays.verify(found)
         print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
@@ -140,10 +144,10 @@ def duel(arguments: argparse.Namespace) -> int:
     """Many matches of two brains."""
     from pigaming_app.ai import BRAINS
     from pigaming_app.ai.experiments import league
-    from pigaming_app.games import GAMES
+    from pigaming_app.games.registry import games
     from pigaming_app.games.setup import one_of
 
-    one_of("game", arguments.game, list(GAMES))
+    one_of("game", arguments.game, list(games()))
     for brain in (arguments.left, arguments.right):
         one_of("brain", brain, list(BRAINS[arguments.game]))
     result = league.duel(
@@ -185,14 +189,14 @@ def train(arguments: argparse.Namespace) -> int:
 
 def bench(arguments: argparse.Namespace) -> int:
     """How fast it all is here."""
-    from pigaming_app.games import GAMES
+    from pigaming_app.games.registry import games
     from pigaming_app.games.setup import one_of
     from pigaming_app.jobs.bench import job as benches
 
     if arguments.game == "robots":
         figures = _bench_robots()
     else:
-        one_of("game", arguments.game, [*GAMES, "robots"])
+        one_of("game", arguments.game, [*games(), "robots"])
         figures = benches.measure(arguments.game)
     if arguments.json:
         print(json.dumps(figures))

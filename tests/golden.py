@@ -13,10 +13,10 @@ import sys
 from pathlib import Path
 
 from pigaming_app.ai import make
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.sim.record import to_bytes
 
 FILE = Path(__file__).with_name("golden.json")
@@ -39,7 +39,9 @@ def main() -> int:
 
 def keys() -> list[str]:
     """Every game/arena/variant there is."""
-    return [f"{game}/{arena}/{variant}" for game in GAMES for arena in arenas(game) for variant in GAMES[game].variants]
+    return [
+        f"{game}/{arena}/{variant}" for game in games() for arena in arenas(game) for variant in games()[game].variants
+    ]
 
 
 def golden() -> dict[str, str]:
@@ -54,7 +56,7 @@ def played(key: str) -> str:
     Random brains, since the hand-written ones may be tuned without any change of the engine.
     """
     game, arena, variant = key.split("/")
-    rules = GAMES[game]
+    rules = games()[game]
     one, two, three, four = (Seat("random", team) for team in rules.teams)
     match = Match(Setup(game, arena, (one, two, three, four), 1.0, SEED, variant, rules.default_goal))
     for seat in range(4):

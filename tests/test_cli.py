@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 
 import pytest
 
@@ -28,6 +29,15 @@ def test_a_recorded_match_is_proven(tmp_path, capsys):
     assert main(["play", *SHORT, "--record", str(file)]) == 0
     assert main(["replay", str(file), "--verify"]) == 0
     assert "the same" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("game", "code", "word"), [("pitanks", 0, "the same"), ("factory", 1, "DIFFERENTLY")])
+def test_a_replay_of_an_older_version_is_compared_with_a_warning(game, code, word, capsys):
+    file = Path(__file__).parent / "data" / "1.3.0" / f"{game}.replay"
+    assert main(["replay", str(file), "--verify"]) == code
+    told = capsys.readouterr()
+    assert word in told.out
+    assert told.err == f"{file.name}: recorded with another version of the engine; it may play out differently\n"
 
 
 def test_a_picture_is_taken(tmp_path):

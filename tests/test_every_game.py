@@ -1,4 +1,4 @@
-"""What must hold for every game, on every arena it has: a new game is tested by being in GAMES."""
+"""What must hold for every game, on every arena it has: a new game is tested by being in games()."""
 
 import os
 from math import isfinite
@@ -11,19 +11,19 @@ import pytest
 
 from pigaming_app.ai import BRAINS, make
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest, numbers
 
-EVERY_ARENA = [(game, arena) for game in GAMES for arena in arenas(game)]
+EVERY_ARENA = [(game, arena) for game in games() for arena in arenas(game)]
 TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
 
 
 def setup(game, arena=None, seed=1, variant=None, minutes=0.2, teams=None):
     """The longest way to the goal, so that time alone ends it."""
-    rules = GAMES[game]
+    rules = games()[game]
     one, two, three, four = (Seat("random", team) for team in teams or rules.teams)
     goal = max(rules.goals, default=0)
     return Setup(
@@ -34,8 +34,8 @@ def setup(game, arena=None, seed=1, variant=None, minutes=0.2, teams=None):
 def companies():
     """Every arena, in the teams that its game knows."""
     for game, arena in EVERY_ARENA:
-        yield game, arena, GAMES[game].teams
-        if GAMES[game].sides != ALONE:
+        yield game, arena, games()[game].teams
+        if games()[game].sides != ALONE:
             yield game, arena, (0, 0, 1, 1)
 
 
@@ -54,7 +54,7 @@ def played(setup, brains=("random",) * 4):
     return match
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_the_same_seed_is_the_same_match_and_another_is_another(game):
     one, same, other = (played(setup(game, seed=seed)) for seed in (1, 1, 2))
     assert digest(one.state) == digest(same.state)
@@ -69,7 +69,7 @@ def test_a_random_match_ends_when_its_time_is_up(game, arena):
     assert all(isfinite(number) for number in numbers(match.state))
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_both_bodies_play_the_same_match_to_the_last_bit(game):
     names = arenas(game)
     each = -(-TWINS_TICKS // (2 * len(names)))
@@ -85,9 +85,9 @@ def test_both_bodies_play_the_same_match_to_the_last_bit(game):
 
 
 @pytest.mark.parametrize("fast", [False, True], ids=["plain", "compiled"])
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_a_match_of_a_batch_is_that_match_alone(game, fast):
-    setups = [setup(game, seed=seed, variant=variant) for seed in (3, 4) for variant in GAMES[game].variants]
+    setups = [setup(game, seed=seed, variant=variant) for seed in (3, 4) for variant in games()[game].variants]
     together = Batch(setups, company(game), fast)
     together.play(600)
     for i, one in enumerate(setups):
@@ -96,7 +96,7 @@ def test_a_match_of_a_batch_is_that_match_alone(game, fast):
         assert digest(alone.matches[0]) == digest(together.matches[i])
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_a_batch_is_the_match_that_people_see(game):
     """The rollout and `Match` are two loops over the same rules."""
     batch = Batch([setup(game, seed=9)], [BRAINS[game]["random"]] * 4, False)
@@ -110,7 +110,7 @@ def test_every_number_of_every_view_is_finite(game, arena, teams):
     match = Match(setup(game, arena, teams=teams))
     for seat in range(4):
         match.sit(seat, make(game, "random", seat))
-    rules = GAMES[game]
+    rules = games()[game]
     eyes, view = rules.eyes(), rules.view()
     while not match.over:
         match.tick()

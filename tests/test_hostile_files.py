@@ -28,6 +28,8 @@ from pigaming_app.hardware.recordings import RunError
 from pigaming_app.hardware.session.assembly import ground_of, measured
 from pigaming_app.hardware.sysid.evaluate import TooShort, measure
 from pigaming_app.hardware.sysid.evaluate import replay as replay_run
+from pigaming_app.jobs import replay_files
+from pigaming_app.scenes.lab import table_files
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, tell
@@ -177,7 +179,7 @@ def packed_replay(path):
     match = seated(choose("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
     while not match.over:
         match.tick()
-    replay.save(match, path)
+    replay_files.save(match, path)
     line, _, packed = path.read_bytes().partition(b"\n")
     return json.loads(line), packed
 
@@ -195,7 +197,7 @@ def test_replays(tmp_path):
     used = 0
     for one in mutated(head):
         path.write_bytes(forged(one, packed))
-        used += refused_or_used(lambda: replay.load(path), ReplayError)
+        used += refused_or_used(lambda: replay_files.load(path), ReplayError)
     assert used > 20
 
 
@@ -205,14 +207,14 @@ def test_a_forged_replay_plays_to_its_end(tmp_path):
     for _ in range(4):
         noise = zlib.compress(chance.randbytes(len(zlib.decompress(packed))))
         path.write_bytes(forged(head, noise))
-        assert replay.verify(replay.load(path)) is False
+        assert replay.verify(replay_files.load(path)) is False
 
 
 def test_a_bomb_of_ticks_is_refused(tmp_path):
     path = tmp_path / "a.replay"
     head, _ = packed_replay(path)
     path.write_bytes(forged(head, zlib.compress(bytes(100_000_000), 9)))
-    assert not refused_or_used(lambda: replay.load(path), ReplayError)
+    assert not refused_or_used(lambda: replay_files.load(path), ReplayError)
 
 
 def forged_table(head, q, n, check=True):
@@ -230,13 +232,13 @@ def test_tables(tmp_path):
     values = [None, True, -1, HUGE, 2**63, 1e308, float("nan"), "", "\n" * 300, [], {}]
     for one in random.Random(2).sample(list(mutated(head, values)), 60):
         path.write_bytes(forged_table(json.loads(json.dumps(one)), q, n))
-        used += refused_or_used(lambda: tables.load(path), TableError)
+        used += refused_or_used(lambda: table_files.load(path), TableError)
     assert 1 < used < 30
     for wrong in (q * np.nan, q[:5], q.astype("<f4"), q.reshape(2, -1), q.astype(object)):
         packed = BytesIO()
         np.savez_compressed(packed, head=np.array(json.dumps(head)), q=wrong, n=n)
         path.write_bytes(packed.getvalue())
-        assert not refused_or_used(lambda: tables.load(path), TableError)
+        assert not refused_or_used(lambda: table_files.load(path), TableError)
 
 
 NPY = (
@@ -257,7 +259,7 @@ def test_a_table_with_a_hostile_header_is_refused(tmp_path, header):
     with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
         for part in ("head", "q", "n"):
             archive.writestr(f"{part}.npy", array)
-    assert not refused_or_used(lambda: tables.load(tmp_path / "a.npz"), TableError)
+    assert not refused_or_used(lambda: table_files.load(tmp_path / "a.npz"), TableError)
 
 
 READERS = {
@@ -265,8 +267,8 @@ READERS = {
     "robots.toml": (measured, DrivetrainError),
     "calibration.toml": (ground_of, NoGround),
     "run.jsonl": (runs.load, RunError),
-    "a.replay": (replay.load, ReplayError),
-    "a.npz": (tables.load, TableError),
+    "a.replay": (replay_files.load, ReplayError),
+    "a.npz": (table_files.load, TableError),
 }
 
 
@@ -276,6 +278,12 @@ def test_bytes_that_are_no_such_file_are_refused(tmp_path, name):
     for raw in BYTES:
         (tmp_path / name).write_bytes(raw)
         assert not refused_or_used(lambda: read(tmp_path / name), error)
+
+
+@pytest.mark.parametrize("name", ["arena.toml", "calibration.toml", "run.jsonl", "a.replay", "a.npz"])
+def test_a_missing_file_is_refused(tmp_path, name):
+    read, error = READERS[name]
+    assert not refused_or_used(lambda: read(tmp_path / name), error)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="devices and pipes are files on POSIX only")

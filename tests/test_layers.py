@@ -22,13 +22,10 @@ MAY = {
     "cli": {"jobs"},
 }
 DEBTS = {
-    ("ai", "storage"),
     ("boot", "cli"),
     ("boot", "storage"),
     *(("cli", room) for room in ("storage", "ai", "games", "sim", "scenes", "hardware", "ui")),
-    ("games", "storage"),
     ("hardware", "ui"),
-    ("sim", "storage"),
     ("ui", "hardware"),
     ("ui", "scenes"),
 }

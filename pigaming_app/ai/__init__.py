@@ -1,14 +1,15 @@
-"""Who plays when nobody does, and the only list of them."""
+"""The only list of the brains. It also attaches what explains each to people: a brain does not import that."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from pigaming_app.ai.brain import baselines as simple
 from pigaming_app.ai.brain.kind import Kind, Thinker
-from pigaming_app.ai.factory import foreman
-from pigaming_app.ai.pitanks import classic, fsm
+from pigaming_app.ai.factory import foreman, foreman_thoughts
+from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts
 from pigaming_app.ai.qlearning import table_files as tables
-from pigaming_app.ai.race import racer
+from pigaming_app.ai.race import racer, racer_thoughts
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -18,27 +19,27 @@ BRAINS: dict[str, dict[str, Kind]] = {
     "pitanks": {
         "idle": simple.IDLE,
         "random": simple.RANDOM,
-        "easy": fsm.EASY,
-        "normal": fsm.NORMAL,
-        "hard": fsm.HARD,
-        "fsm": fsm.FSM,
-        "classic": classic.CLASSIC,
+        "easy": replace(fsm.EASY, explain=fsm_thoughts.explain),
+        "normal": replace(fsm.NORMAL, explain=fsm_thoughts.explain),
+        "hard": replace(fsm.HARD, explain=fsm_thoughts.explain),
+        "fsm": replace(fsm.FSM, explain=fsm_thoughts.explain),
+        "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
         "q1": tables.seat("q1"),
         "q2": tables.seat("q2"),
     },
     "factory": {
         "idle": simple.IDLE,
         "random": simple.RANDOM,
-        "easy": foreman.EASY,
-        "normal": foreman.NORMAL,
-        "hard": foreman.HARD,
+        "easy": replace(foreman.EASY, explain=foreman_thoughts.explain),
+        "normal": replace(foreman.NORMAL, explain=foreman_thoughts.explain),
+        "hard": replace(foreman.HARD, explain=foreman_thoughts.explain),
     },
     "race": {
         "idle": simple.IDLE,
         "random": simple.RANDOM,
-        "easy": racer.EASY,
-        "normal": racer.NORMAL,
-        "hard": racer.HARD,
+        "easy": replace(racer.EASY, explain=racer_thoughts.explain),
+        "normal": replace(racer.NORMAL, explain=racer_thoughts.explain),
+        "hard": replace(racer.HARD, explain=racer_thoughts.explain),
     },
 }
 

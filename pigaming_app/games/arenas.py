@@ -3,10 +3,9 @@
 from pathlib import Path
 
 from pigaming_app import ASSETS
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_by
-from pigaming_app.storage.parsing import ParseError, read_text, reason
 
 MOST_BYTES = 100_000  # of a file; replays hold a copy
 
@@ -23,12 +22,24 @@ def load(game: str, name: str) -> Arena:
     try:
         if not path.exists():
             raise ArenaError(f"{name}: no such arena for {game}; there are {', '.join(arenas(game))}")
-        source = read_text(path, MOST_BYTES)
-    except (OSError, ParseError) as error:
-        raise ArenaError(f"{path.name}: file: cannot be read ({reason(error)})") from None
-    return parse(game, source, path.name)
+        return parse(game, _read(path), path.name)
+    except OSError as error:
+        raise ArenaError(f"{path.name}: file: cannot be read ({error.strerror or error})") from None
+    except UnicodeDecodeError:
+        raise ArenaError(f"{path.name}: file: cannot be read (it is not text in UTF-8)") from None
+
+
+def _read(path: Path) -> str:
+    """The text of a file, without a byte order mark. Raises OSError, UnicodeDecodeError."""
+    if not path.is_file():  # opening a pipe would wait
+        raise OSError("it is not a file")
+    with path.open("rb") as file:
+        raw = file.read(MOST_BYTES + 1)
+    if len(raw) > MOST_BYTES:
+        raise OSError(f"it is larger than {MOST_BYTES:,} bytes")
+    return raw.decode("utf-8-sig")  # Notepad writes the mark
 
 
 def parse(game: str, source: str, file: str) -> Arena:
     """Check the text of an arena file of a game. Raises ArenaError, which names `file`, the key and the reason."""
-    return parse_by(source, file, GAMES[game].read)
+    return parse_by(source, file, games()[game].read)

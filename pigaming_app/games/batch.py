@@ -9,9 +9,9 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.action import press
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
@@ -24,8 +24,8 @@ def started(setups: Sequence[Setup]) -> list[Any]:
     arenas = {(setup.game, setup.arena): load(setup.game, setup.arena) for setup in setups}
     states = []
     for setup in setups:
-        state = GAMES[setup.game].state()
-        GAMES[setup.game].start(state, arenas[setup.game, setup.arena], setup)
+        state = games()[setup.game].state()
+        games()[setup.game].start(state, arenas[setup.game, setup.arena], setup)
         states.append(state)
     return states
 
@@ -43,7 +43,7 @@ def step_all(matches: Any, actions: Any) -> None:
     """
     if not len(matches):
         return
-    for name, game in GAMES.items():
+    for name, game in games().items():
         if isinstance(matches, list):
             if isinstance(matches[0], game.state):
                 return make_step_all(game.judge)(matches, actions)
@@ -69,4 +69,4 @@ def make_step_all(judge: Callable[[Any], None]) -> Callable[[Any, Any], None]:
 
 @cache
 def _compiled_step(game: str) -> Callable[[Any, Any], None]:
-    return compiled(make_step_all(GAMES[game].judge))
+    return compiled(make_step_all(games()[game].judge))

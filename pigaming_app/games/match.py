@@ -7,9 +7,9 @@ plant drives. A game never moves a robot, and a seat can change hands between an
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.action import press
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -38,7 +38,7 @@ class Match:
     ) -> None:
         """`plant`: a plant, or what makes one for the match's state."""
         self.setup = setup
-        self.game = GAMES[setup.game]
+        self.game = games()[setup.game]
         self.arena = arena or load(setup.game, setup.arena)
         self.state: Any = self.game.state()
         self.game.start(self.state, self.arena, setup)

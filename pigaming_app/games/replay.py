@@ -10,23 +10,21 @@ import json
 import zlib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
 from pigaming_app.sim.action import STEPS, press
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import digest
+from pigaming_app.sim.source_hash import engine_hash
+from pigaming_app.sim.toml_table import printable, quoted
 from pigaming_app.sim.world import HZ, ROBOTS
-from pigaming_app.storage.parsing import ParseError, json_of, one_line, read, reason, shown
-from pigaming_app.storage.safe_files import write
 
-MAGIC = "pigaming-replay-1"
+FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 has the engine hash of 1.4.0 and before
 BYTES = 3 * ROBOTS  # a tick
 MOST_TICKS = 60 * 60 * HZ
 MOST_HEAD = 1_000_000  # bytes; an arena's file has at most 100,000, which JSON escapes
@@ -34,7 +32,7 @@ MOST_BYTES = MOST_HEAD + BYTES * MOST_TICKS  # hardly ever: ticks are packed
 
 
 class ReplayError(ValueError):
-    """A file that is not a replay of this engine, in one line."""
+    """A file that is not a replay, in one line."""
 
 
 @dataclass(frozen=True)
@@ -45,15 +43,21 @@ class Replay:
     source: str  # the text of the arena's file
     ticks: bytes  # BYTES for each tick
     digest: str  # of the state after the last tick
+    engine: str  # hash of the engine it was recorded with
+
+    @property
+    def other_engine(self) -> bool:
+        """Whether it was recorded with another version of the engine, so that it may play out differently."""
+        return self.engine != engine_hash()
 
 
-def save(match: Match, path: Path) -> None:
-    """Write the replay of a match as far as it has been played, whole or not at all. Raises NotSaved."""
+def encode(match: Match) -> bytes:
+    """The file of a match as far as it has been played."""
     ticks = bytes(match.log.ticks)
     columns = b"".join(ticks[i::BYTES] for i in range(BYTES))
     packed = zlib.compress(columns, 9)
     head: dict[str, Any] = {
-        "format": MAGIC,
+        "format": FORMATS[-1],
         "engine": engine_hash(),
         "setup": asdict(match.setup),
         "arena": match.arena.source,
@@ -61,19 +65,15 @@ def save(match: Match, path: Path) -> None:
         "digest": digest(match.state),
     }
     head["check"] = _check(head, packed)
-    write(path, json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed)
+    return json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed
 
 
-def load(path: Path) -> Replay:
-    """Read and check a replay. Raises ReplayError."""
+def decode(raw: bytes, name: str) -> Replay:
+    """Check and unpack the file `name`. Raises ReplayError, which begins with the name."""
     try:
-        raw = read(path, MOST_BYTES)
-    except OSError as error:
-        raise ReplayError(f"{path.name}: cannot be read ({reason(error)})") from None
-    try:
-        return _read(raw)
+        return _decode(raw)
     except ReplayError as error:
-        raise ReplayError(f"{path.name}: {error}") from None
+        raise ReplayError(f"{name}: {error}") from None
 
 
 def play(replay: Replay) -> Match:
@@ -113,35 +113,34 @@ def _check(head: Mapping[str, Any], packed: bytes) -> str:
     return hashlib.sha256(json.dumps(rest, sort_keys=True).encode() + packed).hexdigest()
 
 
-def _read(raw: bytes) -> Replay:
+def _decode(raw: bytes) -> Replay:
     line, newline, packed = raw.partition(b"\n")
     try:
-        head = json_of(line) if newline and len(line) < MOST_HEAD else None
-    except ParseError:
+        head = json.loads(line) if newline and len(line) < MOST_HEAD else None
+    except (ValueError, RecursionError, MemoryError):
         head = None
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
-    if head["format"] != MAGIC:
-        raise ReplayError(f"a replay of another format ({shown(head['format'])}); this engine reads {MAGIC}")
+    if head["format"] not in FORMATS:
+        raise ReplayError(f"a replay of another format ({quoted(head['format'])}); known are {', '.join(FORMATS)}")
     if head.get("check") != _check(head, packed):
         raise ReplayError("damaged: it has been cut short or edited")
-    if head.get("engine") != engine_hash():
-        raise ReplayError("recorded with another version of the engine, so it would play out differently")
     try:
         setup = _setup(head["setup"])
         count, source, last = int(head["ticks"]), str(head["arena"]), str(head["digest"])
+        engine = str(head["engine"])
         parse(setup.game, source, setup.arena)
         if not 0 <= count <= MOST_TICKS:
             raise ValueError("ticks")
         columns = zlib.decompressobj().decompress(packed, BYTES * MOST_TICKS)
     except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
-        raise ReplayError(one_line(f"not a replay that makes sense ({type(error).__name__}: {error})")) from None
+        raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {printable(str(error))})") from None
     if len(columns) != count * BYTES:
         raise ReplayError("not a replay that makes sense (the number of ticks)")
     ticks = bytearray(len(columns))
     for i in range(BYTES):
         ticks[i::BYTES] = columns[i * count : (i + 1) * count]
-    return Replay(setup, source, bytes(ticks), last)
+    return Replay(setup, source, bytes(ticks), last, engine)
 
 
 def _setup(table: Mapping[str, Any]) -> Setup:
@@ -156,7 +155,7 @@ def _setup(table: Mapping[str, Any]) -> Setup:
         str(table["variant"]),
         int(table["goal"]),
     )
-    rules = GAMES[game]
+    rules = games()[game]
     if variant not in rules.variants or not 0 < minutes <= 60 or goal not in (*rules.goals, rules.default_goal):
         raise ValueError("setup")
     check_teams(rules, [seat.team for seat in seats if seat.brain != "off"])

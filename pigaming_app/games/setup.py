@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALONE, PAIRS, Game, Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.world import ROBOTS
 
 PEOPLE = ("human", "off")
@@ -27,8 +27,8 @@ def choose(
     goal: int | None = None,
 ) -> Setup:
     """A setup of what was asked for; what is None is the game's own. `known`: its brains. Raises ChoiceError."""
-    one_of("game", game, list(GAMES))
-    rules = GAMES[game]
+    one_of("game", game, list(games()))
+    rules = games()[game]
     for brain in brains:
         one_of("seat", brain, [*PEOPLE, *known])
     if len(brains) > ROBOTS:

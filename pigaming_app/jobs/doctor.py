@@ -130,11 +130,11 @@ def _nearest(folder: Path) -> Path:
 
 
 def _assets() -> Iterator[Line]:
-    from pigaming_app.games import GAMES
     from pigaming_app.games.arenas import arenas, load
+    from pigaming_app.games.registry import games
     from pigaming_app.sim.arena import ArenaError
 
-    for game in GAMES:
+    for game in games():
         names = arenas(game)
         for name in names:
             try:

@@ -12,8 +12,8 @@ from typing import Any
 from pigaming_app.ai import BRAINS, seated
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.replay import save
 from pigaming_app.games.setup import choose
+from pigaming_app.jobs.replay_files import save
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS

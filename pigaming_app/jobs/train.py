@@ -20,10 +20,10 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
-from pigaming_app.ai.qlearning.table_files import load
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError
-from pigaming_app.sim.kernel import can_compile, engine_hash
+from pigaming_app.scenes.lab import table_files
+from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 from pigaming_app.storage.safe_files import check_target, write
 
@@ -57,7 +57,7 @@ def train(arguments: argparse.Namespace) -> int:
     with _interrupts() as stopped:
         print("Ctrl-C ends it after the match that is being played, and keeps what has been learned", file=sys.stderr)
         seconds = _train(course, arguments, points, stopped)
-        course.save(arguments.out, arguments.out.stem)
+        table_files.save(course.trained(arguments.out.stem), arguments.out)
         if arguments.csv:
             write(arguments.csv, _csv_of(points))
         if arguments.curve:
@@ -115,14 +115,17 @@ def _begin(arguments: argparse.Namespace) -> training.Training:
     recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
     if not arguments.resume:
         return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
-    kept = load(arguments.out)
-    asked = (recipe, arguments.seed, arguments.arena, arguments.minutes, engine_hash())
-    words = ("reward (or --set)", "seed", "arena", "minutes", "version of the engine")
-    there = (kept.recipe, kept.seed, kept.arena, kept.minutes, kept.engine)
+    kept = table_files.load(arguments.out)
+    asked = (recipe, arguments.seed, arguments.arena, arguments.minutes)
+    words = ("reward (or --set)", "seed", "arena", "minutes")
+    there = (kept.recipe, kept.seed, kept.arena, kept.minutes)
     for word, wish, found in zip(words, asked, there, strict=True):
         if wish != found:
             raise ChoiceError(f"--resume: {arguments.out.name} was trained with another {word}")
-    return training.load(arguments.out, fast)
+    if kept.other_engine:
+        name = arguments.out.name
+        print(f"{name}: trained with another version of the engine; what it learned may fit less", file=sys.stderr)
+    return training.resumed(kept, fast)
 
 
 def _train(course: training.Training, arguments: argparse.Namespace, points: list[Point], stopped: list[int]) -> float:

@@ -28,9 +28,8 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Errand, free_node, grow
 from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.robot import GAIN, RADIUS
-from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.toml_table import Table, Wrong, quoted
 from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
-from pigaming_app.storage.parsing import ParseError, shown, toml_of
 
 LANGUAGES = ("en", "pt")
 HEALTH = 5
@@ -86,16 +85,13 @@ class Arena:
 def parse(source: str, file: str, read: Callable[[Table], Layout]) -> Arena:
     """Check the text of an arena file; `read` is the game's. Raises ArenaError, which names `file`, key and reason."""
     try:
-        table = Table(toml_of(source))
-    except ParseError as error:
-        raise ArenaError(f"{file}: syntax: {error}") from None
-    try:
+        table = Table.parse(source)
         title = _title(table)
         layout = read(table)
         arena = Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan)
         _check_ways(arena)
     except Wrong as wrong:
-        raise ArenaError(f"{file}: {wrong.key}: {wrong.reason}") from None
+        raise ArenaError(f"{file}: {wrong}") from None
     return arena
 
 
@@ -154,7 +150,7 @@ def _wall(entry: Table) -> WallSpec:
         raise entry.wrong("health", "goes without solid = true")
     health = entry.entries.get("health", HEALTH)
     if isinstance(health, bool) or not isinstance(health, int) or not 1 <= health <= HEALTH:
-        raise entry.wrong("health", f"{shown(health)}, but a whole number from 1 to {HEALTH} is needed")
+        raise entry.wrong("health", f"{quoted(health)}, but a whole number from 1 to {HEALTH} is needed")
     return WallSpec(ax, ay, bx, by, thick / 2, SOLID if solid else health)
 
 

@@ -18,7 +18,6 @@ from math import copysign
 from pigaming_app.sim.robot import LAG
 from pigaming_app.sim.toml_table import Table, Wrong
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.parsing import ParseError, toml_of
 
 MM = 1.32  # mm in an arena px on the nominal mat
 FASTEST = 3000.0  # px/s, more than any such robot drives
@@ -70,15 +69,13 @@ def twist(drivetrain: Drivetrain, left: float, right: float) -> tuple[float, flo
 def parse(text: str, file: str) -> tuple[Drivetrain, ...]:
     """The robots that a file tells of, at most one for each seat. Raises DrivetrainError."""
     try:
-        table = Table(toml_of(text))
+        table = Table.parse(text)
         table.only("robot")
         found = tuple(_drivetrain(entry) for entry in table.tables("robot"))
         if not 1 <= len(found) <= ROBOTS:
             raise table.wrong("robot", f"{len(found)} robots, but 1 to {ROBOTS} are possible")
-    except ParseError as error:
-        raise DrivetrainError(f"{file}: syntax: {error}") from None
     except Wrong as wrong:
-        raise DrivetrainError(f"{file}: {wrong.key}: {wrong.reason}") from None
+        raise DrivetrainError(f"{file}: {wrong}") from None
     return found
 
 

@@ -4,11 +4,10 @@
 function becomes callable from compiled code, and the outer loop is compiled and kept on disk.
 
 numba's cache does not see an edit in a function that the outer loop calls, so the folder of the cache carries the hash
-of all these sources. Replays and trained weights carry the hash of the engine's.
+of all these sources.
 """
 
 import contextlib
-import hashlib
 import os
 import sys
 from collections.abc import Callable
@@ -19,12 +18,11 @@ from typing import Any, TypeVar
 
 import platformdirs
 
+from pigaming_app.sim.source_hash import ENGINE, text_hash
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 _noted: list[Callable[..., Any]] = []
-
-PACKAGE = Path(__file__).resolve().parent.parent
-ENGINE = ("sim", "games")  # what decides how a match plays out, given what the seats do
 
 
 def kernel(function: F) -> F:
@@ -81,20 +79,5 @@ def _numba() -> Any:
 def _cache_folder() -> Path:
     home = os.environ.get("PIGAMING_HOME")
     root = Path(home) / "cache" if home else Path(platformdirs.user_cache_dir("pigaming"))
-    sources = _hash((*ENGINE, "ai"))[:16]
+    sources = text_hash((*ENGINE, "ai"))[:16]
     return root / f"compiled-{sys.version_info[0]}.{sys.version_info[1]}-{sources}"
-
-
-def engine_hash() -> str:
-    """SHA-256 over the sources that decide how a match plays out, the same on every system."""
-    return _hash(ENGINE)
-
-
-@cache
-def _hash(folders: tuple[str, ...]) -> str:
-    sha = hashlib.sha256()
-    for folder in folders:
-        for path in sorted((PACKAGE / folder).rglob("*.py")):
-            sha.update(path.relative_to(PACKAGE).as_posix().encode())
-            sha.update(path.read_bytes().replace(b"\r\n", b"\n"))
-    return sha.hexdigest()

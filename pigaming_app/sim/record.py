@@ -7,9 +7,10 @@ A record is a class of annotated fields: `float`, `int`, another record, or a li
     class Robot:
         x: float
         y: float
+        gain: float = 1.0
 
-`Robot()` is a plain object with every number zero. `dtype(Robot)` is the same layout as a NumPy record; `packed`
-and `unpack` copy between the two, and `digest` gives the same hash for both.
+`Robot()` is a plain object; every number without a default is zero. `dtype(Robot)` is the same layout as a NumPy
+record; `packed` and `unpack` copy between the two, and `digest` gives the same hash for both.
 """
 
 import hashlib
@@ -29,9 +30,9 @@ _LAYOUTS: dict[type, struct.Struct] = {}
 
 
 class Field:
-    """One field of a record: its name, what one element is, and how many (None: a single one)."""
+    """One field of a record: its name, what one element is, how many (None: a single one), and its default."""
 
-    def __init__(self, name: str, hint: Any) -> None:
+    def __init__(self, name: str, hint: Any, default: float = 0) -> None:
         self.name = name
         self.count: int | None = None
         code: str | None = None
@@ -44,11 +45,15 @@ class Field:
         self.code = code or _CODES.get(hint)
         if self.code is None and not hasattr(hint, "_fields"):
             raise TypeError(f"{name}: {hint} is not float, int or a record")
+        if default and (self.code is None or self.count is not None):
+            raise TypeError(f"{name}: only a single number has a default")
+        self.default = default
 
-    def zero(self) -> Any:
-        """The field with every number zero."""
-        one = self.kind
-        return one() if self.count is None else [one() for _ in range(self.count)]
+    def fresh(self) -> Any:
+        """The field of a fresh record."""
+        if self.default:
+            return self.kind(self.default)
+        return self.kind() if self.count is None else [self.kind() for _ in range(self.count)]
 
     def elements(self, owner: Any) -> Any:
         value = getattr(owner, self.name)
@@ -57,17 +62,20 @@ class Field:
 
 def record(cls: type[T]) -> type[T]:
     """Make a class of annotated fields (its own and those of its base) a record."""
-    fields = tuple(Field(name, hint) for name, hint in get_type_hints(cls, include_extras=True).items())
-    zeros = tuple((field.name, field.zero) for field in fields)
+    hints = get_type_hints(cls, include_extras=True)
+    inherited = {field.name: field.default for field in getattr(cls, "_fields", ())}
+    defaults = {**inherited, **vars(cls)}
+    fields = tuple(Field(name, hint, defaults.get(name, 0)) for name, hint in hints.items())
+    makers = tuple((field.name, field.fresh) for field in fields)
 
     def begin(self: Any) -> None:
-        for name, zero in zeros:
-            setattr(self, name, zero())
+        for name, make in makers:
+            setattr(self, name, make())
 
     body = {
         "__slots__": tuple(field.name for field in fields),
         "__init__": begin,
-        "__annotations__": get_type_hints(cls, include_extras=True),
+        "__annotations__": hints,
         "__doc__": cls.__doc__,
         "__module__": cls.__module__,
         "__qualname__": cls.__qualname__,

@@ -1,20 +1,41 @@
-"""Reading a TOML file with care: every table knows where in the file it stands, so that what is wrong can be named.
+"""TOML texts that anybody may have edited: every table knows its place in the file, so that errors name the key.
 
-`Wrong` carries the key and the reason; whoever opened the file adds its name and says the line.
+`Wrong` carries the key and the reason; the caller adds the name of the file.
 """
 
+import re
+import reprlib
+import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.storage.parsing import SHOWN, one_line, shown
+
+MOST_DOTS = 64  # in a key: tomllib takes quadratic time for long dotted keys
+MOST_TEXT = 200  # characters of a text in a message
+
+_QUOTE = reprlib.Repr()
+_QUOTE.maxstring = MOST_TEXT
+
+
+def printable(text: str) -> str:
+    """A text on one line of a message: as it is, or as a shortened literal if it is long or has control characters."""
+    return text if text.isprintable() and len(text) <= MOST_TEXT else _QUOTE.repr(text)
+
+
+def quoted(value: object) -> str:
+    """A value as a message quotes it: one line, shortened."""
+    try:
+        return reprlib.repr(value)
+    except ValueError:  # Python does not print whole numbers of more than 4300 digits
+        return "a number with too many digits"
 
 
 class Wrong(Exception):
     """Something in a file that cannot be used: the key, such as `wall[2].thick`, and the reason."""
 
     def __init__(self, key: str, reason: str) -> None:
-        self.key, self.reason = one_line(key, SHOWN), reason
+        self.key, self.reason = printable(key), reason
         super().__init__(f"{self.key}: {reason}")
 
 
@@ -23,6 +44,18 @@ class Table:
 
     def __init__(self, entries: Mapping[str, Any], path: str = "") -> None:
         self.entries, self.path = entries, path
+
+    @classmethod
+    def parse(cls, text: str) -> "Table":
+        """The whole of a TOML text. Raises Wrong with the key `syntax`."""
+        if any(part.count(".") > MOST_DOTS for part in re.split(r"[\n=,]", text)):
+            raise Wrong("syntax", "nested too deep")
+        try:
+            return cls(tomllib.loads(text))
+        except ValueError as error:
+            raise Wrong("syntax", printable(str(error))) from None
+        except (RecursionError, MemoryError):
+            raise Wrong("syntax", "nested too deep") from None
 
     def __contains__(self, key: str) -> bool:
         return key in self.entries
@@ -43,7 +76,7 @@ class Table:
         """A number from `low` to `high`. Raises Wrong."""
         value = self.entries.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e6:
-            raise self.wrong(key, f"{shown(value)} is not a number that makes sense here")
+            raise self.wrong(key, f"{quoted(value)} is not a number that makes sense here")
         if not low <= value <= high:
             raise self.wrong(key, f"{value:g}{unit}, but {low:g} to {high:g} are possible")
         return float(value)
@@ -71,7 +104,7 @@ class Table:
         """One of these words. Raises Wrong."""
         value = self.entries.get(key)
         if value not in known:
-            raise self.wrong(key, f"{shown(value)}; possible are {', '.join(known)}")
+            raise self.wrong(key, f"{quoted(value)}; possible are {', '.join(known)}")
         return str(value)
 
     def table(self, key: str, reason: str = "a table is missing") -> "Table":

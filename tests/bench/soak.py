@@ -14,11 +14,11 @@ import numpy as np
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import IN_SLOT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.pitanks.state import OWN_BULLETS
+from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.record import unpack
 from pigaming_app.sim.world import HZ, ROBOTS
@@ -30,7 +30,7 @@ SECONDS = 120
 
 def main(hours: float) -> int:
     """Run both soaks; the exit code."""
-    wrong = [trouble for game in GAMES for seconds in day(game, hours / len(GAMES)) for trouble in seconds]
+    wrong = [trouble for game in games() for seconds in day(game, hours / len(games())) for trouble in seconds]
     print(f"{hours:g} simulated hours: {len(wrong)} broken invariants", *wrong[:5], sep="\n  ")
     grown = memory()
     print(f"10,000 matches: memory grew by {grown:.1f} MB")
@@ -39,7 +39,7 @@ def main(hours: float) -> int:
 
 def setup(game: str, arena: str, seed: int) -> Setup:
     """The longest way to the goal."""
-    rules = GAMES[game]
+    rules = games()[game]
     one, two, three, four = (Seat(name, team) for name, team in zip(BRAIN, rules.teams, strict=True))
     goal = max(rules.goals, default=0)
     return Setup(game, arena, (one, two, three, four), 2.0, seed, rules.variants[0], goal)
@@ -103,9 +103,9 @@ PROMISES: dict[str, Callable[[Any], list[str]]] = {"pitanks": pitanks, "race": r
 def memory() -> float:
     """MB by which the process grew while the last 9,000 of 10,000 short plain matches were played."""
     first = 0
-    games = list(GAMES)
+    names = list(games())
     for i in range(10_000):
-        game = games[i % len(games)]
+        game = names[i % len(names)]
         Batch([setup(game, arenas(game)[0], i)], [BRAINS[game][name] for name in BRAIN], False).play(5)
         if i == 1000:
             first = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

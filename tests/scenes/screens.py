@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from pigaming_app.ai import RIVALS
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
@@ -50,7 +50,7 @@ class Ending:
     def results(self, arcade: Arcade, finished: bool = True) -> Results:
         seats = [Seat(brain, team) for brain, team in zip(self.brains.split(), self.teams, strict=True)]
         one, two, three, four = seats
-        game = GAMES[self.game]
+        game = games()[self.game]
         goal = max(game.goals, default=0)
         arena = max(arenas(self.game), key=len)
         setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, game.variants[-1], goal)
@@ -93,7 +93,7 @@ def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
 
 
 def seats(game: str) -> Seats:
-    found = Seats(sides=GAMES[game].sides, rivals=RIVALS[game])
+    found = Seats(sides=games()[game].sides, rivals=RIVALS[game])
     for device in KEYS[:2]:
         found.join(device)
     found.add()
@@ -109,7 +109,7 @@ def match(arcade: Arcade) -> MatchScene:
 
 def best(game: str) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
-        rules = GAMES[game]
+        rules = games()[game]
         conditions = Table(game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4)
         for board in boards(conditions):
             for score in (999, 599_990, -100):
@@ -139,10 +139,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
     "still there": lambda arcade: StillThere(match(arcade)),
     "devices": lambda arcade: DeviceTable(arcade.house, KEYS, Access(arcade.house, lambda: KEYS)),
-    **{f"how to play {game}": lesson(game) for game in GAMES},
-    **{f"setup {game}": choice(game) for game in GAMES},
-    **{f"lobby {game}": lobby(game, 0, 0) for game in GAMES},
-    **{f"full lobby {game}": lobby(game, 3, 1) for game in GAMES},
-    **{f"best {game}": best(game) for game in GAMES},
+    **{f"how to play {game}": lesson(game) for game in games()},
+    **{f"setup {game}": choice(game) for game in games()},
+    **{f"lobby {game}": lobby(game, 0, 0) for game in games()},
+    **{f"full lobby {game}": lobby(game, 3, 1) for game in games()},
+    **{f"best {game}": best(game) for game in games()},
     **{f"results {name}": ending.results for name, ending in ENDINGS.items()},
 }

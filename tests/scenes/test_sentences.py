@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.rule_texts import limits, numbers, tagline
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby import seat_card as card
@@ -28,7 +28,9 @@ ALONE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 def ended(game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ...]) -> tuple[Outcome, Setup]:
     """A match of two minutes that ended so."""
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
-    setup = Setup(game, "classic", (one, two, three, four), 2.0, 1, GAMES[game].variants[0], GAMES[game].default_goal)
+    setup = Setup(
+        game, "classic", (one, two, three, four), 2.0, 1, games()[game].variants[0], games()[game].default_goal
+    )
     there = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
     rows = tuple(Row(i, teams[i], 1, 3, {}, {}, ()) for i in there)
     return Outcome(rows, winners, ((), (), (), ()), 120.0), setup
@@ -95,8 +97,8 @@ def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
         "minutes": "2", "protection": "0.75", "patience": "0", "turbo": "2", "refill": "4"
     }  # fmt: skip
     assert numbers("race", 10, "standard")["patience"] == "30"
-    for game in GAMES:
-        drain = 1.0 / (float(numbers(game, 5, GAMES[game].variants[0])["turbo"]) / DT)
+    for game in games():
+        drain = 1.0 / (float(numbers(game, 5, games()[game].variants[0])["turbo"]) / DT)
         assert drain == pytest.approx(0.01), "of the meter, per tick"
 
 
@@ -107,7 +109,7 @@ def test_the_lessons_say_what_limits_a_match() -> None:
     assert "Time limit: 5 min." in limits(english, "factory", 5)
     assert "Time limit: 10 min, 30 s after the winner." in limits(english, "race", 10)
     assert "10 min; 30 s" in limits(portuguese, "race", 10)
-    for game in GAMES:
+    for game in games():
         assert "Turbo lasts 2 s and refills in 4 s." in limits(english, game, 5)
         assert "O turbo dura 2 s e enche em 4 s." in limits(portuguese, game, 5)
 
@@ -132,7 +134,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls, language)
     words = arcade.house.words
-    for variant in GAMES["pitanks"].variants:
+    for variant in games()["pitanks"].variants:
         arcade.house.settings.choice("pitanks").variant = variant
         with measuring(monkeypatch) as screen:
             SetupPage(arcade.house, "pitanks", seats("pitanks")).draw(screen)

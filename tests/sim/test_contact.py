@@ -8,8 +8,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import SHOVE, drive, in_wall
 from pigaming_app.sim.rng import chance, seeded
 from pigaming_app.sim.robot import RADIUS
@@ -227,7 +227,7 @@ def mashing(random):
     return driver
 
 
-FLOORS = [(game, arena) for game in GAMES for arena in arenas(game)]
+FLOORS = [(game, arena) for game in games() for arena in arenas(game)]
 
 
 @pytest.mark.parametrize(("game", "arena"), FLOORS, ids=[arena + "-" + game for game, arena in FLOORS])

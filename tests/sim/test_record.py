@@ -56,6 +56,28 @@ def test_a_cart_takes_the_bytes_one_counts_by_hand():
     assert sum(raw) == 3
 
 
+def test_a_default_is_a_fresh_records_number_and_a_bare_list_has_none():
+    @record
+    class Motor:
+        turns: int
+        gain: float = 0.5
+        wheels: Annotated[list[Wheel], 2]
+
+    @record
+    class Geared(Motor):
+        teeth: int = 12
+
+    motor = Geared()
+    assert (motor.turns, motor.gain, motor.teeth, motor.wheels[1].speed) == (0, 0.5, 12, 0.0)
+    assert list(numbers(motor)) == [0, 0.5, 0.0, 0, 0.0, 0, 12]
+
+    class Wrong:
+        marks: Annotated[list[int], 4] = 3
+
+    with pytest.raises(TypeError, match="only a single number has a default"):
+        record(Wrong)
+
+
 @pytest.mark.parametrize("kind", [Cart, World, PiTanks])
 def test_both_bodies_hold_the_same_bytes(kind):
     state = filled(kind)

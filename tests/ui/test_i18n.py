@@ -8,7 +8,7 @@ from string import Formatter
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 
 
@@ -116,7 +116,7 @@ def test_every_text_that_a_scene_asks_for_by_name_is_there() -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_game_and_its_rules_have_names(language: str) -> None:
     words = Words(language)
-    for game in GAMES.values():
+    for game in games().values():
         assert words(f"games.{game.name}")
         asked = game.variants if len(game.variants) > 1 else ()
         assert all(words(f"setup.{variant}") and words(f"setup.{variant}_line") for variant in asked)

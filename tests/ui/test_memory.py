@@ -9,9 +9,9 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import memory as bench_memory
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import House
@@ -41,7 +41,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 def match(arcade: Arcade, game: str) -> MatchScene:
     """A match of AIs with the longest way to the goal."""
-    rules = GAMES[game]
+    rules = games()[game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(game, arenas(game)[0], (one, two, three, four), 2.0, 1, rules.variants[0], goal)
@@ -73,7 +73,7 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
     assert surfaces.bytes < title + (24 << 20), "what is left are the pages of the match"
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[tuple[int, Hashable]] = []
     keep = SurfaceCache._keep

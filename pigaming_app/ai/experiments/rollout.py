@@ -10,9 +10,9 @@ from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
 from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.games import GAMES
 from pigaming_app.games.batch import started
 from pigaming_app.games.game import Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import packed, unpack
@@ -60,13 +60,13 @@ def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think,
 @cache
 def plain_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
     """The rollout of a game over plain records."""
-    return make_rollout(GAMES[game].judge, think)
+    return make_rollout(games()[game].judge, think)
 
 
 @cache
 def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
     """The rollout of a game over NumPy records. Raises ImportError without numba."""
-    return compiled(make_rollout(GAMES[game].judge, think))
+    return compiled(make_rollout(games()[game].judge, think))
 
 
 class Batch:
@@ -85,7 +85,7 @@ class Batch:
         one, two, three, four = (kind.think for kind in self.kinds)
         think = one, two, three, four
         game = setups[0].game
-        self.state = GAMES[game].state
+        self.state = games()[game].state
         self.loop: Loop = compiled_rollout(game, think) if fast else plain_rollout(game, think)
 
     def play(self, ticks: int) -> None:

@@ -7,23 +7,23 @@ and where it stands in its training are one record, so training can stop anywher
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.qlearning import table_files as tables
-from pigaming_app.ai.qlearning.learner import Learned, LearnerMind, Table, learn, learn_last, player, temperature
+from pigaming_app.ai.qlearning.learner import LearnerMind, Table, learn, learn_last, temperature
+from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
-from pigaming_app.games import GAMES
 from pigaming_app.games.batch import started
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.kernel import can_compile, compiled, compiled_before, engine_hash
+from pigaming_app.sim.kernel import can_compile, compiled, compiled_before
 from pigaming_app.sim.record import copy, fields_of, packed, unpack
 from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.world import HZ
 
 GAME, VARIANT, ARENA, MINUTES = "pitanks", "classic", "classic", 2.0
@@ -53,18 +53,18 @@ def make_training(judge: Callable[[Any], None]) -> Loop:
 @cache
 def plain_training() -> Loop:
     """The loop over plain records."""
-    return make_training(GAMES[GAME].judge)
+    return make_training(games()[GAME].judge)
 
 
 @cache
 def compiled_training() -> Loop:
     """The loop over NumPy records. Raises ImportError without numba."""
-    return compiled(make_training(GAMES[GAME].judge))
+    return compiled(make_training(games()[GAME].judge))
 
 
 def cached() -> bool:
     """Whether the compiled loop already lies on disk, so that it loads in a moment."""
-    return can_compile() and compiled_before(make_training(GAMES[GAME].judge))
+    return can_compile() and compiled_before(make_training(games()[GAME].judge))
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ class Training:
 
     def look(self) -> Any:
         """The match as `run` last left it, a plain record (of plain training: the match itself); only to look at."""
-        return unpack(GAMES[GAME].state, self._seen[0]) if self.fast else self._seen[0]
+        return unpack(games()[GAME].state, self._seen[0]) if self.fast else self._seen[0]
 
     @property
     def recipe(self) -> Recipe:
@@ -168,11 +168,11 @@ class Training:
         frozen = self._tables.copy() if self.fast else copy(self._tables[0])
         return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
 
-    def save(self, path: Path, name: str) -> None:
-        """Keep what has been learned so far as a file. Raises NotSaved."""
+    def trained(self, name: str) -> Trained:
+        """A copy of what has been learned so far, with what it was trained for."""
         reward = next((number for number, recipe in RECIPES.items() if recipe == self.recipe), 0)
         rows = self._tables.copy() if self.fast else packed(self._tables)
-        tables.save(Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash()), path)
+        return Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash())
 
     def measure(self, opponent: "str | Checkpoint" = "classic", matches: int = 100) -> tuple[int, int, int]:
         """Wins, ties and losses of what has been learned so far, in matches by the rules of the training."""
@@ -193,9 +193,8 @@ class Training:
         self._seen = self._matches
 
 
-def load(path: Path, fast: bool | None = None) -> Training:
-    """A training that goes on from a file, with a fresh match. Raises TableError, ArenaError."""
-    kept = tables.load(path)
+def resumed(kept: Trained, fast: bool | None = None) -> Training:
+    """A training that goes on where another ended, with a fresh match. Raises ArenaError."""
     return Training(kept.recipe, kept.seed, kept.arena, fast, kept.rows[0], kept.minutes)
 
 

@@ -10,7 +10,6 @@ three strengths differ in speed, in how long they think after each job, and in h
 from typing import Any
 
 from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.ai.factory.driving import drive_to, feel_held_up, free_itself, lose_patience, make_detour
 from pigaming_app.ai.factory.task_allocation import choose_job
 from pigaming_app.games.factory.observation import Eyes, View, see
@@ -106,13 +105,6 @@ def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> A
     return fill
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
-    """What it has on its mind; `foreman_thoughts` reads what stands above."""
-    from pigaming_app.ai.factory import foreman_thoughts
-
-    return foreman_thoughts.explain(match, seat, mind, known)
-
-
-EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0), explain=explain)
-NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0), explain=explain)
-HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1), explain=explain)
+EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
+NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
+HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))

@@ -14,7 +14,6 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.brain.steering import bearing, follow, turning
-from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
 from pigaming_app.sim.action import press
@@ -199,13 +198,6 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     press(match.actions[seat], 0.0, turning(match, robot, angle, mind.numbers.period), fire, 0)
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
-    """What it has on its mind; `classic_thoughts` reads what stands above."""
-    from pigaming_app.ai.pitanks import classic_thoughts
-
-    return classic_thoughts.explain(match, seat, mind, known)
-
-
 def machine(name: str, unknown: Unknown) -> Kind:
     """The machine with these numbers."""
 
@@ -214,7 +206,7 @@ def machine(name: str, unknown: Unknown) -> Kind:
             setattr(mind.numbers, key, number)
         mind.random = seeded(seed)
 
-    return Kind(name, ClassicMind, think, wake, explain=explain)
+    return Kind(name, ClassicMind, think, wake)
 
 
 CLASSIC = machine("classic", Unknown())

@@ -11,7 +11,6 @@ from math import pi
 from typing import Any
 
 from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.games.pitanks.observation import OTHERS, Eyes, View, see
 from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
@@ -304,14 +303,7 @@ def wake(delay: float, spread: float, patience: float) -> Any:
     return fill
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
-    """What it has on its mind; `fsm_thoughts` reads what stands above."""
-    from pigaming_app.ai.pitanks import fsm_thoughts
-
-    return fsm_thoughts.explain(match, seat, mind, known)
-
-
-EASY = Kind("easy", FsmMind, think, wake(delay=0.42, spread=0.14, patience=4.0), explain=explain)
-NORMAL = Kind("normal", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5), explain=explain)
-HARD = Kind("hard", FsmMind, think, wake(delay=0.12, spread=0.045, patience=1.5), explain=explain)
-FSM = Kind("fsm", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5), explain=explain)
+EASY = Kind("easy", FsmMind, think, wake(delay=0.42, spread=0.14, patience=4.0))
+NORMAL = Kind("normal", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5))
+HARD = Kind("hard", FsmMind, think, wake(delay=0.12, spread=0.045, patience=1.5))
+FSM = Kind("fsm", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5))

@@ -11,6 +11,7 @@ from pigaming_app.ai.qlearning.features import opponent_of, wall_of
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.toml_table import quoted
 
 AHEAD = 0  # the sector in which a robot looks
 CREEP = 10.0  # px/s below which a robot does not move
@@ -59,9 +60,10 @@ class Recipe:
         for field in fields(self):
             value, (low, high) = getattr(self, field.name), BOUNDS.get(field.name, ANY)
             if isinstance(value, bool) or not isinstance(value, int if field.type is int else int | float):
-                raise TypeError(f"{field.name}: {value!r} is not a {'whole ' if field.type is int else ''}number")
+                kind = "whole number" if field.type is int else "number"
+                raise TypeError(f"{field.name}: {quoted(value)} is not a {kind}")
             if not low <= value <= high:
-                raise ValueError(f"{field.name}: {value:g}, but {low:g} to {high:g} are possible")
+                raise ValueError(f"{field.name}: {quoted(value)}, but {low:g} to {high:g} are possible")
 
 
 @record

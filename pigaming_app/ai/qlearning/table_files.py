@@ -12,19 +12,17 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from functools import cache
 from io import BytesIO
-from pathlib import Path
 from typing import Any
 
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.qlearning.features import STATES
-from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, Learned, Table, player
+from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, Table
+from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES
-from pigaming_app.sim.kernel import engine_hash
 from pigaming_app.sim.record import dtype
-from pigaming_app.storage.parsing import json_of, read, reason
-from pigaming_app.storage.safe_files import write
+from pigaming_app.sim.source_hash import engine_hash
 
 FORMAT, RULE = "pigaming-table-1", "pitanks classic"
 MOST_BYTES = 4_000_000  # of a file; one of a whole training has about 60,000
@@ -54,9 +52,14 @@ class Trained:
         """Matches that it was trained for."""
         return int(self.rows["matches"][0])
 
+    @property
+    def other_engine(self) -> bool:
+        """Whether it was trained with another version of the engine, so that measured results may differ."""
+        return self.engine != engine_hash()
 
-def save(trained: Trained, path: Path) -> None:
-    """Write a trained table, whole or not at all. Raises NotSaved."""
+
+def encode(trained: Trained) -> bytes:
+    """The file of a trained table."""
     import numpy as np
 
     table = trained.rows[0]
@@ -71,22 +74,22 @@ def save(trained: Trained, path: Path) -> None:
     head["check"] = _check(head, q, n)
     packed = BytesIO()
     np.savez_compressed(packed, head=np.array(json.dumps(head)), q=q, n=n)
-    write(path, packed.getvalue())
+    return packed.getvalue()
 
 
-def load(path: Path) -> Trained:
-    """Read and check a trained table. Raises TableError, which names the file and says what is wrong with it."""
+def decode(raw: bytes, name: str) -> Trained:
+    """Check and unpack the file `name`. Raises TableError, which begins with the name."""
     try:
-        head, q, n = _parts(path)
-        return _trained(head, q, n)
+        return _trained(*_parts(raw))
     except TableError as wrong:
-        raise TableError(f"{path.name}: {wrong}") from None
+        raise TableError(f"{name}: {wrong}") from None
 
 
 @cache
 def shipped(name: str) -> Learned:
-    """What one of the tables that come with the arcade knows. Raises TableError."""
-    return Learned(load(ASSETS / "brains" / f"{name}.npz").rows)
+    """One of the tables that come with the arcade. Raises OSError, TableError."""
+    path = ASSETS / "brains" / f"{name}.npz"
+    return Learned(decode(path.read_bytes(), path.name).rows)
 
 
 def seat(name: str) -> Kind:
@@ -94,14 +97,10 @@ def seat(name: str) -> Kind:
     return player(name, lambda fast: shipped(name)(fast), reflex=True)
 
 
-def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:
+def _parts(raw: bytes) -> tuple[dict[str, Any], Any, Any]:
     """The head and the two arrays of a file, unchecked but for their form."""
     import numpy as np
 
-    try:
-        raw = read(path, MOST_BYTES)
-    except OSError as error:
-        raise TableError(f"cannot be read ({reason(error)})") from None
     if not raw.startswith(b"PK"):
         raise TableError("not a trained table")
     try:
@@ -115,7 +114,7 @@ def _parts(path: Path) -> tuple[dict[str, Any], Any, Any]:
                 raise TableError("truncated or damaged")
         with warnings.catch_warnings(), np.load(BytesIO(raw), allow_pickle=False) as file:
             warnings.simplefilter("error")  # NumPy warns of some headers
-            head, q, n = json_of(str(file["head"])), file["q"], file["n"]
+            head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
         form = q.dtype.str, q.shape, n.dtype.str, n.shape  # NumPy hands out bytes for a part that is no array
     except TableError:
         raise
@@ -180,8 +179,3 @@ def _recipe(numbers: Any) -> Recipe:
 def _check(head: Mapping[str, Any], q: Any, n: Any) -> str:
     told = json.dumps({key: value for key, value in head.items() if key != "check"}, sort_keys=True)
     return hashlib.sha256(told.encode() + q.tobytes() + n.tobytes()).hexdigest()
-
-
-def of_this_engine(trained: Trained) -> bool:
-    """Whether it was trained on the very rules and physics that are here now."""
-    return trained.engine == engine_hash()

@@ -13,7 +13,6 @@ from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.ai.race.overtaking import EDGE, choose_lane, held_to
 from pigaming_app.games.race.observation import OTHERS, Eyes, View, see
 from pigaming_app.sim.action import press
@@ -218,13 +217,6 @@ def wake(speed: float, line: float, spread: float, boost: float, delay: float) -
     return fill
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
-    """What it has on its mind; `racer_thoughts` reads what stands above."""
-    from pigaming_app.ai.race import racer_thoughts
-
-    return racer_thoughts.explain(match, seat, mind, known)
-
-
-EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35), explain=explain)
-NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2), explain=explain)
-HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05), explain=explain)
+EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35))
+NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
+HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))

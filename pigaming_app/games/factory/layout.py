@@ -26,9 +26,11 @@ from pigaming_app.games.factory.state import (
     ENTRY,
     EXIT,
     FIRE,
+    FORK,
     ICE,
     INPUT,
     OUTPUT,
+    REACH,
     SHELVES,
     TEAMS,
     WORKERS,
@@ -48,7 +50,6 @@ BODY = 66.0  # px from a machine's middle to its sides
 ROUND = 36.0  # px, radius of a body's corners
 SLOT_AT, SPOT_AT = 126.0, 114.0  # px from a machine's middle
 SHELF = 88.0  # px from one slot of a warehouse to the next
-FORK, REACH = 64.0, 40.0  # px from a robot's centre to its fork, and from there to a slot
 
 
 @dataclass(frozen=True)

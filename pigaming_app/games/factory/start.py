@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from pigaming_app.games.factory.layout import FORK, REACH, Floor
+from pigaming_app.games.factory.layout import Floor
 from pigaming_app.games.factory.pallets import stock_up
 from pigaming_app.games.factory.pedestrians import send
 from pigaming_app.games.factory.state import (
@@ -19,7 +19,7 @@ from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
-PALLETS = 4  # a team, if nobody says otherwise
+PALLETS = Rules().pallets  # a team, if nobody says otherwise
 GOALS = tuple(range(2, MOST_PALLETS + 1))
 STEPS_BEFORE = 1000.0  # of work done that weigh as much as one delivery: more than a match can have
 
@@ -67,15 +67,9 @@ def _furnish(match: Factory, floor: Floor) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """The numbers of DESIGN.md's rules."""
+    """Fit fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
-    rules.pallets = setup.goal or PALLETS
-    rules.speed, rules.turn_rate = 260.0, 3.0
-    rules.turbo_factor, rules.turbo_drain, rules.turbo_refill = 1.3, 1.0 / (2 * HZ), 1.0 / (4 * HZ)
-    rules.fork, rules.reach = FORK, REACH
-    rules.process, rules.replace, rules.freeze, rules.collect = 6 * HZ, 10 * HZ, 3 * HZ, 20 * HZ
-    rules.patience = 3 * HZ
-    rules.walk, rules.worker_radius, rules.driving = 130.0, 20.0, 20.0
+    rules.pallets = setup.goal or rules.pallets
 
 
 def standing(match: Factory, seat: int) -> float:

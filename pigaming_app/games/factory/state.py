@@ -9,7 +9,7 @@ from typing import Annotated
 from pigaming_app.games.factory.pedestrians import Motion
 from pigaming_app.sim.flow_field import Errand
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS, World
 
 ICE, FIRE = 0, 1  # the teams
 TEAMS = 2
@@ -28,29 +28,30 @@ RESTING, GOING, WORKING, FETCHING, CARRYING = range(5)  # what a worker does
 # Slots: of team t the entry from t * 2 * SHELVES, then its exit; of machine m INPUT, OUTPUT from MACHINE_SLOTS + 2 m.
 MACHINE_SLOTS = TEAMS * 2 * SHELVES
 SLOTS = MACHINE_SLOTS + 2 * MACHINES
+FORK, REACH = 64.0, 40.0  # px from a robot's centre to its fork, and from there to a slot
 
 
 @record
 class Rules:
     """Every number of the game that can be tuned. Distances in px, speeds in px/s and rad/s, times in ticks."""
 
-    ticks: int
-    pallets: int  # a team
-    speed: float
-    turn_rate: float
-    turbo_factor: float
-    turbo_drain: float
-    turbo_refill: float
-    fork: float  # from a robot's centre to the middle of what it carries
-    reach: float  # from the fork to the middle of a slot within which it lifts and sets down
-    process: int
-    replace: int  # from the damage to the replacement
-    freeze: int
-    patience: int  # for which a worker tries to get nearer to a machine before another is sent
-    collect: int  # for which a processed pallet waits for its owner before a worker carries it away
-    walk: float  # speed of workers
-    worker_radius: float
-    driving: float  # a robot slower than this does not drive over anybody
+    ticks: int  # of the match
+    pallets: int = 4  # a team
+    speed: float = 260.0
+    turn_rate: float = 3.0
+    turbo_factor: float = 1.3
+    turbo_drain: float = 1.0 / (2 * HZ)  # of the meter, per tick
+    turbo_refill: float = 1.0 / (4 * HZ)
+    fork: float = FORK  # from a robot's centre to the middle of what it carries
+    reach: float = REACH  # from the fork to the middle of a slot within which it lifts and sets down
+    process: int = 6 * HZ
+    replace: int = 10 * HZ  # from the damage to the replacement
+    freeze: int = 3 * HZ
+    patience: int = 3 * HZ  # for which a worker tries to get nearer to a machine before another is sent
+    collect: int = 20 * HZ  # for which a processed pallet waits for its owner before a worker carries it away
+    walk: float = 130.0  # speed of workers
+    worker_radius: float = 20.0
+    driving: float = 20.0  # a robot slower than this does not drive over anybody
 
 
 @record

@@ -30,21 +30,12 @@ def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """The numbers of DESIGN.md's rules. `classic`: no protection, no turbo, no pick-ups."""
-    classic = setup.variant == "classic"
+    """Fit fresh rules to a setup. `plain`: no pick-ups; `classic`: no turbo and no protection either."""
     rules.ticks = round(setup.minutes * 60 * HZ)
-    rules.speed, rules.turn_rate = 260.0, 3.0
-    rules.turbo = 0 if classic else 1
-    rules.turbo_factor, rules.turbo_drain, rules.turbo_refill = 1.3, 1.0 / (2 * HZ), 1.0 / (4 * HZ)
-    rules.bullet_speed, rules.bullet_radius, rules.muzzle = 560.0, 6.0, 64.0
-    rules.cooldown, rules.bullets_alive = HZ // 2, 5
-    rules.protection = 0 if classic else round(0.75 * HZ)
-    rules.pickups = int(setup.variant == "pickups")
-    rules.pickup_every, rules.pickup_life, rules.pickup_reach = 7 * HZ, 12 * HZ, 40.0
-    rules.power_life = 8 * HZ
-    rules.speed_factor, rules.rapid_cooldown, rules.boosted_alive = 1.25, HZ // 5, 8
-    rules.triple_spread, rules.bounces = 0.21, 2
-    rules.mine_radius, rules.mine_arming, rules.mine_life = 22.0, HZ, 30 * HZ
+    if setup.variant != "pickups":
+        rules.pickups = 0
+    if setup.variant == "classic":
+        rules.turbo = rules.protection = 0
 
 
 def facts(match: PiTanks, seat: int) -> Mapping[str, float]:

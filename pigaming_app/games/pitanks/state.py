@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS, World
 
 SHIELD, SPEED, RAPID, TRIPLE, RICOCHET, MINE = range(6)
 POWERS = ("shield", "speed", "rapid", "triple", "ricochet", "mine")
@@ -19,32 +19,32 @@ MINES = ROBOTS * OWN_MINES
 class Rules:
     """Every number of the game that can be tuned. Distances in px, times in ticks, speeds in px/s and rad/s."""
 
-    ticks: int
-    speed: float
-    turn_rate: float
-    turbo: int  # 0: there is none
-    turbo_factor: float
-    turbo_drain: float  # of the meter, per tick
-    turbo_refill: float
-    bullet_speed: float
-    bullet_radius: float
-    muzzle: float  # from the robot's centre
-    cooldown: int
-    bullets_alive: int
-    protection: int
-    pickups: int  # 0: there are none
-    pickup_every: int
-    pickup_life: int
-    pickup_reach: float
-    power_life: int
-    speed_factor: float
-    rapid_cooldown: int
-    boosted_alive: int  # bullets alive with rapid or triple
-    triple_spread: float  # rad
-    bounces: int  # of a ricochet bullet
-    mine_radius: float
-    mine_arming: int
-    mine_life: int
+    ticks: int  # of the match
+    speed: float = 260.0
+    turn_rate: float = 3.0
+    turbo: int = 1  # 0: there is none
+    turbo_factor: float = 1.3
+    turbo_drain: float = 1.0 / (2 * HZ)  # of the meter, per tick
+    turbo_refill: float = 1.0 / (4 * HZ)
+    bullet_speed: float = 560.0
+    bullet_radius: float = 6.0
+    muzzle: float = 64.0  # from the robot's centre
+    cooldown: int = HZ // 2
+    bullets_alive: int = 5
+    protection: int = round(0.75 * HZ)
+    pickups: int = 1  # 0: there are none
+    pickup_every: int = 7 * HZ
+    pickup_life: int = 12 * HZ
+    pickup_reach: float = 40.0
+    power_life: int = 8 * HZ
+    speed_factor: float = 1.25
+    rapid_cooldown: int = HZ // 5
+    boosted_alive: int = 8  # bullets alive with rapid or triple
+    triple_spread: float = 0.21  # rad
+    bounces: int = 2  # of a ricochet bullet
+    mine_radius: float = 22.0
+    mine_arming: int = HZ
+    mine_life: int = 30 * HZ
 
 
 @record

@@ -26,7 +26,7 @@ from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.toml_table import Table
 from pigaming_app.sim.world import DT, HZ
 
-LAPS = 3  # if nobody says otherwise
+LAPS = Rules().laps  # if nobody says otherwise
 GOALS = tuple(range(1, MOST_LAPS + 1))
 BEHIND = 55.0  # px between a robot's start and its line
 APART = 300.0  # px that must lie between two lines
@@ -99,13 +99,9 @@ def _draw(line: Line, course: Course, along: float) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """The numbers of DESIGN.md's rules."""
+    """Fit fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
-    rules.laps = setup.goal or LAPS
-    rules.speed, rules.turn_rate, rules.mud = 325.0, 3.0, 1.0 / 3.0
-    rules.turbo_factor, rules.turbo_drain, rules.turbo_refill = 1.3, 1.0 / (2 * HZ), 1.0 / (4 * HZ)
-    rules.patience, rules.roll_on = 30 * HZ, round(1.5 * HZ)
-    rules.carried = 40.0
+    rules.laps = setup.goal or rules.laps
 
 
 def standing(match: Race, seat: int) -> float:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pigaming_app.games.race.course import POINTS, Course, Place
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS, World
 
 MOST_LAPS = 9
 LINES = ROBOTS  # one for each seat, whoever drives
@@ -15,16 +15,16 @@ class Rules:
     """Every number of the game that can be tuned. Speeds in px/s and rad/s, times in ticks."""
 
     ticks: int  # after which the race is stopped
-    laps: int
-    speed: float
-    turn_rate: float
-    mud: float  # factor of speed off the course
-    turbo_factor: float
-    turbo_drain: float  # of the meter, per tick
-    turbo_refill: float
-    patience: int  # for which the others race on after the first has finished
-    roll_on: int  # for which whoever has finished may still drive, so as not to stand in the way
-    carried: float  # px in a tick: a robot that moved further was carried, and has crossed nothing
+    laps: int = 3
+    speed: float = 325.0
+    turn_rate: float = 3.0
+    mud: float = 1.0 / 3.0  # factor of speed off the course
+    turbo_factor: float = 1.3
+    turbo_drain: float = 1.0 / (2 * HZ)  # of the meter, per tick
+    turbo_refill: float = 1.0 / (4 * HZ)
+    patience: int = 30 * HZ  # for which the others race on after the first has finished
+    roll_on: int = round(1.5 * HZ)  # for which whoever has finished may still drive, so as not to stand in the way
+    carried: float = 40.0  # px in a tick: a robot that moved further was carried, and has crossed nothing
 
 
 @record

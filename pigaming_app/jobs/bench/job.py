@@ -18,9 +18,9 @@ from typing import Any
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import memory as bench_memory
 from pigaming_app.jobs.bench import walk as bench_walk
 from pigaming_app.sim.kernel import can_compile
@@ -63,7 +63,7 @@ def measure(game: str) -> dict[str, Any]:
 
 def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
     """The scene that is measured, in so many matches."""
-    rules = GAMES[game]
+    rules = games()[game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
     setups = [

@@ -13,15 +13,15 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.flow.context import House
     from pigaming_app.scenes.flow.stack import Scene
 
-STATES = ("title", "lobby", *GAMES)
+STATES = ("title", "lobby", *games())
 STEP = 1 / 30  # s of a frame
 SECONDS = {"title": 10.0, "lobby": 15.0, "match": 60.0}  # until memory is read
 MINUTES = 5.0  # of a match: it is still running then
@@ -117,14 +117,14 @@ def lobby(house: "House", state: str) -> "Scene":
     """The lobby of a game, of the first one if the state is none."""
     from pigaming_app.scenes.lobby.scene import Lobby
 
-    return Lobby(house, state if state in GAMES else next(iter(GAMES)))
+    return Lobby(house, state if state in games() else next(iter(games())))
 
 
 def match(house: "House", state: str) -> "Scene":
     """A match of four normal AIs in a game's first arena."""
     from pigaming_app.scenes.play.scene import MatchScene
 
-    rules = GAMES[state]
+    rules = games()[state]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     return MatchScene(

@@ -12,10 +12,10 @@ from multiprocessing import get_context
 from typing import NamedTuple, TypeVar
 
 from pigaming_app.ai import make
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.emulator.radio import Air
@@ -99,15 +99,15 @@ def jobs() -> list[Job]:
     """Twenty minutes in all games and many arenas, at both rates."""
     found = []
     for i in range(MATCHES):
-        game = list(GAMES)[i % len(GAMES)]
+        game = list(games())[i % len(games())]
         places = arenas(game)
-        found.append(Job(game, places[i // len(GAMES) % len(places)], RATES[i % 4 == 3], i + 1))
+        found.append(Job(game, places[i // len(games()) % len(places)], RATES[i % 4 == 3], i + 1))
     return found
 
 
 def on_mat(job: Job, ground: Ground | None = None) -> Played:
     """Play a match on an emulated mat of its own; a `ground` that is known need not be found."""
-    rules = GAMES[job.game]
+    rules = games()[job.game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.variants[0], goal)

@@ -3,15 +3,15 @@
 from contextlib import suppress
 
 from pigaming_app.ai import seated
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import ArenaError
 
 
 def every_arena() -> list[tuple[str, str]]:
     """Game and name of each."""
-    return [(game, name) for game in GAMES for name in arenas(game)]
+    return [(game, name) for game in games() for name in arenas(game)]
 
 
 def read(game: str, name: str) -> None:
@@ -22,7 +22,7 @@ def read(game: str, name: str) -> None:
 
 def prepare(game: str, name: str) -> None:
     """Seat AIs in an arena."""
-    rules = GAMES[game]
+    rules = games()[game]
     one, two, three, four = (Seat("hard", team) for team in rules.teams)
     setup = Setup(game, name, (one, two, three, four), rules.default_minutes, 1, rules.variants[0], rules.default_goal)
     with suppress(ArenaError):

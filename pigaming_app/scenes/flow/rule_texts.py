@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.factory.start import set_rules as factory_rules
 from pigaming_app.games.factory.state import Rules as FactoryRules
 from pigaming_app.games.game import Seat, Setup
@@ -11,6 +10,7 @@ from pigaming_app.games.pitanks.start import set_rules as pitanks_rules
 from pigaming_app.games.pitanks.state import Rules as PiTanksRules
 from pigaming_app.games.race.start import set_rules as race_rules
 from pigaming_app.games.race.state import Rules as RaceRules
+from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
@@ -24,7 +24,7 @@ RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
 
 def limits(words: Words, game: str, minutes: float) -> str:
     """One line for the page of a game whose matches last `minutes` at most."""
-    return words(f"howto.limits_{game}", **numbers(game, minutes, GAMES[game].variants[0]))
+    return words(f"howto.limits_{game}", **numbers(game, minutes, games()[game].variants[0]))
 
 
 def tagline(words: Words, game: str, goal: int) -> str:
@@ -34,13 +34,13 @@ def tagline(words: Words, game: str, goal: int) -> str:
 
 def kept_goal(settings: Settings, game: str) -> int:
     """The laps or pallets that were chosen last."""
-    goal, rules = settings.choice(game).goal, GAMES[game]
+    goal, rules = settings.choice(game).goal, games()[game]
     return goal if goal in rules.goals else rules.default_goal
 
 
 def kept_minutes(settings: Settings, game: str) -> int:
     """The minutes that were chosen last."""
-    minutes, rules = settings.choice(game).minutes, GAMES[game]
+    minutes, rules = settings.choice(game).minutes, games()[game]
     return minutes if minutes in rules.minutes else rules.default_minutes
 
 
@@ -49,7 +49,7 @@ def numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
     make, set_rules = RULES[game]
     rules, nobody = make(), Seat("off", 0)
     seats = nobody, nobody, nobody, nobody
-    set_rules(rules, Setup(game, "", seats, minutes, 1, variant, GAMES[game].default_goal))
+    set_rules(rules, Setup(game, "", seats, minutes, 1, variant, games()[game].default_goal))
     found = {
         "minutes": rules.ticks * DT / 60.0,
         "protection": getattr(rules, "protection", 0) * DT,

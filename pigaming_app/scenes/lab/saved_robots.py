@@ -4,8 +4,9 @@ import errno
 import logging
 from pathlib import Path
 
-from pigaming_app.ai.experiments.training import Training, load
+from pigaming_app.ai.experiments.training import Training, resumed
 from pigaming_app.ai.qlearning.table_files import TableError
+from pigaming_app.scenes.lab import table_files
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.settings import folders
 
@@ -56,7 +57,7 @@ def proposal() -> str:
 def keep(training: Training, name: str) -> None:
     """Save a robot under a name. Raises NotKept; what stood there before is intact."""
     try:
-        training.save(file_of(name), name)
+        table_files.save(training.trained(name), file_of(name))
     except OSError as trouble:
         log.warning("%s was not saved: %s", file_of(name), trouble)
         full = trouble.errno in (errno.ENOSPC, errno.EDQUOT)
@@ -66,7 +67,10 @@ def keep(training: Training, name: str) -> None:
 def fetch(name: str, fast: bool) -> Training:
     """A robot as it was saved. Raises NotKept."""
     try:
-        return load(file_of(name), fast)
-    except (TableError, ArenaError, OSError) as trouble:
+        trained = table_files.load(file_of(name))
+        if trained.other_engine:
+            log.warning("%s was trained with another version of the engine", file_of(name))
+        return resumed(trained, fast)
+    except (TableError, ArenaError) as trouble:
         log.warning("%s", trouble)
         raise NotKept("lab.broken") from trouble

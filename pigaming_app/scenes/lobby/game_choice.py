@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.game import Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.rule_texts import kept_goal, tagline
@@ -27,9 +27,9 @@ class GameChoice:
     def __init__(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> None:
         self.house, self.setup, self.devices = house, setup, list(devices)
         self.access = Access(house, lambda: self.devices)
-        games = list(GAMES)
-        after = games[(games.index(setup.game) + 1) % len(games)]
-        self.focus = Focus([Spot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(games)], after)
+        names = list(games())
+        after = names[(names.index(setup.game) + 1) % len(names)]
+        self.focus = Focus([Spot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(names)], after)
         hints = [(Act.FIRE, "choice.hint_ok"), (Act.BACK, "choice.hint_back")]
         self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
 

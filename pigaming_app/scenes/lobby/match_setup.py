@@ -10,9 +10,9 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
@@ -52,7 +52,7 @@ class SetupPage:
     """The choice of the match that `seats` are going to play."""
 
     def __init__(self, house: House, game: str, seats: Seats) -> None:
-        self.house, self.game, self.seats = house, GAMES[game], seats
+        self.house, self.game, self.seats = house, games()[game], seats
         self.arenas = playable(game)
         self.chosen = chosen(house, game)
         self.rows = rows(self.game)
@@ -254,7 +254,7 @@ def picture(game: str, name: str) -> Steps[Lit]:
 @lru_cache(maxsize=16)
 def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
     """Where the robots of these seats begin, px."""
-    rules, state = GAMES[game], GAMES[game].state()
+    rules, state = games()[game], games()[game].state()
     setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
     rules.start(state, load_kept(game, name), setup)
     return [(robot.x, robot.y) for robot in state.robots]
@@ -302,7 +302,7 @@ def beside(values: Sequence[int], value: int, by: int) -> int:
 
 def chosen(house: House, game: str) -> Choice:
     """What was chosen last, or the game's own where that is not there (any more)."""
-    rules, last, names = GAMES[game], house.settings.choice(game), playable(game)
+    rules, last, names = games()[game], house.settings.choice(game), playable(game)
     return Choice(
         arena=last.arena if last.arena in names else names[0],
         minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
@@ -315,7 +315,7 @@ def summary(house: House, game: str) -> str:
     """Game, minutes or goal, and arena in one line."""
     words, now = house.words, chosen(house, game)
     where = title(load_kept(game, now.arena), words.language)
-    return "  ·  ".join((words(f"games.{game}"), measure(words, GAMES[game], now.minutes, now.goal), where))
+    return "  ·  ".join((words(f"games.{game}"), measure(words, games()[game], now.minutes, now.goal), where))
 
 
 def measure(words: Words, game: Game, minutes: float, goal: int) -> str:

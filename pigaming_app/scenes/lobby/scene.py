@@ -10,9 +10,9 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.ai import RIVALS, STRENGTHS
-from pigaming_app.games import GAMES
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.real import unfit
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.access import Access
@@ -39,7 +39,7 @@ class Lobby:
 
     def __init__(self, house: House, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.house, self.game = house, game
-        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game], mat=house.robots)
+        self.seats = Seats(house.settings.strength, sides=games()[game].sides, rivals=RIVALS[game], mat=house.robots)
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in house.settings.real and not unfit(house.settings)
         for seat, driver in enumerate(drivers):
@@ -122,7 +122,7 @@ class Lobby:
             return
         now = chosen(self.house, self.game)
         if self.rehearsal is None and self.house.backstage.ready(self.game, now.arena):
-            one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
+            one, two, three, four = (Seat("idle", team) for team in games()[self.game].teams)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.rehearsal = Stage(self.house, Match(setup), loud=False)
         elif self.rehearsal:

@@ -15,6 +15,7 @@ from pigaming_app.ui.widgets.caption import plate
 
 SPEEDS = (1, 2, 4)
 SHOWN = 4.0  # seconds for which the hints stay after a press
+NOTICE, NOTICE_Y = 6.0, 990  # seconds of the match, px: of the notice that another engine recorded it
 LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # of the time line, px
 
 
@@ -77,6 +78,8 @@ class ReplayScene:
         elif not self.playing or self.speed or seconds < SHOWN:
             said = words("replay.title") if self.playing else words("replay.hint_pause")
             note(said, f"{SPEEDS[self.speed]}×").draw(screen)
+        if self.replay.other_engine and seconds < NOTICE:
+            plate(words("replay.other_engine"), FOCUS).draw(screen, 960, NOTICE_Y)
         if self.shown > 0.0 or not self.playing or self.ended:
             self.hints.draw(screen)
 

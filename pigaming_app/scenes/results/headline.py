@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from pigaming_app.ai import RIVALS
-from pigaming_app.games import GAMES
 from pigaming_app.games.game import PAIRS, Outcome, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.ui.draw.ink import ICE, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
@@ -26,12 +26,12 @@ def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int]
 
 def in_teams(outcome: Outcome, setup: Setup) -> bool:
     """Whether teams played: always two in the factory, elsewhere where two robots share one."""
-    return GAMES[setup.game].sides == PAIRS or len({row.team for row in outcome.rows}) < len(outcome.rows)
+    return games()[setup.game].sides == PAIRS or len({row.team for row in outcome.rows}) < len(outcome.rows)
 
 
 def team_name(words: Words, setup: Setup, team: int) -> str:
     """What a team is called in the lobby."""
-    if GAMES[setup.game].sides == PAIRS:
+    if games()[setup.game].sides == PAIRS:
         return words(f"lobby.side_{team + 1}")
     return words("lobby.team", team=team + 1)
 
@@ -41,4 +41,4 @@ def winning_color(outcome: Outcome, setup: Setup) -> Color:
     if not outcome.winners:
         return ICE
     seat = outcome.winners[0]
-    return TEAMS[setup.seats[seat].team] if GAMES[setup.game].sides == PAIRS else PLAYERS[seat]
+    return TEAMS[setup.seats[seat].team] if games()[setup.game].sides == PAIRS else PLAYERS[seat]

@@ -6,8 +6,8 @@ number of people. A match counts for a seat only if every opponent is a person o
 
 from dataclasses import dataclass, replace
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.game import Feat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, Table
 
 NONE = "–"
@@ -38,7 +38,7 @@ def contest(setup: Setup, seat: int | None = None) -> Table:
     own = setup.seats[seat if seat is not None else people[0] if people else 0]
     mates = [one for one in setup.seats if one.brain != "off" and one.team == own.team]
     side = sum(one.brain == "human" for one in mates) if len(mates) > 1 else 0
-    length = setup.goal if GAMES[setup.game].goals else setup.minutes
+    length = setup.goal if games()[setup.game].goals else setup.minutes
     return Table(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
 
 
@@ -49,7 +49,7 @@ def table_of(contest: Table, feat: Feat) -> Table:
 
 def boards(contest: Table) -> list[Board]:
     """The two tables shown side by side: of each feat, or of the only one today's and that of all time."""
-    feats = GAMES[contest.game].feats
+    feats = games()[contest.game].feats
     tables = [table_of(contest, feat) for feat in feats]
     if len(feats) > 1:
         return [Board(f"results.best_{table.feat}", table) for table in tables[:2]]
@@ -58,15 +58,15 @@ def boards(contest: Table) -> list[Board]:
 
 def older_boards(contest: Table, scores: Scores) -> list[Board]:
     """The tables of all time that have rows, of a contest of version 1.3.0."""
-    tables = [table_of(contest, feat) for feat in GAMES[contest.game].feats]
+    tables = [table_of(contest, feat) for feat in games()[contest.game].feats]
     return [Board(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
 
 
 def contests(scores: Scores) -> list[Table]:
     """The contests of which something can be shown, by game and arena, older ones last in each arena."""
     found = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
-    games = list(GAMES)
-    return sorted(found, key=lambda one: (games.index(one.game), one.arena != "classic", one.arena, one.older, one))
+    names = list(games())
+    return sorted(found, key=lambda one: (names.index(one.game), one.arena != "classic", one.arena, one.older, one))
 
 
 def told(value: int, feat: Feat | Table) -> str:
@@ -85,7 +85,7 @@ def clock(seconds: float) -> str:
 
 def _is_known(table: Table) -> bool:
     """Whether there is such a game, with such a feat and such rules; a file may hold anything."""
-    game = GAMES.get(table.game)
+    game = games().get(table.game)
     if not game or not any((feat.name, feat.timed) == (table.feat, table.timed) for feat in game.feats):
         return False
     return table.older or (table.rules in game.variants and table.people <= 4 and table.side <= table.people)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.lobby.match_setup import load_kept, measure, playable, title
@@ -178,7 +178,7 @@ def place_of(contest: Table) -> tuple[str, str]:
 
 def conditions(words: Words, contest: Table) -> str:
     """The rules, the length and the people of a contest in one line."""
-    game = GAMES[contest.game]
+    game = games()[contest.game]
     parts = [words("best.older")] if contest.older else []
     if len(game.variants) > 1 and contest.rules:
         parts.append(words(f"setup.{contest.rules}"))

@@ -10,8 +10,8 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.game import Outcome, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.results import initials_view as page
@@ -67,7 +67,7 @@ def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Devic
 
 def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Feats]:
     """By seat, what people did above zero in a match that counts for them."""
-    feats = GAMES[setup.game].feats
+    feats = games()[setup.game].feats
     done = {}
     for row in outcome.rows:
         if row.seat in seats and setup.seats[row.seat].brain == "human" and counts(setup, row.seat):

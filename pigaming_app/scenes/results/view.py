@@ -6,9 +6,9 @@ from itertools import groupby
 
 import pygame
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.lobby.match_setup import measure
 from pigaming_app.scenes.results.celebration import Finale
@@ -69,7 +69,7 @@ class ResultsPage:
         self.absent = absent  # seats of people for whom an AI has driven
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
-        game = GAMES[setup.game]
+        game = games()[setup.game]
         self.columns = ("score", *game.columns) if setup.game in SCORED else game.columns
         self.winners = outcome.winners if finished else ()
         self.title_at = FIRST + APART * len(self.teams) + 0.15
@@ -194,7 +194,7 @@ class ResultsPage:
     def _where(self) -> Lit:
         """Game, time, arena."""
         words, setup = self.house.words, self.setup
-        minutes = measure(words, GAMES[setup.game], setup.minutes, setup.goal)
+        minutes = measure(words, games()[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
         where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
         size = fitted(where, BODY, 720, "body")

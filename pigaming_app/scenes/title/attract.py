@@ -9,9 +9,9 @@ from itertools import cycle
 import pygame
 
 from pigaming_app.ai import STRENGTHS, seated
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Scene, Turn
 from pigaming_app.scenes.play.runner import Stage
@@ -37,10 +37,10 @@ class Attract:
     def __init__(self, house: House) -> None:
         self.house = house
         self.age = 0.0
-        games, first = list(GAMES), secrets.randbelow(len(GAMES))
+        names, first = list(games()), secrets.randbelow(len(games()))
         self.shows = (
             partial(make, game)
-            for game in cycle(games[first:] + games[:first])
+            for game in cycle(names[first:] + names[:first])
             for make in (self._match, self._howto, self._best)
         )
         self.show: Scene | None = None
@@ -100,7 +100,7 @@ class Demonstration:
     """AIs play for a minute."""
 
     def __init__(self, house: House, game: str) -> None:
-        rules = GAMES[game]
+        rules = games()[game]
         teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.sides == FREE else rules.teams
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)

@@ -5,7 +5,7 @@ When nobody is there for a while, an AI match begins.
 
 import pygame
 
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.rule_texts import kept_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, Turn
@@ -57,7 +57,7 @@ class Title:
         self.clock = 0.0
         self.combination = Combination(house)
         self.focus = Focus(self._spots())
-        self.game = next(iter(GAMES))  # whose tile had the focus last
+        self.game = next(iter(games()))  # whose tile had the focus last
         self.lab: Scene | None = None
 
     def entered(self) -> None:
@@ -73,7 +73,7 @@ class Title:
             self._speak(self.house.words.other)
         elif self.focus.on(press):
             self.house.sounds.play("move")
-        self.game = self.focus.name if self.focus.name in GAMES else self.game
+        self.game = self.focus.name if self.focus.name in games() else self.game
         chosen = self.focus.chosen(press)
         return self._open(chosen) if chosen else None
 
@@ -98,7 +98,7 @@ class Title:
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
         stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
-        for i, game in enumerate(GAMES):
+        for i, game in enumerate(games()):
             line = tagline(words, game, kept_goal(self.house.settings, game))
             lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
             lit.draw(screen, *tile_rect(i).topleft)
@@ -118,7 +118,7 @@ class Title:
 
     def _scene(self, name: str) -> Scene | None:
         """The page of a place; pages are imported when they are wanted, so that the title comes at once."""
-        if name in GAMES:
+        if name in games():
             from pigaming_app.scenes.lobby.scene import Lobby
 
             return Lobby(self.house, name)
@@ -149,7 +149,7 @@ class Title:
         self.focus.place(self._spots())
 
     def _spots(self) -> list[Spot]:
-        spots = [Spot(game, tile_rect(i)) for i, game in enumerate(GAMES)]
+        spots = [Spot(game, tile_rect(i)) for i, game in enumerate(games())]
         x = LEFT
         for name in self._menu():
             w = chip_width(self.house.words(f"title.{name}"))
@@ -181,7 +181,7 @@ class Title:
         """The line that asks for a press, and the label of the button in it."""
         words, name = self.house.words, self.focus.name
         label = words.printed(self.house.controls.label(None, Act.FIRE))
-        if name in GAMES:
+        if name in games():
             return words("title.press", button="{button}"), label
         return words("title.choose", button="{button}", what=self._what(name)), label
 
@@ -215,7 +215,7 @@ def ground() -> Steps[pygame.Surface]:
     name = yield from pane.lighting()
     out = backdrop().copy()
     name.draw(out)
-    return blacked(out, *map(tile_rect, range(len(GAMES))))
+    return blacked(out, *map(tile_rect, range(len(games()))))
 
 
 @cached

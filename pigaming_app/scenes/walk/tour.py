@@ -3,7 +3,7 @@
 from functools import partial
 from typing import Any, Protocol
 
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.stack import Push
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import Best
@@ -39,7 +39,7 @@ def tour(walker: Visitor) -> None:
     for language in LANGUAGES:
         lessons(walker)
         options(walker)
-        for game in GAMES:
+        for game in games():
             play(walker, game, every_arena=language == LANGUAGES[0])
         lab(walker)
         home(walker)
@@ -77,7 +77,7 @@ def lessons(walker: Visitor) -> None:
     """How to play each game."""
     walker.at("how to play")
     choose(walker, "howto")
-    for _ in GAMES:
+    for _ in games():
         walker.wait(5.0)
         walker.press("d")
     home(walker)
@@ -279,7 +279,7 @@ def attract(walker: Visitor) -> None:
     walker.house.settings.attract_seconds = 5.0
     walker.at("attract mode")
     walker.until(lambda: walker.on("Attract"))
-    for _ in range(3 * len(GAMES)):
+    for _ in range(3 * len(games())):
         show = walker.top.show
         walker.wait(4.0)
         if hasattr(show, "stage"):

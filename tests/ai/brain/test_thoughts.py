@@ -10,18 +10,19 @@ from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL,
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Learned, Table, player
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Table
+from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.race import racer
-from pigaming_app.games import GAMES
 from pigaming_app.games.factory.state import INPUT, RAW, A
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.i18n import texts
 
-ALL = [(game, name) for game in GAMES for name in BRAINS[game]]
+ALL = [(game, name) for game in games() for name in BRAINS[game]]
 KEPT = 0.9  # of a table's best move, for the second best
 
 
@@ -38,7 +39,7 @@ def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Thin
 
 def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> Match:
     """A match with these brains on its first seats."""
-    rules = GAMES[game]
+    rules = games()[game]
     seats = [*brains, *["off"] * (ROBOTS - len(brains))]
     one, two, three, four = (Seat(brain, team) for brain, team in zip(seats, rules.teams, strict=True))
     setup = Setup(game, "", (one, two, three, four), 2.0, seed, variant or rules.variants[0], rules.default_goal)
@@ -118,8 +119,7 @@ def test_no_text_is_written_that_no_brain_says():
     from pigaming_app import ASSETS
 
     package = ASSETS.parent / "pigaming_app"
-    files = [*(package / "ai").rglob("*.py"), *(package / "scenes" / "brain").glob("*.py")]
-    files.append(package / "scenes" / "play" / "scene.py")
+    files = [file for room in ("ai", "scenes/brain", "scenes/play") for file in (package / room).rglob("*.py")]
     sources = "\n".join(file.read_text(encoding="utf-8") for file in files)
     keys = [key.removeprefix("brain.") for key in texts("en") if key.startswith("brain.")]
     assert len(keys) > 40

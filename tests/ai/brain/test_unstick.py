@@ -8,7 +8,8 @@ from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import Kind, Thinker
 from pigaming_app.ai.brain.unstick import PATIENCE, Reflex
 from pigaming_app.ai.experiments import training
-from pigaming_app.ai.qlearning.learner import MOVES, Learned, LearnerMind, Move, player
+from pigaming_app.ai.qlearning.learner import MOVES, LearnerMind, Move
+from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

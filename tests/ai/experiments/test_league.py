@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.ai.experiments import league
 from pigaming_app.ai.experiments.league import duel, wilson
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
 
 
@@ -62,7 +62,7 @@ class Rigged:
     def ended(self):
         states = []
         for setup in self.setups:
-            state = GAMES[setup.game].state()
+            state = games()[setup.game].state()
             for robot, seat, score in zip(state.robots, setup.seats, (3, 1, 0, 0), strict=True):
                 robot.present, robot.team, robot.score = int(seat.brain != "off"), seat.team, score
             states.append(state)

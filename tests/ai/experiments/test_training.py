@@ -23,7 +23,7 @@ from pigaming_app.ai.brain.kind import Thinker
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.experiments.training import Training
 from pigaming_app.ai.qlearning import table_files as tables
-from pigaming_app.ai.qlearning.learner import player
+from pigaming_app.ai.qlearning.player import player
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.cli import main
@@ -127,18 +127,22 @@ def test_measuring_plays_matches_and_leaves_the_training_alone(fast):
 # -------------------------------------------------------------------------------------------------------------- files
 
 
+def read(path):
+    return tables.decode(path.read_bytes(), path.name)
+
+
 @pytest.fixture
 def kept(tmp_path):
     """A file with a table of two short matches."""
     course = short()
     course.run(600)
-    course.save(tmp_path / "mine.npz", "mine")
+    (tmp_path / "mine.npz").write_bytes(tables.encode(course.trained("mine")))
     return tmp_path / "mine.npz"
 
 
 @pytest.mark.parametrize("fast", BODIES)
 def test_a_training_kept_in_a_file_goes_on_as_if_nothing_had_happened(kept, fast):
-    whole, again = short(), training.load(kept, fast)
+    whole, again = short(), training.resumed(read(kept), fast)
     whole.run(900)
     again.run(300)
     assert digest(whole._tables[0]) == digest(again._tables[0])
@@ -146,9 +150,9 @@ def test_a_training_kept_in_a_file_goes_on_as_if_nothing_had_happened(kept, fast
 
 
 def test_a_file_says_what_it_was_trained_for_and_on(kept):
-    trained = tables.load(kept)
+    trained = read(kept)
     assert (trained.name, trained.reward, trained.recipe, trained.matches) == ("mine", 2, RECIPES[2], 2)
-    assert tables.of_this_engine(trained)
+    assert not trained.other_engine
     assert kept.stat().st_size < 100_000
 
 
@@ -199,7 +203,7 @@ def test_an_edited_file_is_refused_in_one_line(kept, parts, reason):
 
 def refused(path, reason):
     with pytest.raises(TableError) as wrong:
-        tables.load(path)
+        read(path)
     assert str(wrong.value).startswith("mine.npz: ")
     assert reason in str(wrong.value)
     assert "\n" not in str(wrong.value)
@@ -214,11 +218,11 @@ def test_a_truncated_file_is_refused(kept, share):
 
 def test_a_file_with_a_bit_of_rot_anywhere_is_refused_or_the_same(kept):
     """Some bytes of a zip mean nothing, such as its dates: what is read is then what was written."""
-    raw, whole = kept.read_bytes(), digest(tables.load(kept).rows[0])
+    raw, whole = kept.read_bytes(), digest(read(kept).rows[0])
     for at in range(0, len(raw), 61):
         kept.write_bytes(raw[:at] + bytes([raw[at] ^ 0x10]) + raw[at + 1 :])
         with suppress(TableError):
-            assert digest(tables.load(kept).rows[0]) == whole
+            assert digest(read(kept).rows[0]) == whole
 
 
 def test_foreign_files_are_refused(kept):
@@ -228,7 +232,7 @@ def test_foreign_files_are_refused(kept):
     for raw in (b"", b"hello", b"\x93NUMPY", zipped.getvalue(), b"PK" + bytes(100), os.urandom(1000), bytes(5_000_000)):
         kept.write_bytes(raw)
         with pytest.raises(TableError, match=r"mine\.npz: "):
-            tables.load(kept)
+            read(kept)
     for parts in (("head", "q", "n"), ("head", "q", "n", "q")):  # no arrays; and one part twice
         zipped = BytesIO()
         with zipfile.ZipFile(zipped, "w") as archive, catch_warnings(action="ignore"):
@@ -236,20 +240,16 @@ def test_foreign_files_are_refused(kept):
                 archive.writestr(f"{part}.npy", "{}")
         kept.write_bytes(zipped.getvalue())
         refused(kept, "")
-    kept.unlink()
-    refused(kept, "cannot be read")
-    kept.mkdir()
-    refused(kept, "cannot be read")
 
 
 @pytest.mark.parametrize("name", ["q1", "q2"])
 def test_the_tables_that_come_with_the_arcade_were_trained_on_this_engine(name):
     """After a change to sim/ or games/: `python -m tests.bench.reproduce_table --ship` trains them anew."""
-    trained = tables.load(ASSETS / "brains" / f"{name}.npz")
+    trained = read(ASSETS / "brains" / f"{name}.npz")
     assert (trained.name, trained.reward, trained.recipe) == (name, int(name[1]), RECIPES[int(name[1])])
     assert (trained.matches, trained.minutes, trained.arena) == (200, 2.0, "classic")
     assert BRAINS["pitanks"][name].known(False)[0].experiences == 200 * 2 * 1200
-    assert tables.of_this_engine(trained), "run `python -m tests.bench.reproduce_table --ship`"
+    assert not trained.other_engine, "run `python -m tests.bench.reproduce_table --ship`"
 
 
 def test_they_fare_against_the_frozen_machine_about_as_published():
@@ -283,14 +283,14 @@ def test_the_job_trains_and_tells(tmp_path, capsys):
     assert [row["matches"] for row in rows] == ["0", "1", "2", "3", "4"]
     course = short(seed=5)
     course.run(1200)
-    assert digest(tables.load(out).rows[0]) == digest(course._tables[0])
+    assert digest(read(out).rows[0]) == digest(course._tables[0])
 
 
 def test_the_job_goes_on_from_a_file(tmp_path, capsys):
     assert train(tmp_path / "whole.npz") == 0
     assert train(tmp_path / "part.npz", "--matches", "1") == 0
     assert train(tmp_path / "part.npz", "--resume") == 0
-    whole, part = (tables.load(tmp_path / f"{name}.npz") for name in ("whole", "part"))
+    whole, part = (read(tmp_path / f"{name}.npz") for name in ("whole", "part"))
     assert digest(whole.rows[0]) == digest(part.rows[0])
 
 
@@ -376,6 +376,6 @@ def test_ctrl_c_keeps_what_has_been_learned(tmp_path):
     said, _ = running.communicate(timeout=60)
     assert running.returncode == 130
     assert b"go on with --resume" in said
-    trained = tables.load(out)
+    trained = read(out)
     assert trained.matches > 0
     assert int(trained.rows["experiences"][0]) == 120 * trained.matches

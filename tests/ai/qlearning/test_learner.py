@@ -30,9 +30,8 @@ from pigaming_app.ai.qlearning.learner import (
     preferences,
     take_in,
     temperature,
-    think,
-    wake,
 )
+from pigaming_app.ai.qlearning.player import think, wake
 from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe, worth_of_action, worth_of_change
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

@@ -6,9 +6,9 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas, load, parse
-from pigaming_app.games.factory.layout import BODY, FORK, REACH, SHELF
+from pigaming_app.games.factory.layout import BODY, SHELF
 from pigaming_app.games.factory.pedestrians import send, walk
-from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, SLOTS, WORKERS, Worker
+from pigaming_app.games.factory.state import ENTRY, EXIT, FORK, INPUT, OUTPUT, REACH, SLOTS, WORKERS, Worker
 from pigaming_app.sim.arena import ArenaError, build
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.world import HEIGHT, HZ, WIDTH, World

@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.cli import main
-from pigaming_app.games import GAMES
+from pigaming_app.games.registry import games
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, hang, leave, settle, stop
 from pigaming_app.hardware.proof.testbed import Bed
 from pigaming_app.hardware.proof.trials import Trail, entered, follow
@@ -47,9 +47,9 @@ def test_when_the_game_hangs_the_link_stops_the_robots(trail):
     assert hang(trail) < 0.3
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_a_match_on_the_mat_plays_to_its_end(game, trail):
-    arena = jobs()[list(GAMES).index(game)].arena
+    arena = jobs()[list(games()).index(game)].arena
     run = on_mat(Job(game, arena, 30.0, 7, 0.05, mashed=False, carried=True), trail.bed.ground)
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
     assert 3.0 <= run.seconds - run.paused < 4.0
@@ -76,7 +76,7 @@ def test_how_deep_a_robot_is_in_a_wall():
 def test_twenty_minutes_are_played_in_every_game():
     planned = jobs()
     assert sum(job.minutes for job in planned) == 20.0
-    assert {job.game for job in planned} == set(GAMES)
+    assert {job.game for job in planned} == set(games())
     assert {job.fps for job in planned} == {30.0, 60.0}
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.lobby import match_setup as setup
 from pigaming_app.scenes.lobby.match_setup import SetupPage, playable, rows
 from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD
@@ -49,7 +49,7 @@ def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp
     for act in (Act.RIGHT, Act.DOWN, Act.RIGHT, Act.DOWN, Act.RIGHT):
         arcade.press(act)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
-    assert (minutes, variant) == (3, GAMES["pitanks"].variants[1])
+    assert (minutes, variant) == (3, games()["pitanks"].variants[1])
     arcade.press(Act.FIRE)
     assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
     arcade.wait(0.5)
@@ -64,17 +64,17 @@ def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp
 
 def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
     arcade.press(Act.DOWN)
-    for act, last in ((Act.RIGHT, max(GAMES["pitanks"].minutes)), (Act.LEFT, min(GAMES["pitanks"].minutes))):
+    for act, last in ((Act.RIGHT, max(games()["pitanks"].minutes)), (Act.LEFT, min(games()["pitanks"].minutes))):
         for _ in range(6):
             arcade.press(act)
         assert page(arcade).chosen.minutes == last
 
 
 def test_a_mouse_chooses_minutes_rules_and_the_arena_and_begins(arcade: Arcade) -> None:
-    boxes = rows(GAMES["pitanks"])
+    boxes = rows(games()["pitanks"])
     row = boxes["minutes"]
     arcade.click(row.x + PAD + 3 * (CHIP + APART) + 20, row.centery)
-    assert page(arcade).chosen.minutes == GAMES["pitanks"].minutes[3]
+    assert page(arcade).chosen.minutes == games()["pitanks"].minutes[3]
     before = page(arcade).chosen.variant
     arcade.click(boxes["rules"].right - 40, boxes["rules"].centery)
     arcade.click(boxes["rules"].left + 40, boxes["rules"].centery)
@@ -100,7 +100,7 @@ def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
 def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
     arcade.house.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
     fresh = SetupPage(arcade.house, "pitanks", Seats())
-    rules = GAMES["pitanks"]
+    rules = games()["pitanks"]
     assert fresh.chosen == Choice("classic", rules.default_minutes, rules.variants[0], 0)
 
 
@@ -119,9 +119,9 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
         setup.load_kept.cache_clear()
 
 
-@pytest.mark.parametrize("game", [game for game in GAMES if GAMES[game].goals])
+@pytest.mark.parametrize("game", [game for game in games() if games()[game].goals])
 def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: Arcade, game: str) -> None:
-    rules = GAMES[game]
+    rules = games()[game]
     seats = Seats(sides=rules.sides)
     seats.join(KEYS[0])
     seats.fill()
@@ -140,7 +140,7 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
 
 
 def test_only_what_can_be_chosen_is_a_row() -> None:
-    for rules in GAMES.values():
+    for rules in games().values():
         boxes = rows(rules)
         assert ("goal" in boxes) == bool(rules.goals)
         assert ("minutes" in boxes) == (len(rules.minutes) > 1)

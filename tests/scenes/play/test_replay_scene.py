@@ -6,8 +6,8 @@ import pygame
 import pytest
 
 from pigaming_app.ai import seated
-from pigaming_app.games import GAMES
-from pigaming_app.games.replay import load, save
+from pigaming_app.games.registry import games
+from pigaming_app.jobs.replay_files import load, save
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, Demonstration, Page
@@ -18,6 +18,8 @@ from tests.scenes.arcade import Arcade, setup
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.title.test_attract import scores_of
 
+OLD = Path(__file__).parents[2] / "data" / "1.3.0"
+
 
 @pytest.fixture
 def arcade(controls: Controls) -> Arcade:
@@ -25,7 +27,7 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
-    for game in GAMES:
+    for game in games():
         scores_of(arcade.house, game)
     attract = Attract(arcade.house)
     arcade.open(attract)
@@ -111,6 +113,25 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
         assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
     for act, box in zip(scene.prompts.acts, boxes(scene.prompts.said), strict=True):
         assert scene.hints.meant(Press(Act.CLICK, Device("mouse"), at=box.center)).act is act
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_a_replay_of_another_engine_plays_with_a_notice(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    arcade.house.words.switch(language)
+    scene = ReplayScene(arcade.house, load(OLD / "pitanks.replay"))
+    arcade.open(scene)
+    notice = arcade.house.words("replay.other_engine")
+    with measuring(monkeypatch) as screen:
+        scene.draw(screen)
+        assert notice in [text.text for text in screen.texts]
+        assert faults(screen, pygame.Rect(4, 16, 1912, 1048)) == []
+        arcade.wait(7.0)
+        screen.texts.clear()
+        scene.draw(screen)
+        assert notice not in [text.text for text in screen.texts]
+    arcade.until(lambda: scene.ended)
 
 
 def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.games import GAMES
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.high_score_tables import STRONG, boards, contest, contests, counts, older_boards, told
 from pigaming_app.storage.scores import Scores, Table
 
@@ -15,7 +15,7 @@ FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 
 def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0, variant=None):
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
-    rules = GAMES[game]
+    rules = games()[game]
     return Setup(game, "classic", (one, two, three, four), minutes, 1, variant or rules.variants[0], goal)
 
 
@@ -42,7 +42,7 @@ def test_a_match_counts_against_people_and_opponents_no_weaker_than_normal(brain
     assert counts(match(brains, teams), 0) is counted
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_of_the_ais_of_a_game_only_the_weak_ones_do_not_count(game):
     weak = {"idle", "random", "easy", "classic"}
     assert set(BRAINS[game]) - STRONG == weak & set(BRAINS[game])

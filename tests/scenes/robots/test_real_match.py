@@ -7,9 +7,9 @@ import numpy as np
 import pygame
 import pytest
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.hardware.session.real import NoMat
 from pigaming_app.scenes.play.pause import Pause
@@ -56,7 +56,7 @@ def arcade(controls: Controls, mat: EmulatedMat) -> Arcade:
 
 
 def match_for(game: str, brains: str, minutes: float) -> Setup:
-    rules = GAMES[game]
+    rules = games()[game]
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), rules.teams, strict=True))
     seats = (one, two, three, four)
     return Setup(game, arenas(game)[0], seats, minutes, 3, rules.variants[0], rules.default_goal)

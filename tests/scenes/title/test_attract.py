@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.howto.lessons import LESSONS
@@ -48,20 +48,20 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
         shown.append(named(attract.show))
 
     def first(house: House) -> Attract:
-        for game in GAMES:
+        for game in games():
             scores_of(house, game)
         return Attract(house)
 
     monkeypatch.setattr(Attract, "_next", noted)
     chosen = {"language": language}
-    whole = 3 * len(GAMES) + 1
+    whole = 3 * len(games()) + 1
     options = Options(
         first=first, headless=True, step=FASTEST, frames=8000, over=lambda: len(shown) == whole, chosen=chosen
     )
     assert run(options) == 0
     assert "a scene failed" not in (home / "data" / "pigaming.log").read_text()
     assert shown[:3] == [(kind, shown[0][1]) for kind in ("Demonstration", "HowTo", "Best")]
-    assert {game for _, game in shown} == set(GAMES)
+    assert {game for _, game in shown} == set(games())
     assert len(set(shown)) == whole - 1
     assert shown[-1] == shown[0], "and round again"
 
@@ -77,7 +77,7 @@ def named(show: object) -> tuple[str, str]:
 
 def scores_of(house: House, game: str) -> None:
     """Somebody has scored in a game's first arena."""
-    rules = GAMES[game]
+    rules = games()[game]
     contest = Table(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
     for board in boards(contest):
         house.scores.add(board.table, "ABC", 9)

@@ -1,6 +1,7 @@
 """A race on the screen: everything is shown and heard when it happens, once, and nothing is written to the race."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
@@ -439,7 +440,20 @@ def test_ghosts_are_cleared_with_the_scores(tmp_path):
     ghosts.forget(tmp_path / "nowhere")
 
 
-def test_a_ghost_of_another_engine_is_dropped_with_a_word(screen, tmp_path):
+@pytest.mark.parametrize("version", ["1.3.0", "1.4.0"])
+def test_a_ghost_of_an_older_version_is_shown_if_todays_robots_could_drive_its_lap(version, monkeypatch):
+    folder, arena = Path(__file__).parents[2] / "data" / version, load("race", "classic")
+    found, trouble = call(folder, arena)
+    assert trouble == ""
+    assert found.seconds == 8.1834
+    assert ghosts.drivable(found, arena)
+    assert not ghosts.drivable(replace(found, crossed=(0.0, 1.0, 2.0, 3.0)), arena)
+    monkeypatch.setattr(ghosts, "SLACK", 0.5)  # as if robots were half as fast
+    assert not ghosts.drivable(found, arena)
+    assert call(folder, arena) == (None, "old")
+
+
+def test_a_ghost_of_another_engine_that_no_robot_could_drive_is_dropped_with_a_word(screen, tmp_path, caplog):
     scene = Busy(2)
     ghosts.write(tmp_path, scene.arena, a_ghost()).join()
     path = file_of(tmp_path, scene.arena)
@@ -448,6 +462,7 @@ def test_a_ghost_of_another_engine_is_dropped_with_a_word(screen, tmp_path):
     view.for_real(tmp_path)
     assert view.haunt.ghost is None
     assert view.haunt.trouble == "old"
+    assert "no robot can drive this lap" in caplog.text
     word = pygame.Rect(400, 1040, 1120, 40)
     said = shown(screen, view, scene.state, word)
     assert said != shown(screen, view, scene.state, word, 9.0)

@@ -10,9 +10,9 @@ from typing import Any, Protocol
 import pygame
 
 from pigaming_app.ai import seated
-from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.benchmark import pitanks as busy
 from pigaming_app.scenes.views.benchmark import race as race_busy
@@ -39,7 +39,7 @@ class Works:
     """A factory with eight pallets a team and drivers in a hurry; somebody is always frozen."""
 
     def __init__(self) -> None:
-        rules = GAMES["factory"]
+        rules = games()["factory"]
         one, two, three, four = (Seat("hard", team) for team in rules.teams)
         setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, "standard", max(rules.goals))
         self.match = seated(setup)
@@ -55,7 +55,7 @@ class Works:
 BUSY: dict[str, Callable[[], Scene]] = {
     "pitanks": busy.Busy,
     "factory": Works,
-    "race": lambda: race_busy.Busy(laps=max(GAMES["race"].goals)),
+    "race": lambda: race_busy.Busy(laps=max(games()["race"].goals)),
 }
 
 

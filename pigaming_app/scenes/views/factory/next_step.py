@@ -2,9 +2,8 @@
 
 import math
 
-from pigaming_app.games.factory.layout import FORK
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, INPUT, SLOTS, Factory
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, SLOTS, Factory
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites import factory as crates

@@ -6,10 +6,10 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.games.factory.layout import FORK
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DONE,
+    FORK,
     HALF,
     IN_SLOT,
     PALLETS,

@@ -1,8 +1,8 @@
 """The best lap ever driven by a person on each track, kept as a ghost that drives along and touches nobody.
 
-A ghost is worth something only as long as robots and rules are what they were: it is kept with the hash of the engine,
-and dropped where that has changed. A file for each track, by its name and what it is made of, in `ghosts` of the folder
-for data: {"engine": "…", "line": 0, "seconds": 11.32, "crossed": [0, 2.9, 5.6, 8.5], "poses": [[x, y, heading], …]}.
+A ghost is worth something only as long as today's robots could drive its lap: one that another version of the engine
+wrote is compared with the rules and dropped if they could not. A file for each track, by its name and a hash of its
+source, in `ghosts` of the folder for data: {"engine": "…", "line": 0, "seconds": 11.32, "crossed": [0, 2.9, 5.6, 8.5], "poses": [[x, y, heading], …]}.
 """
 
 import hashlib
@@ -16,9 +16,10 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-from pigaming_app.games.race.state import LINES
+from pigaming_app.games.race.course import Place, locate
+from pigaming_app.games.race.state import LINES, Rules
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.kernel import engine_hash
+from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.storage.parsing import json_of, shown
 from pigaming_app.storage.safe_files import NotSaved, keep, recall
 
@@ -26,6 +27,8 @@ RATE = 10.0  # poses in a second
 FOLDER = "ghosts"
 LONGEST = 600.0  # s
 FARTHEST = 10_000.0  # px from the middle, or rad
+SLACK = 1.1  # real robots may be a little faster than the rules say, and a camera sees them tremble
+NEAR = 50.0  # px along the track from a line, of a robot that crosses it
 Pose = tuple[float, float, float]  # px, px, rad
 log = logging.getLogger(__name__)
 
@@ -92,7 +95,26 @@ def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
     if found is None:
         return None, "lost" if said else ""
     engine, ghost = found
-    return (ghost, "") if engine == engine_hash() else (None, "old")
+    if drivable(ghost, arena) or engine == engine_hash():  # the hash takes a tenth of a second
+        return ghost, ""
+    log.warning("%s: by today's rules no robot can drive this lap; it is not shown", file_of(folder, arena))
+    return None, "old"
+
+
+def drivable(ghost: Ghost, arena: Arena) -> bool:
+    """Whether a lap is no faster than the rules allow, and crosses each line when it says so."""
+    rules, course, place = Rules(), arena.plan.course, Place()
+    way = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
+    if way > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
+        return False
+    for later in range(LINES):
+        line = (ghost.line + later) % LINES
+        x, y, _ = ghost.pose(line, 0.0) or ghost.poses[0]
+        locate(course, x, y, place)
+        off = abs(place.along - arena.plan.lines[line])
+        if min(off, course.length - off) > NEAR:
+            return False
+    return True
 
 
 def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
