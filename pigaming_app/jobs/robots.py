@@ -1,11 +1,13 @@
-"""The job `robots`: what is plugged in, which robots are there and how well; on request who is who, and how late."""
+"""Status of robots, radios and cameras; on request pairing (each robot spins in turn) and latency."""
 
 import json
 import time
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from pigaming_app.hardware.session.workshop import Workshop, keep_radios, open_workshop, wiring
+from pigaming_app.jobs.options import camera_option, emulate_option, json_option, mat_settings, port_option
+from pigaming_app.jobs.refusal import Refusal, require
 
 LISTEN = 2.5  # s
 HZ = 50
@@ -20,27 +22,36 @@ CASES = {
 }
 
 
-class NotThere(Exception):
-    """What was asked for cannot be done; the text is one sentence."""
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
+    parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
+    emulate_option(parser)
+    camera_option(parser)
+    port_option(parser)
+    json_option(parser)
 
 
 def run(arguments: Namespace) -> int:
-    """Do the job. Raises NotThere."""
-    told = look(arguments)
+    """Print the status. Raises Refusal."""
+    mat_settings(arguments)
+    if arguments.emulate is not None or arguments.pair or arguments.latency:
+        require("hardware")
+    status = look(arguments)
     if arguments.json:
-        print(json.dumps(told))
+        print(json.dumps(status))
     else:
-        _print(told)
+        _print(status)
     return 0
 
 
 def look(arguments: Namespace) -> dict[str, Any]:
-    """All that can be said, by name; what is wrong stands there as a sentence. Raises NotThere."""
+    """The status by name; a fault is a sentence. Raises Refusal."""
     from pigaming_app.hardware.radio.serial_line import ports
     from pigaming_app.hardware.vision.discovery import cameras
     from pigaming_app.hardware.vision.markers import NoVision
 
-    told: dict[str, Any] = {
+    status: dict[str, Any] = {
         "ports": [found._asdict() for found in ports()],
         "cameras": [known._asdict() for known in cameras()],
     }
@@ -48,18 +59,18 @@ def look(arguments: Namespace) -> dict[str, Any]:
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
     except (ValueError, ImportError, NoVision) as trouble:
         if arguments.emulate is not None:
-            raise NotThere(str(trouble)) from None
+            raise Refusal(str(trouble)) from None
         if arguments.pair or arguments.latency:
-            raise NotThere(f"Robots can only be moved where they are seen. {trouble}") from None
-        return {**told, **_heard(arguments), "eyes": str(trouble)}
+            raise Refusal(f"Robots can only be moved where they are seen. {trouble}") from None
+        return {**status, **_heard(arguments), "eyes": str(trouble)}
     try:
-        return {**told, **_looked(shop, arguments)}
+        return {**status, **_looked(shop, arguments)}
     finally:
         shop.close()
 
 
 def _heard(arguments: Namespace) -> dict[str, Any]:
-    """What the radio alone tells."""
+    """The status by radio alone."""
     from pigaming_app.hardware.session.assembly import linked
 
     link = linked(wiring(arguments.camera, arguments.port))
@@ -69,27 +80,27 @@ def _heard(arguments: Namespace) -> dict[str, Any]:
 
 
 def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
-    """What is heard and seen; then the robots move, if that was asked for."""
-    rig, told = shop.rig, dict[str, Any]()
+    """The status by radio and camera; then pairing and latency on request. Raises Refusal."""
+    rig, status = shop.rig, dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
         shop.tick()
         rig.pump()
     seen = rig.sense()
-    told["radio"] = rig.link.trouble and str(rig.link.trouble)
-    told["eyes"] = getattr(rig.eye, "trouble", None)
-    told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
-    movable = [i for i in range(4) if told["robots"][i]["heard"]]
+    status["radio"] = rig.link.trouble and str(rig.link.trouble)
+    status["eyes"] = getattr(rig.eye, "trouble", None)
+    status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
+    movable = [i for i in range(4) if status["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
-        raise NotThere(told["radio"] or "No robot answers: are they switched on?")
+        raise Refusal(status["radio"] or "No robot answers: are they switched on?")
     if arguments.pair:
-        told["pairing"] = _paired(shop, kept=arguments.emulate is None)
+        status["pairing"] = _paired(shop, kept=arguments.emulate is None)
     if arguments.latency:
-        told["latency"] = [_late(shop, i) for i in movable if told["robots"][i]["seen"]]
-    return told
+        status["latency"] = [_late(shop, i) for i in movable if status["robots"][i]["seen"]]
+    return status
 
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
-    """One robot: its radio, battery (V), how well it is heard, where it is seen (px, px, rad)."""
+    """One robot: its radio, battery (V), share of reports received, and pose (px, px, rad) if it is seen."""
     report, quality = link.telemetry.get(channel), link.quality(channel)
     there = seen is not None and seen.age < 1.0
     return {
@@ -106,19 +117,15 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
 
 
 def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
-    """Spin each robot in turn; remember who is who unless it is unclear."""
+    """Spin each robot in turn; the pairing is saved if it is unambiguous. Raises Refusal."""
     from pigaming_app.hardware.commissioning.pairing import Case, Pairing
-    from pigaming_app.storage.safe_files import NotSaved
 
     pairing = Pairing(shop.rig)
     while not pairing.tick():
         shop.tick()
     shop.rig.channels = pairing.channels
     if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
-        try:
-            keep_radios(pairing.channels)
-        except NotSaved as trouble:
-            raise NotThere(str(trouble)) from None
+        keep_radios(pairing.channels)
     return [
         {"radio": one.channel + 1, "marker": None if one.marker is None else one.marker + 1, "case": str(one.case)}
         for one in sorted(pairing.findings)
@@ -126,7 +133,7 @@ def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
 
 
 def _late(shop: Workshop, robot: int) -> dict[str, Any]:
-    """Shake one robot."""
+    """The latency of one robot, in ms; None where it did not move or was hardly seen."""
     from pigaming_app.hardware.commissioning.latency import Shake
 
     shake = Shake(shop.rig, robot)
@@ -137,17 +144,17 @@ def _late(shop: Workshop, robot: int) -> dict[str, Any]:
     return {"robot": robot + 1, **{f"{name}_ms": found and round(1000 * getattr(found, name)) for name in names}}
 
 
-def _print(told: dict[str, Any]) -> None:
+def _print(status: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
-        there = ", ".join(" ".join(str(part) for part in one.values()) for one in told[name])
+        there = ", ".join(" ".join(str(part) for part in one.values()) for one in status[name])
         print(f"{name:9} {there or 'none'}")
     for name in ("radio", "eyes"):
-        print(f"{name:9} {told.get(name) or 'well'}")
-    for one in told["robots"]:
+        print(f"{name:9} {status.get(name) or 'well'}")
+    for one in status["robots"]:
         print(f"robot {one['robot']}   {_described(one)}")
-    for one in told.get("pairing", ()):
+    for one in status.get("pairing", ()):
         print(f"radio {one['radio']}   {CASES[one['case']].format(marker=one['marker'])}")
-    for one in told.get("latency", ()):
+    for one in status.get("latency", ()):
         late = "it did not move, or was hardly seen"
         if one["total_ms"] is not None:
             late = f"{one['total_ms']} ms: {one['acts_ms']} to the motors, {one['picture_ms']} for the picture"

@@ -1,18 +1,16 @@
-"""The job `train`: a Q-table trained in self-play, with its progress shown, kept in a file, and measured on the way.
+"""Train an AI from nothing, in self-play. Ctrl-C ends the training after the current match and saves the result.
 
-Ctrl-C ends it after the match that is being played, and keeps what has been learned; `--resume` goes on from there, and
-the table is then the same, to the last bit, as if nothing had happened.
+`--resume` continues from the saved file; the result is the same, to the last bit, as without the interruption.
 """
 
-import argparse
 import csv
 import json
 import signal
 import sys
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
-from importlib.util import find_spec
 from io import BytesIO, StringIO
 from os.path import realpath
 from time import perf_counter
@@ -20,9 +18,13 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
-from pigaming_app.ai.qlearning.table_files import load
+from pigaming_app.ai.qlearning.table_files import TableError, load
+from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load as load_arena
-from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError
+from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError, one_of
+from pigaming_app.jobs.options import game_option, json_option, path, real, seed_option, whole
+from pigaming_app.jobs.refusal import Refusal, refused, require
+from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile, engine_hash
 from pigaming_app.sim.world import HZ
 from pigaming_app.storage.safe_files import check_target, write
@@ -34,7 +36,7 @@ MEASURED = 10  # matches for each
 
 
 class Point(NamedTuple):
-    """Where a training stood; wins, ties and losses against the frozen FSM."""
+    """State of a training; wins, ties and losses against the frozen FSM."""
 
     matches: int
     experiences: int
@@ -46,8 +48,33 @@ class Point(NamedTuple):
     losses: int
 
 
-def train(arguments: argparse.Namespace) -> int:
-    """Train as asked. Raises ChoiceError, ArenaError, TableError or NotSaved."""
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("learner", choices=["qlearning"], help="a table, for pitanks only")
+    game_option(parser)
+    parser.add_argument("--reward", type=whole(), default=1, choices=[1, 2], help="published reward; default 1")
+    parser.add_argument(
+        "--matches", type=whole(), metavar="NUMBER", default=200, help="matches of self-play; default 200"
+    )
+    parser.add_argument("--minutes", type=real(0.0, 3600.0), default=2.0, help="length of a match; default 2")
+    seed_option(parser)
+    parser.add_argument("--arena", default="classic", help="name, or path of a .toml file; default classic")
+    parser.add_argument("--out", type=path, metavar="FILE", required=True, help="table (.npz)")
+    parser.add_argument("--resume", action="store_true", help="continue from that file")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=NUMBER", help="change a hyperparameter")
+    parser.add_argument("--curve", type=path, metavar="FILE", help="learning curve (PNG; extra `plots`)")
+    parser.add_argument("--csv", type=path, metavar="FILE", help="learning curve as numbers")
+    parser.add_argument("--plain", action="store_true", help="without numba: the same table, slower")
+    json_option(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Train, save and print the result; 130 after Ctrl-C. Raises Refusal or NotSaved."""
+    with refused(ChoiceError, ArenaError, TableError):
+        return _train_and_save(arguments)
+
+
+def _train_and_save(arguments: Namespace) -> int:
     _check(arguments)
     course = _begin(arguments)
     points: list[Point] = []
@@ -55,19 +82,22 @@ def train(arguments: argparse.Namespace) -> int:
         print("compiling the training, once", file=sys.stderr)
     course.warm()
     with _interrupts() as stopped:
-        print("Ctrl-C ends it after the match that is being played, and keeps what has been learned", file=sys.stderr)
+        print("Ctrl-C ends the training after the current match and saves the result", file=sys.stderr)
         seconds = _train(course, arguments, points, stopped)
         course.save(arguments.out, arguments.out.stem)
         if arguments.csv:
             write(arguments.csv, _csv_of(points))
         if arguments.curve:
             write(arguments.curve, _curve_of(points, arguments))
-    _tell(course, arguments, points, seconds, bool(stopped))
+    _print(course, arguments, points, seconds, bool(stopped))
     return 130 if stopped else 0
 
 
-def _check(arguments: argparse.Namespace) -> None:
-    """Say at the door what cannot be done, not after the training."""
+def _check(arguments: Namespace) -> None:
+    """Refuse before the training what would fail after it. Raises ChoiceError, ArenaError, NotSaved or Refusal."""
+    one_of("game", arguments.game, list(GAMES))
+    if arguments.game != training.GAME:
+        raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
     if not 1 <= arguments.matches <= 1_000_000:
         raise ChoiceError(f"--matches: {arguments.matches}; possible are 1 to 1000000")
     if not LEAST_MINUTES <= arguments.minutes <= MOST_MINUTES:
@@ -88,12 +118,12 @@ def _check(arguments: argparse.Namespace) -> None:
             raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
         taken.add(realpath(path))
         check_target(path)
-    if arguments.curve and find_spec("matplotlib") is None:
-        raise ChoiceError("--curve: matplotlib is missing; `pip install matplotlib`, or use --csv")
+    if arguments.curve:
+        require("plots")
 
 
-def _recipe(arguments: argparse.Namespace) -> Recipe:
-    """The recipe that was asked for. Raises ChoiceError."""
+def _recipe(arguments: Namespace) -> Recipe:
+    """The recipe with the changes of --set. Raises ChoiceError."""
     kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
     changes: dict[str, float] = {}
     for text in arguments.set:
@@ -110,7 +140,7 @@ def _recipe(arguments: argparse.Namespace) -> Recipe:
         raise ChoiceError(f"--set: {wrong}") from None
 
 
-def _begin(arguments: argparse.Namespace) -> training.Training:
+def _begin(arguments: Namespace) -> training.Training:
     """A fresh training, or one that goes on. Raises ChoiceError or TableError."""
     recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
     if not arguments.resume:
@@ -125,8 +155,8 @@ def _begin(arguments: argparse.Namespace) -> training.Training:
     return training.load(arguments.out, fast)
 
 
-def _train(course: training.Training, arguments: argparse.Namespace, points: list[Point], stopped: list[int]) -> float:
-    """Train on to so many matches, or until stopped; the s that it took, without those spent on measuring."""
+def _train(course: training.Training, arguments: Namespace, points: list[Point], stopped: list[int]) -> float:
+    """Train until that many matches are played, or until stopped; the time that took, without measuring, s."""
     a_match = round(arguments.minutes * 60 * HZ)
     every = max(1, -(-arguments.matches // MEASURES))
     seconds, shown = 0.0, 0.0
@@ -146,7 +176,7 @@ def _train(course: training.Training, arguments: argparse.Namespace, points: lis
 
 
 def _note(course: training.Training, points: list[Point]) -> None:
-    """Measure where the training stands; before the first match nothing has been learned yet, and nothing is played."""
+    """Append the present state of the training, measured against the FSM once a match has been played."""
     score = course.measure(matches=MEASURED) if course.matches else (0, 0, 0)
     pairs = int(course.table.pairs)
     points.append(Point(course.matches, course.experiences, course.temperature, course.visited, pairs, *score))
@@ -168,7 +198,7 @@ def _show(course: training.Training, matches: int, last: Point) -> None:
 
 @contextmanager
 def _interrupts() -> Iterator[list[int]]:
-    """While this lasts Ctrl-C and a polite end only note that somebody wishes to stop."""
+    """Within this context SIGINT and SIGTERM are only noted in the list."""
     stopped: list[int] = []
     kinds = (signal.SIGINT, signal.SIGTERM)
     before = [signal.signal(kind, lambda number, frame: stopped.append(number)) for kind in kinds]
@@ -187,8 +217,8 @@ def _csv_of(points: list[Point]) -> bytes:
     return text.getvalue().encode()
 
 
-def _curve_of(points: list[Point], arguments: argparse.Namespace) -> bytes:
-    """The learning curve as a PNG file: what it scored, what it had seen, how daring it was."""
+def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
+    """The learning curve as a PNG file: results against the FSM, states visited, temperature."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -213,13 +243,11 @@ def _curve_of(points: list[Point], arguments: argparse.Namespace) -> bytes:
     return picture.getvalue()
 
 
-def _tell(
-    course: training.Training, arguments: argparse.Namespace, points: list[Point], seconds: float, stopped: bool
-) -> None:
-    """What came of it."""
+def _print(course: training.Training, arguments: Namespace, points: list[Point], seconds: float, stopped: bool) -> None:
+    """Print the result."""
     last = points[-1]
     if arguments.json:
-        told = {
+        result = {
             "reward": arguments.reward,
             "seed": arguments.seed,
             **last._asdict(),
@@ -231,11 +259,11 @@ def _tell(
             "finished": not stopped,
             "out": str(arguments.out),
         }
-        print(json.dumps(told))
+        print(json.dumps(result))
         return
     how = "compiled" if course.fast else "plain"
     score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against the FSM" if last.matches else ""
     print(f"{course.matches} matches, {course.experiences:,} experiences, {course.visited:,} states: {arguments.out}")
     print(f"trained in {seconds:.1f} s ({how}){score}")
     if stopped:
-        print("stopped before the end; go on with --resume")
+        print("stopped before the end; continue with --resume")

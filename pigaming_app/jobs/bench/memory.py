@@ -13,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from pigaming_app import ROOT
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
@@ -25,7 +26,6 @@ STATES = ("title", "lobby", *GAMES)
 STEP = 1 / 30  # s of a frame
 SECONDS = {"title": 10.0, "lobby": 15.0, "match": 60.0}  # until memory is read
 MINUTES = 5.0  # of a match: it is still running then
-ROOT = Path(__file__).resolve().parents[3]
 
 
 def measure() -> dict[str, float | None]:

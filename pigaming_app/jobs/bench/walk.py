@@ -4,10 +4,9 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 from tempfile import TemporaryDirectory
 
-ROOT = Path(__file__).resolve().parents[3]
+from pigaming_app import ROOT
 
 
 def measure() -> dict[str, float]:

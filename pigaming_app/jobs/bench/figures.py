@@ -1,4 +1,4 @@
-"""The job `bench`: how fast the engine, the pictures and the start are on this machine.
+"""The figures of `bench`: speed of the engine, frames, start and memory on this machine.
 
 Each figure of speed is the best of several runs: other programs can only make a run slower, so the best is nearest to
 what the code itself needs. The scene is a full match: the game's first arena, all its rules, four normal AIs, and the
@@ -11,11 +11,11 @@ import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
-from pathlib import Path
 from statistics import median
 from time import perf_counter, time
 from typing import Any
 
+from pigaming_app import INSTALLED, ROOT
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games import GAMES
@@ -32,7 +32,6 @@ MATCHES = 32
 TICKS = 6000
 FRAMES = 600
 STARTS = 3
-ROOT = Path(__file__).resolve().parents[3]
 
 
 def measure(game: str) -> dict[str, Any]:
@@ -125,8 +124,9 @@ def _frames(game: str) -> list[float]:
 
 
 def _start() -> float:
-    """Seconds from `python3 main.py` to the end of its first frame of the title (and of the program)."""
+    """Seconds from the command that starts the arcade to the end of its first frame (and of the program)."""
     unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     began = perf_counter()
-    subprocess.run([sys.executable, str(ROOT / "main.py"), "--frames", "1"], env=unseen, check=True)
+    command = ["-m", "pigaming_app"] if INSTALLED else [str(ROOT / "main.py")]
+    subprocess.run([sys.executable, *command, "--frames", "1"], cwd=ROOT, env=unseen, check=True)
     return perf_counter() - began

@@ -1,0 +1,28 @@
+"""Show a recorded match, or verify that it plays out the same."""
+
+from argparse import ArgumentParser, Namespace
+
+from pigaming_app.games.replay import ReplayError, load, verify
+from pigaming_app.jobs.arcade import show
+from pigaming_app.jobs.options import path
+from pigaming_app.jobs.refusal import refused
+
+
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("file", type=path, metavar="FILE", help="replay")
+    parser.add_argument("--verify", action="store_true", help="no window; exit code 1 if it plays out differently")
+
+
+def run(arguments: Namespace) -> int:
+    """Show or verify the replay; 1: it plays out differently. Raises Refusal."""
+    with refused(ReplayError):
+        found = load(arguments.file)
+        if arguments.verify:
+            same = verify(found)
+            print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
+            return 0 if same else 1
+    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.play.replay import ReplayScene
+
+    return show(Options(first=lambda house: ReplayScene(house, found), alone=True))
