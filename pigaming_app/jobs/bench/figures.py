@@ -54,7 +54,7 @@ def measure(game: str) -> dict[str, Any]:
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
         "worst_frame_ms": max(slowest.values()),
         "worst_frame_ms_by_screen": slowest,
-        "start_s": min(_start() for _ in range(STARTS)),
+        "start_s": min(start() for _ in range(STARTS)),
         "rss_mb": bench_memory.measure(),
         "machine": machine(),
     }
@@ -93,6 +93,15 @@ def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
     return began, time(), matches.ticks()
 
 
+def start() -> float:
+    """Seconds from the command that starts the arcade to the end of its first frame (and of the program)."""
+    unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    began = perf_counter()
+    command = ["-m", "pigaming_app"] if INSTALLED else [str(ROOT / "main.py")]
+    subprocess.run([sys.executable, *command, "--frames", "1"], cwd=ROOT, env=unseen, check=True)
+    return perf_counter() - began
+
+
 def machine() -> str:
     """What this was measured on."""
     python = f"Python {platform.python_version()}"
@@ -121,12 +130,3 @@ def _frames(game: str) -> list[float]:
     from pigaming_app.scenes.views.benchmark.frame_times import frame_times
 
     return sorted(frame_times(game, FRAMES))
-
-
-def _start() -> float:
-    """Seconds from the command that starts the arcade to the end of its first frame (and of the program)."""
-    unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
-    began = perf_counter()
-    command = ["-m", "pigaming_app"] if INSTALLED else [str(ROOT / "main.py")]
-    subprocess.run([sys.executable, *command, "--frames", "1"], cwd=ROOT, env=unseen, check=True)
-    return perf_counter() - began
