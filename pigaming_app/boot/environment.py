@@ -81,11 +81,11 @@ def _claimed() -> tuple[Path, IO[str]]:
 
 
 def _wait_for(lock: IO[str]) -> None:
-    told = False
+    waited = False
     while not _locked(lock):
-        if not told:
+        if not waited:
             say("another start is installing at this moment; waiting for it.")
-        told = True
+        waited = True
         time.sleep(0.2)
 
 
@@ -124,9 +124,9 @@ def make(place: Path) -> None:
         say(f"{place} is not whole, or its Python has gone; making it again.")
     else:
         say(f"first start: making {place}, for this program only.")
-    code, said = _run([sys.executable, "-I", "-m", "venv", "--clear", str(place)])
+    code, output = _run([sys.executable, "-I", "-m", "venv", "--clear", str(place)])
     if code:
-        raise Trouble(_cause(said, place, []))
+        raise Trouble(_cause(output, place, []))
 
 
 def install(place: Path, groups: set[str]) -> None:
@@ -137,9 +137,9 @@ def install(place: Path, groups: set[str]) -> None:
         installed = packages([site_packages(place)])
         if fetched := [one for one in wanted if lacks(installed, one)]:
             say(f"fetching {_names(fetched)} (only once; it may take a minute).")
-        code, said = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], tell=True)
+        code, output = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], names=True)
         if code:
-            raise Trouble(_cause(said, place, wanted))
+            raise Trouble(_cause(output, place, wanted))
         _write(place / "ready", "\n".join([fingerprint(place), *sorted(groups)]))
     except OSError as error:
         raise Trouble(_cause(str(error), place, wanted)) from error
@@ -155,8 +155,8 @@ def _write(path: Path, text: str) -> None:
     os.replace(draft, path)
 
 
-def _run(command: list[str], tell: bool = False) -> tuple[int, str]:
-    """Run a tool to its end; its exit code and output. `tell`: print the name of each file that it downloads."""
+def _run(command: list[str], names: bool = False) -> tuple[int, str]:
+    """Run a tool to its end; its exit code and output. `names`: print the name of each file that it downloads."""
     surroundings = {**os.environ, "PIP_USER": "0", "PIP_REQUIRE_VIRTUALENV": "0"}
     try:
         process = subprocess.Popen(
@@ -170,28 +170,28 @@ def _run(command: list[str], tell: bool = False) -> tuple[int, str]:
         )
     except OSError as error:
         return 1, str(error)
-    said = []
+    output = []
     with process:
         try:
             for line in process.stdout or []:
-                said.append(line)
-                if tell and (match := re.match(r"\s*Downloading (?:\S*/)?(\w+)-([^-]+)-\S+\.whl \((.+?)\)", line)):
+                output.append(line)
+                if names and (match := re.match(r"\s*Downloading (?:\S*/)?(\w+)-([^-]+)-\S+\.whl \((.+?)\)", line)):
                     say(f"  {match[1]} {match[2]}, {match[3]}")
         except KeyboardInterrupt:
             process.terminate()
             raise
-    return process.returncode, "".join(said)
+    return process.returncode, "".join(output)
 
 
 def _names(wanted: list[str]) -> str:
     return ", ".join(re.split("[<>]", one)[0] for one in wanted)
 
 
-def _cause(said: str, place: Path, wanted: list[str]) -> str:
+def _cause(output: str, place: Path, wanted: list[str]) -> str:
     """One sentence for the output of a tool that failed."""
-    missing = re.search(r"requirement ([\w.-]+)", said)
+    missing = re.search(r"requirement ([\w.-]+)", output)
     about = {"place": place, "names": missing[1] if missing else _names(wanted), "python": platform.python_version()}
     for words, sentence in CAUSES:
-        if re.search(words, said):
+        if re.search(words, output):
             return sentence.format(**about)
-    return (said.strip() or "the installation failed.").splitlines()[-1]
+    return (output.strip() or "the installation failed.").splitlines()[-1]

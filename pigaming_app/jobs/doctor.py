@@ -194,13 +194,13 @@ def _probed() -> dict[str, tuple[str, str]]:
     command = [sys.executable, "-m", "pigaming_app.ui.probe"]
     surroundings = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
     try:
-        said = subprocess.run(
+        output = subprocess.run(
             command, cwd=ROOT, env=surroundings, capture_output=True, timeout=PATIENCE, check=False
         ).stdout
     except subprocess.TimeoutExpired as stopped:
-        said = stopped.stdout or b""
+        output = stopped.stdout or b""
     answers: dict[str, tuple[str, str]] = {}
-    for line in said.decode(errors="replace").splitlines():
+    for line in output.decode(errors="replace").splitlines():
         with contextlib.suppress(ValueError):  # a driver may print as well
             name, found, wrong = json_of(line)
             answers[str(name)] = str(found), str(wrong)

@@ -12,13 +12,13 @@ from pigaming_app.jobs.refusal import Refusal, require
 LISTEN = 2.5  # s
 HZ = 50
 CASES = {
-    "fits": "drives marker {marker}, as it should",
-    "swapped": "drives marker {marker}: swap the markers, or go on like this",
-    "none": "no marker turned: is it covered, off the mat, or the battery empty?",
-    "wired": "the robot with marker {marker} turned the wrong way or drove off: check the wires of its motors",
+    "fits": "drives marker {marker}, as expected",
+    "swapped": "drives marker {marker}: swap the markers, or keep this pairing",
+    "none": "no marker turned: it is covered or off the mat, or the battery is empty",
+    "wired": "the robot with marker {marker} turned the wrong way or drove off: check its motor wires",
     "several": "more than one robot turned: two radios have the same number",
     "twice": "two robots wear the same marker",
-    "absent": "nobody answers there",
+    "absent": "no answer",
 }
 
 
@@ -61,7 +61,7 @@ def look(arguments: Namespace) -> dict[str, Any]:
         if arguments.emulate is not None:
             raise Refusal(str(trouble)) from None
         if arguments.pair or arguments.latency:
-            raise Refusal(f"Robots can only be moved where they are seen. {trouble}") from None
+            raise Refusal(f"Robots move only in view of the camera. {trouble}") from None
         return {**status, **_heard(arguments), "eyes": str(trouble)}
     try:
         return {**status, **_looked(shop, arguments)}

@@ -1,8 +1,8 @@
 """The figures of `bench`: speed of the engine, frames, start and memory on this machine.
 
-Each figure of speed is the best of several runs: other programs can only make a run slower, so the best is nearest to
-what the code itself needs. The scene is a full match: the game's first arena, all its rules, four normal AIs, and the
-longest way to the goal, so that it does not end while it is measured.
+Each speed is the best of several runs: other programs can only slow a run down, so the best is nearest to the cost of
+the code itself. The scene is a full match: the game's first arena, full rules, four normal AIs and the longest goal, so
+that it does not end during the measurement.
 """
 
 import os
@@ -61,7 +61,7 @@ def measure(game: str) -> dict[str, Any]:
 
 
 def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
-    """The scene that is measured, in so many matches."""
+    """The scene, as a batch of that many matches."""
     rules = GAMES[game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
@@ -83,7 +83,7 @@ def compiled_ticks(game: str, seed: int) -> float:
 
 
 def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
-    """Play in a process of its own from the moment `start_at` on: when it began, when it ended, ticks played."""
+    """Play in a process of its own from the time `start_at`: begin and end (s since the epoch), ticks played."""
     matches = batch(game, 1000 * seed + 1, 2 * MATCHES, True)
     matches.play(0)
     while time() < start_at:
@@ -103,7 +103,7 @@ def start() -> float:
 
 
 def machine() -> str:
-    """What this was measured on."""
+    """The machine: system, architecture, cores, Python."""
     python = f"Python {platform.python_version()}"
     return f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores, {python}"
 
@@ -125,7 +125,7 @@ def _two_processes(game: str) -> float:
 
 
 def _frames(game: str) -> list[float]:
-    """Milliseconds of each frame of a busy match, sorted, on a display that nobody sees."""
+    """Milliseconds of each frame of a busy match, sorted, on a dummy display."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
     from pigaming_app.scenes.views.benchmark.frame_times import frame_times
 

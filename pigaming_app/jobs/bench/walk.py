@@ -1,4 +1,4 @@
-"""The longest frame of every screen, measured by a walk through the arcade in a process of its own; see scenes/walk."""
+"""The longest frame of every screen, measured by scenes/walk in a process of its own."""
 
 import json
 import os
