@@ -94,28 +94,28 @@ def _train_and_save(arguments: Namespace) -> int:
 
 
 def _check(arguments: Namespace) -> None:
-    """Refuse before the training what would fail after it. Raises ChoiceError, ArenaError, NotSaved or Refusal."""
+    """Refuse before the training what would fail after it. Raises Refusal, ChoiceError, ArenaError or NotSaved."""
     one_of("game", arguments.game, list(GAMES))
     if arguments.game != training.GAME:
         raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
     if not 1 <= arguments.matches <= 1_000_000:
-        raise ChoiceError(f"--matches: {arguments.matches}; possible are 1 to 1000000")
+        raise Refusal(f"--matches: {arguments.matches}; possible are 1 to 1000000")
     if not LEAST_MINUTES <= arguments.minutes <= MOST_MINUTES:
-        raise ChoiceError(f"--minutes: {arguments.minutes:g}; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
+        raise Refusal(f"--minutes: {arguments.minutes:g}; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
     load_arena(training.GAME, arguments.arena)
     if arguments.out.suffix != ".npz":
-        raise ChoiceError(f"--out: {arguments.out}: the name of a table ends in .npz")
+        raise Refusal(f"--out: {arguments.out}: the name of a table ends in .npz")
     if arguments.curve and arguments.curve.suffix.lower() != ".png":
-        raise ChoiceError(f"--curve: {arguments.curve}: the name of a picture ends in .png")
+        raise Refusal(f"--curve: {arguments.curve}: the name of a picture ends in .png")
     taken: set[str] = set()
     for option in ("out", "csv", "curve"):
         path = getattr(arguments, option)
         if path is None:
             continue
         if path.is_dir() or not path.absolute().parent.is_dir():
-            raise ChoiceError(f"--{option}: {path}: there is no such folder, or it is one itself")
+            raise Refusal(f"--{option}: {path}: there is no such folder, or it is one itself")
         if realpath(path) in taken:
-            raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
+            raise Refusal(f"--{option}: {path}: another file of this training has that name")
         taken.add(realpath(path))
         check_target(path)
     if arguments.curve:
@@ -123,25 +123,25 @@ def _check(arguments: Namespace) -> None:
 
 
 def _recipe(arguments: Namespace) -> Recipe:
-    """The recipe with the changes of --set. Raises ChoiceError."""
+    """The recipe with the changes of --set. Raises Refusal."""
     kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
     changes: dict[str, float] = {}
     for text in arguments.set:
         name, equals, value = text.partition("=")
         if name not in kinds or not equals:
-            raise ChoiceError(f"--set: {text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
+            raise Refusal(f"--set: {text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
         try:
             changes[name] = kinds[name](value)
         except ValueError:
-            raise ChoiceError(f"--set: {text!r}; {value!r} is not such a number") from None
+            raise Refusal(f"--set: {text!r}; {value!r} is not such a number") from None
     try:
         return replace(RECIPES[arguments.reward], **changes)  # type: ignore[arg-type]
     except ValueError as wrong:
-        raise ChoiceError(f"--set: {wrong}") from None
+        raise Refusal(f"--set: {wrong}") from None
 
 
 def _begin(arguments: Namespace) -> training.Training:
-    """A fresh training, or one that goes on. Raises ChoiceError or TableError."""
+    """A fresh training, or the saved one. Raises Refusal or TableError."""
     recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
     if not arguments.resume:
         return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
@@ -151,7 +151,7 @@ def _begin(arguments: Namespace) -> training.Training:
     there = (kept.recipe, kept.seed, kept.arena, kept.minutes, kept.engine)
     for word, wish, found in zip(words, asked, there, strict=True):
         if wish != found:
-            raise ChoiceError(f"--resume: {arguments.out.name} was trained with another {word}")
+            raise Refusal(f"--resume: {arguments.out.name} was trained with another {word}")
     return training.load(arguments.out, fast)
 
 

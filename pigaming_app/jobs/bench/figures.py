@@ -21,8 +21,8 @@ from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.jobs.bench import memory as bench_memory
-from pigaming_app.jobs.bench import walk as bench_walk
+from pigaming_app.jobs.bench.memory import measure as measure_memory
+from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
@@ -43,7 +43,7 @@ def measure(game: str) -> dict[str, Any]:
         one = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
         both = max(1.0 / one, *(_two_processes(game) for _ in range(3)))
     frames = _frames(game)
-    slowest = bench_walk.measure()
+    slowest = measure_screens()
     return {
         "game": game,
         "plain_us_per_tick": 1e6 * plain,
@@ -55,7 +55,7 @@ def measure(game: str) -> dict[str, Any]:
         "worst_frame_ms": max(slowest.values()),
         "worst_frame_ms_by_screen": slowest,
         "start_s": min(start() for _ in range(STARTS)),
-        "rss_mb": bench_memory.measure(),
+        "rss_mb": measure_memory(),
         "machine": machine(),
     }
 
