@@ -88,15 +88,15 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
             operator.press(Act.FIRE)
             trouble = page.sentence or None
         saved = finding.good and operator.stack.top is operator.page
-        result: dict[str, Any] = {"saved": saved, "trouble": trouble, "file": str(kept.path(operator.site))}
+        told: dict[str, Any] = {"saved": saved, "trouble": trouble, "file": str(kept.path(operator.site))}
         if finding.residuals and finding.ground:
-            result |= {
+            told |= {
                 "calibration_mean_mm": finding.residuals.mean_mm,
                 "calibration_max_mm": finding.residuals.max_mm,
                 **_compared(finding.ground, operator.site),
                 "marker_mm": finding.marker_mm or None,
             }
-        return {**result, "made_up_seconds": operator.site.clock(), "seconds": perf_counter() - began}
+        return {**told, "made_up_seconds": operator.site.clock(), "seconds": perf_counter() - began}
     finally:
         operator.close()
 

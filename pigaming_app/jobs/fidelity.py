@@ -76,8 +76,8 @@ def record(arguments: Namespace) -> dict[str, Any]:
     finally:
         shop.close()
     robots = ", ".join(str(robot + 1) for robot in present)
-    lines = [f"{arguments.file}: {arguments.seconds:g} s of robots {robots}. Now: fidelity identify {arguments.file}"]
-    return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": lines}
+    said = [f"{arguments.file}: {arguments.seconds:g} s of robots {robots}. Now: fidelity identify {arguments.file}"]
+    return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": said}
 
 
 def _present(shop: Any) -> list[int]:
@@ -124,15 +124,15 @@ def identify(arguments: Namespace) -> dict[str, Any]:
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
         keep(out, tell(drivetrains))
-    lines = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on held-out data"]
+    said = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on held-out data"]
     for one in verdicts:
         before, after = (" ".join(f"{mm:7.1f}" for mm in errors.mm) for errors in (one.before, one.after))
-        lines.append(f"robot {one.robot + 1}  nominal {before}   identified {after}")
+        said.append(f"robot {one.robot + 1}  nominal {before}   identified {after}")
     left_out = sorted(run.courses.keys() - {one.robot for one in verdicts})
-    lines += [f"robot {robot + 1}  left out: it hardly moved, or its result is implausible" for robot in left_out]
-    lines.append(f"kept in {out}")
+    said += [f"robot {robot + 1}  left out: it hardly moved, or its result is implausible" for robot in left_out]
+    said.append(f"kept in {out}")
     if arguments.plots:
-        lines += _draw(run, verdicts, arguments.plots)
+        said += _draw(run, verdicts, arguments.plots)
     robots = {
         str(one.robot + 1): {
             "before_mm": _known(one.before.mm),
@@ -143,7 +143,7 @@ def identify(arguments: Namespace) -> dict[str, Any]:
         }
         for one in verdicts
     }
-    return {"horizons": HORIZONS, "robots": robots, "out": str(out), "said": lines}
+    return {"horizons": HORIZONS, "robots": robots, "out": str(out), "said": said}
 
 
 def _known(figures: tuple[float, ...]) -> list[float | None]:
@@ -162,14 +162,14 @@ def replay(arguments: Namespace) -> dict[str, Any]:
         raise Refusal(f"{arguments.robots}: there is no such file")
     with refused(DrivetrainError):
         drivetrains = measured(arguments.robots or kept_robots(run.emulated))
-    lines, robots = [], {}
+    said, robots = [], {}
     for robot, found in play_again(run, drivetrains).items():
         apart = ((found.seen - found.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm
         after = found.seen_at - found.seen_at[0]
         marks = {second: float(apart[after >= second][0]) for second in (1, 2, 5, 10, 30) if after[-1] >= second}
         robots[str(robot + 1)] = {str(second): miss for second, miss in marks.items()}
-        lines.append(f"robot {robot + 1}  " + "   ".join(f"after {s} s {miss:.0f} mm" for s, miss in marks.items()))
-    return {"robots": robots, "said": lines}
+        said.append(f"robot {robot + 1}  " + "   ".join(f"after {s} s {miss:.0f} mm" for s, miss in marks.items()))
+    return {"robots": robots, "said": said}
 
 
 def _load(file: Path) -> Any:

@@ -37,11 +37,11 @@ def run(arguments: Namespace) -> int:
     mat_settings(arguments)
     if arguments.emulate is not None or arguments.pair or arguments.latency:
         require("hardware")
-    status = look(arguments)
+    told = look(arguments)
     if arguments.json:
-        print(json.dumps(status))
+        print(json.dumps(told))
     else:
-        _print(status)
+        _print(told)
     return 0
 
 
@@ -51,7 +51,7 @@ def look(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.hardware.vision.discovery import cameras
     from pigaming_app.hardware.vision.markers import NoVision
 
-    status: dict[str, Any] = {
+    told: dict[str, Any] = {
         "ports": [found._asdict() for found in ports()],
         "cameras": [known._asdict() for known in cameras()],
     }
@@ -62,9 +62,9 @@ def look(arguments: Namespace) -> dict[str, Any]:
             raise Refusal(str(trouble)) from None
         if arguments.pair or arguments.latency:
             raise Refusal(f"Robots move only in view of the camera. {trouble}") from None
-        return {**status, **_heard(arguments), "eyes": str(trouble)}
+        return {**told, **_heard(arguments), "eyes": str(trouble)}
     try:
-        return {**status, **_looked(shop, arguments)}
+        return {**told, **_looked(shop, arguments)}
     finally:
         shop.close()
 
@@ -81,22 +81,22 @@ def _heard(arguments: Namespace) -> dict[str, Any]:
 
 def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
     """The status by radio and camera; then pairing and latency on request. Raises Refusal."""
-    rig, status = shop.rig, dict[str, Any]()
+    rig, told = shop.rig, dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
         shop.tick()
         rig.pump()
     seen = rig.sense()
-    status["radio"] = rig.link.trouble and str(rig.link.trouble)
-    status["eyes"] = getattr(rig.eye, "trouble", None)
-    status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
-    movable = [i for i in range(4) if status["robots"][i]["heard"]]
+    told["radio"] = rig.link.trouble and str(rig.link.trouble)
+    told["eyes"] = getattr(rig.eye, "trouble", None)
+    told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
+    movable = [i for i in range(4) if told["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
-        raise Refusal(status["radio"] or "No robot answers: are they switched on?")
+        raise Refusal(told["radio"] or "No robot answers: are they switched on?")
     if arguments.pair:
-        status["pairing"] = _paired(shop, kept=arguments.emulate is None)
+        told["pairing"] = _paired(shop, kept=arguments.emulate is None)
     if arguments.latency:
-        status["latency"] = [_late(shop, i) for i in movable if status["robots"][i]["seen"]]
-    return status
+        told["latency"] = [_late(shop, i) for i in movable if told["robots"][i]["seen"]]
+    return told
 
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
@@ -144,17 +144,17 @@ def _late(shop: Workshop, robot: int) -> dict[str, Any]:
     return {"robot": robot + 1, **{f"{name}_ms": found and round(1000 * getattr(found, name)) for name in names}}
 
 
-def _print(status: dict[str, Any]) -> None:
+def _print(told: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
-        there = ", ".join(" ".join(str(part) for part in one.values()) for one in status[name])
+        there = ", ".join(" ".join(str(part) for part in one.values()) for one in told[name])
         print(f"{name:9} {there or 'none'}")
     for name in ("radio", "eyes"):
-        print(f"{name:9} {status.get(name) or 'well'}")
-    for one in status["robots"]:
+        print(f"{name:9} {told.get(name) or 'well'}")
+    for one in told["robots"]:
         print(f"robot {one['robot']}   {_described(one)}")
-    for one in status.get("pairing", ()):
+    for one in told.get("pairing", ()):
         print(f"radio {one['radio']}   {CASES[one['case']].format(marker=one['marker'])}")
-    for one in status.get("latency", ()):
+    for one in told.get("latency", ()):
         late = "it did not move, or was hardly seen"
         if one["total_ms"] is not None:
             late = f"{one['total_ms']} ms: {one['acts_ms']} to the motors, {one['picture_ms']} for the picture"
