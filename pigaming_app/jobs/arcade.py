@@ -4,7 +4,7 @@ import argparse
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
-from pigaming_app.jobs.options import display, display_option, kiosk_option, mat_options, mat_settings, whole
+from pigaming_app.jobs.options import display, mat_options, mat_settings, shared, whole
 from pigaming_app.jobs.refusal import refused, require
 
 if TYPE_CHECKING:
@@ -14,8 +14,7 @@ if TYPE_CHECKING:
 def options(parser: ArgumentParser) -> None:
     """Declare the options."""
     parser.usage = "%(prog)s [JOB] [OPTIONS]"
-    kiosk_option(parser)
-    display_option(parser)
+    shared(parser, "--kiosk", "--display")
     mat_options(parser)
     parser.add_argument("--frames", type=whole(), help=argparse.SUPPRESS)
 

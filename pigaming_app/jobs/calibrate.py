@@ -6,27 +6,15 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from pigaming_app.jobs.arcade import show
-from pigaming_app.jobs.options import (
-    camera_option,
-    display,
-    display_option,
-    emulate_option,
-    json_option,
-    mat_settings,
-    path,
-    real,
-)
+from pigaming_app.jobs.options import display, mat_settings, path, real, shared
 from pigaming_app.jobs.refusal import Refusal, refused, require
 
 
 def options(parser: ArgumentParser) -> None:
     """Declare the options."""
-    camera_option(parser)
-    display_option(parser)
-    emulate_option(parser)
+    shared(parser, "--camera", "--display", "--emulate", "--json")
     parser.add_argument("--headless", action="store_true", help="with --emulate: no window, print the errors")
     parser.add_argument("--robot", action="store_true", help="with --headless: camera height measured by a robot")
-    json_option(parser)
     parser.add_argument("--sheet", type=path, metavar="FILE", help="write the page of markers to print (PDF), no more")
     parser.add_argument(
         "--edge", type=real(1.0, 1000.0), metavar="MM", default=50.0, help="edge of its markers; default 50"

@@ -18,7 +18,7 @@ from pathlib import Path
 from pigaming_app import ASSETS, INSTALLED, ROOT
 from pigaming_app.boot.interpreter import ARCADE, Trouble, both_pygames, lacks, packages
 from pigaming_app.boot.interpreter import requirements as listed
-from pigaming_app.jobs.options import json_option
+from pigaming_app.jobs.options import shared
 from pigaming_app.jobs.refusal import remedy
 from pigaming_app.storage.parsing import json_of, one_line
 from pigaming_app.storage.scores import migrations
@@ -53,7 +53,7 @@ class Line:
 
 def options(parser: ArgumentParser) -> None:
     """Declare the options."""
-    json_option(parser)
+    shared(parser, "--json")
 
 
 def run(arguments: Namespace) -> int:

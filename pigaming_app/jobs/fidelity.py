@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.session.workshop import kept_robots, open_workshop, wiring
-from pigaming_app.jobs.options import camera_option, emulate_option, json_option, mat_settings, path, port_option, whole
+from pigaming_app.jobs.options import mat_settings, path, shared, whole
 from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.storage.parsing import reason
 
@@ -28,10 +28,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--out", type=path, metavar="FILE", help="identify: drivetrains (TOML); default: the arcade's")
     parser.add_argument("--plots", type=path, metavar="FOLDER", help="identify: draw the errors (extra `plots`)")
     parser.add_argument("--robots", type=path, metavar="FILE", help="replay: drivetrains; default: the arcade's")
-    emulate_option(parser)
-    camera_option(parser)
-    port_option(parser)
-    json_option(parser)
+    shared(parser, "--emulate", "--camera", "--port", "--json")
 
 
 def run(arguments: Namespace) -> int:

@@ -64,13 +64,43 @@ def word(text: str) -> str:
     return text
 
 
-def json_option(parser: ArgumentParser) -> None:
-    """--json."""
-    parser.add_argument("--json", action="store_true", help="print the result as one JSON object")
+SHARED: dict[str, dict[str, Any]] = {
+    "--arena": {"help": "name, or path of a .toml file; default: the game's first"},
+    "--minutes": {"type": real(0.0, 3600.0), "help": "length of a match; default: the game's own"},
+    "--variant": {"help": "set of rules; default: the game's first"},
+    "--laps": {"type": whole(), "metavar": "NUMBER", "help": "length of a race"},
+    "--pallets": {"type": whole(), "metavar": "NUMBER", "help": "pallets that win the factory"},
+    "--seed": {"type": whole(-MOST_WHOLE), "metavar": "NUMBER", "default": 1, "help": "random seed; default 1"},
+    "--json": {"action": "store_true", "help": "print the result as one JSON object"},
+    "--kiosk": {"action": "store_true", "help": "only the operator can leave"},
+    "--display": {
+        "type": whole(high=64),
+        "metavar": "NUMBER",
+        "help": "display, from 1; default: that of the settings",
+    },
+    "--emulate": {
+        "type": whole(0),
+        "nargs": "?",
+        "const": 1,
+        "metavar": "SEED",
+        "help": "emulated robots, camera and projector, no hardware; default seed 1",
+    },
+    "--camera": {"type": whole(0), "metavar": "NUMBER", "help": "camera above the mat, from 0"},
+    "--port": {"type": word, "help": "serial port of the radio; empty: the first one"},
+    "--baud": {"type": whole(), "metavar": "NUMBER", "help": "baud rate of the radio"},
+    "--radio": {"metavar": "MODE", "help": "api2, api1, transparent, or stock (a robot on a cable)"},
+}
+MATCH = ("--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed")
+
+
+def shared(parser: argparse._ActionsContainer, *names: str) -> None:
+    """Declare some of SHARED."""
+    for name in names:
+        parser.add_argument(name, **SHARED[name])
 
 
 def game_option(parser: ArgumentParser, required: bool = False, more: tuple[str, ...] = ()) -> None:
-    """The game, by its position. `more`: other words that may stand there."""
+    """Declare the game, by its position. `more`: other words that may stand there."""
     from pigaming_app.games import GAMES
 
     names = ", ".join([*GAMES, *more])
@@ -81,19 +111,18 @@ def game_option(parser: ArgumentParser, required: bool = False, more: tuple[str,
         parser.add_argument("game", metavar="GAME", nargs="?", default=DEFAULT_GAME, help=text)
 
 
-def seed_option(parser: ArgumentParser) -> None:
-    """--seed."""
-    parser.add_argument("--seed", type=whole(-MOST_WHOLE), metavar="NUMBER", default=1, help="random seed; default 1")
+def duel_options(parser: ArgumentParser) -> None:
+    """Declare the matches of a pair of AIs."""
+    parser.add_argument(
+        "--matches", type=whole(), metavar="NUMBER", default=100, help="matches of each pair; default 100"
+    )
+    shared(parser, *MATCH, "--json")
 
 
-def match_options(parser: ArgumentParser) -> None:
-    """Arena, length, rules, goal and seed of a match."""
-    parser.add_argument("--arena", help="name, or path of a .toml file; default: the game's first")
-    parser.add_argument("--minutes", type=real(0.0, 3600.0), help="length of a match; default: the game's own")
-    parser.add_argument("--variant", help="set of rules; default: the game's first")
-    parser.add_argument("--laps", type=whole(), metavar="NUMBER", help="length of a race")
-    parser.add_argument("--pallets", type=whole(), metavar="NUMBER", help="pallets that win the factory")
-    seed_option(parser)
+def mat_options(parser: ArgumentParser) -> None:
+    """Declare camera and radio of the real robots, for jobs that save them."""
+    group = parser.add_argument_group("real robots", "Camera and radio are saved in the settings.")
+    shared(group, "--emulate", "--camera", "--port", "--baud", "--radio")
 
 
 def goal(arguments: Namespace) -> int | None:
@@ -109,62 +138,9 @@ def goal(arguments: Namespace) -> int | None:
     return None
 
 
-def duel_options(parser: ArgumentParser) -> None:
-    """The matches of a pair of AIs."""
-    parser.add_argument(
-        "--matches", type=whole(), metavar="NUMBER", default=100, help="matches of each pair; default 100"
-    )
-    match_options(parser)
-    json_option(parser)
-
-
-def display_option(parser: ArgumentParser) -> None:
-    """--display."""
-    parser.add_argument(
-        "--display", type=whole(high=64), metavar="NUMBER", help="display, from 1; default: that of the settings"
-    )
-
-
 def display(arguments: Namespace) -> int | None:
     """The display that was given, from 0; None: that of the settings."""
     return None if arguments.display is None else arguments.display - 1
-
-
-def kiosk_option(parser: ArgumentParser) -> None:
-    """--kiosk."""
-    parser.add_argument("--kiosk", action="store_true", help="only the operator can leave")
-
-
-def emulate_option(parser: argparse._ActionsContainer) -> None:
-    """--emulate."""
-    parser.add_argument(
-        "--emulate",
-        type=whole(0),
-        nargs="?",
-        const=1,
-        metavar="SEED",
-        help="emulated robots, camera and projector, no hardware; default seed 1",
-    )
-
-
-def camera_option(parser: argparse._ActionsContainer) -> None:
-    """--camera."""
-    parser.add_argument("--camera", type=whole(0), metavar="NUMBER", help="camera above the mat, from 0")
-
-
-def port_option(parser: argparse._ActionsContainer) -> None:
-    """--port."""
-    parser.add_argument("--port", type=word, help="serial port of the radio; empty: the first one")
-
-
-def mat_options(parser: ArgumentParser) -> None:
-    """Camera and radio of the real robots, for jobs that save them."""
-    group = parser.add_argument_group("real robots", "Camera and radio are saved in the settings.")
-    emulate_option(group)
-    camera_option(group)
-    port_option(group)
-    group.add_argument("--baud", type=whole(), metavar="NUMBER", help="baud rate of the radio")
-    group.add_argument("--radio", metavar="MODE", help="api2, api1, transparent, or stock (a robot on a cable)")
 
 
 def mat_settings(arguments: Namespace) -> dict[str, Any]:

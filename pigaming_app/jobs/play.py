@@ -18,17 +18,15 @@ from pigaming_app.games.setup import ChoiceError, choose
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.options import (
     DEFAULT_GAME,
+    MATCH,
     display,
-    display_option,
     game_option,
     goal,
-    json_option,
-    kiosk_option,
     mat_options,
     mat_settings,
-    match_options,
     path,
     real,
+    shared,
 )
 from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.sim.arena import ArenaError
@@ -52,7 +50,7 @@ def options(parser: ArgumentParser) -> None:
     parser.set_defaults(game=None)  # to notice a contradiction
     parser.add_argument("--seats", help="human, off, or an AI for each seat; default human,normal")
     parser.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; default: the game's own")
-    match_options(parser)
+    shared(parser, *MATCH)
     parser.add_argument("--headless", action="store_true", help="no window, no sound")
     parser.add_argument("--speed", default="1", help="times real time, or max; default 1")
     parser.add_argument("--record", type=path, metavar="FILE", help="write a replay")
@@ -63,9 +61,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--robots", type=path, metavar="FILE", help="simulate these measured robots (see fidelity)")
     parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
     mat_options(parser)
-    kiosk_option(parser)
-    display_option(parser)
-    json_option(parser)
+    shared(parser, "--kiosk", "--display", "--json")
 
 
 def run(arguments: Namespace) -> int:

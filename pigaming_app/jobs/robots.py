@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from pigaming_app.hardware.session.workshop import Workshop, keep_radios, open_workshop, wiring
-from pigaming_app.jobs.options import camera_option, emulate_option, json_option, mat_settings, port_option
+from pigaming_app.jobs.options import mat_settings, shared
 from pigaming_app.jobs.refusal import Refusal, require
 
 LISTEN = 2.5  # s
@@ -26,10 +26,7 @@ def options(parser: ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
     parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
-    emulate_option(parser)
-    camera_option(parser)
-    port_option(parser)
-    json_option(parser)
+    shared(parser, "--emulate", "--camera", "--port", "--json")
 
 
 def run(arguments: Namespace) -> int:

@@ -22,7 +22,7 @@ from pigaming_app.ai.qlearning.table_files import TableError, load
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError, one_of
-from pigaming_app.jobs.options import game_option, json_option, path, real, seed_option, whole
+from pigaming_app.jobs.options import game_option, path, real, shared, whole
 from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile, engine_hash
@@ -57,7 +57,7 @@ def options(parser: ArgumentParser) -> None:
         "--matches", type=whole(), metavar="NUMBER", default=200, help="matches of self-play; default 200"
     )
     parser.add_argument("--minutes", type=real(0.0, 3600.0), default=2.0, help="length of a match; default 2")
-    seed_option(parser)
+    shared(parser, "--seed", "--json")
     parser.add_argument("--arena", default="classic", help="name, or path of a .toml file; default classic")
     parser.add_argument("--out", type=path, metavar="FILE", required=True, help="table (.npz)")
     parser.add_argument("--resume", action="store_true", help="continue from that file")
@@ -65,7 +65,6 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--curve", type=path, metavar="FILE", help="learning curve (PNG; extra `plots`)")
     parser.add_argument("--csv", type=path, metavar="FILE", help="learning curve as numbers")
     parser.add_argument("--plain", action="store_true", help="without numba: the same table, slower")
-    json_option(parser)
 
 
 def run(arguments: Namespace) -> int:

@@ -5,7 +5,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 from typing import Any
 
-from pigaming_app.jobs.options import game_option, json_option
+from pigaming_app.jobs.options import game_option, shared
 from pigaming_app.jobs.refusal import refused, require
 
 ROBOTS = "robots"
@@ -14,7 +14,7 @@ ROBOTS = "robots"
 def options(parser: ArgumentParser) -> None:
     """Declare the options."""
     game_option(parser, more=(ROBOTS,))
-    json_option(parser)
+    shared(parser, "--json")
 
 
 def run(arguments: Namespace) -> int:
