@@ -1,6 +1,6 @@
-"""Double-click to play. On a fresh machine this makes the folder .venv, fetches what pyproject.toml lists, and starts.
+"""Double-click to play. On a fresh machine this makes .venv, fetches the packages of pyproject.toml, and starts.
 
-An old Python must be able to read this file, so that it can say what is needed; all else is in pigaming_app/boot.
+An old Python must be able to parse this file, for the message about its version; the rest is in pigaming_app/boot.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ NEEDS = (3, 11)
 
 
 def too_old(version: tuple[int, ...]) -> str | None:
-    """What to say to a Python of this version (major, minor), or None if it will do."""
+    """The refusal of a Python of this version (major, minor), or None if it is new enough."""
     if version >= NEEDS:
         return None
     return "PiGaming needs Python {}.{} or newer; this is {}.{}".format(*(NEEDS + version))
@@ -27,13 +27,15 @@ def main() -> int:
     folder = os.path.dirname(os.path.abspath(__file__))
     if folder not in sys.path:
         sys.path.insert(0, folder)
-    if "pigaming" in sys._xoptions:  # start.py handed over to this Python, a moment ago
-        from pigaming_app import cli
+    if "pigaming" not in sys._xoptions:  # which marks the Python that boot has chosen
+        from pigaming_app.boot.interpreter import start
 
-        return cli.main(sys.argv[1:])
-    from pigaming_app.boot.interpreter import start
+        code = start(sys.argv[1:])
+        if code is not None:
+            return code
+    from pigaming_app import cli
 
-    return start(sys.argv[1:])
+    return cli.main(sys.argv[1:])
 
 
 if __name__ == "__main__":

@@ -2,13 +2,17 @@
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from pigaming_app.cli import main
+from pigaming_app.cli import JOBS, main
+from pigaming_app.jobs import refusal
 from pigaming_app.storage.settings import Settings, folders
 
+ROOT = Path(__file__).resolve().parents[1]
 SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--seats", "fsm,easy,off,off"]
 
 
@@ -97,7 +101,13 @@ def test_the_doctor_speaks_json(capsys):
         ["--camera", "-1"],
         ["play", "--seats", "fsm"],
         ["play", "--seats", "fsm,fsm,fsm,fsm,fsm"],
+        ["play", "chess"],
         ["play", "--game", "chess"],
+        ["play", "race", "--game", "pitanks"],
+        ["play", "pitanks", "race"],
+        ["train", "qlearning", "race", "--out", "a.npz"],
+        ["train", "qlearning", "chess", "--out", "a.npz"],
+        ["train", "ppo", "race", "--out", "a.npz"],
         ["play", "--arena", "nowhere", "--headless"],
         ["play", "--minutes", "-1"],
         ["play", "--minutes", "nan"],
@@ -118,6 +128,55 @@ def test_what_is_wrong_is_one_line_and_exit_code_2(arguments, capsys):
     captured = capsys.readouterr()
     assert captured.out == ""
     assert len(captured.err.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("words", [["factory"], ["--game", "factory"], ["factory", "--game", "factory"]], ids=" ".join)
+def test_the_game_stands_after_the_job_or_after_its_old_option(words, capsys):
+    seats = ["--seats", "easy,easy,off,off", "--headless", "--speed", "max", "--minutes", "0.05", "--json"]
+    assert main(["play", *words, *seats]) == 0
+    assert json.loads(capsys.readouterr().out)["game"] == "factory"
+
+
+def test_every_job_describes_its_options_without_numpy():
+    code = (
+        "import sys\nsys.modules['numpy'] = None\nfrom pigaming_app.cli import JOBS, main\n"
+        "for job in JOBS: assert main([job, '--help']) == 0\n"
+        "assert 'pygame' not in sys.modules"
+    )
+    told = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert told.count("usage: ") == len(JOBS)
+    assert "--game" not in told
+    for path in (ROOT / "pigaming_app" / "jobs").glob("[a-z]*"):
+        declares = (path / "__init__.py" if path.is_dir() else path).read_text(encoding="utf-8").count("\ndef options(")
+        assert declares == (path.stem in JOBS), path.name
+
+
+@pytest.mark.parametrize(
+    ("words", "extra"),
+    [
+        (["--emulate"], "hardware"),
+        (["play", "--emulate"], "hardware"),
+        (["calibrate", "--sheet", "a.pdf"], "hardware"),
+        (["robots", "--pair"], "hardware"),
+        (["fidelity", "record", "a.jsonl", "--emulate"], "hardware"),
+        (["fidelity", "identify", "a.jsonl", "--plots", "a"], "plots"),
+        (["bench", "robots"], "hardware"),
+        (["train", "qlearning", "--out", "a.npz", "--curve", "a.png"], "plots"),
+    ],
+    ids=lambda words: " ".join(words) if isinstance(words, list) else words,
+)
+@pytest.mark.parametrize("installed", [False, True])
+def test_a_missing_extra_is_one_line_with_the_way_to_install_it(words, extra, installed, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(refusal, "INSTALLED", installed)
+    for module in ("cv2", "serial", "matplotlib"):
+        monkeypatch.setitem(sys.modules, module, None)
+    assert main(words) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert f"extra `{extra}`" in said
+    assert (f"pip install 'pigaming-app[{extra}]'" in said) is installed
+    assert ("main.py" in said) is not installed
 
 
 def test_no_display_is_said_with_the_way_out(monkeypatch, capsys):

@@ -14,13 +14,13 @@ from operator import attrgetter
 from pathlib import Path
 
 import pytest
-
-from pigaming_app.ai import make, qlearning, sectors
 from pigaming_app.ai.classic import Unknown
 from pigaming_app.ai.rewards import RECIPES
-from pigaming_app.games import GAMES
-from pigaming_app.games.arenas import parse
 from pigaming_app.games.choices import choose
+from pigaming_app.scores import table
+
+from pigaming_app.ai import make, qlearning, sectors
+from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import floor, state
 from pigaming_app.games.factory import rules as factory_rules
 from pigaming_app.games.factory.start import Rules as FactoryRules
@@ -28,8 +28,8 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
 from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race.state import Rules as RaceRules
+from pigaming_app.games.registry import games
 from pigaming_app.scenes import initials
-from pigaming_app.scores import table
 from pigaming_app.sim import action, angles, arena, circuit, contact, drivetrain, robots, walker, world
 from pigaming_app.sim.record import fields_of
 
@@ -105,7 +105,7 @@ def in_code(row):
         return attrgetter(path)(make(GAME_OF[row.first], row.column, 1).mind)
     if root in ("Rules", "Game"):
         game = GAME_OF[row.section]
-        return attrgetter(path)(match_of(game, row.column or None).state.rules if root == "Rules" else GAMES[game])
+        return attrgetter(path)(match_of(game, row.column or None).state.rules if root == "Rules" else games()[game])
     found = [getattr(module, row.name) for module in CONSTANTS[row.section] if hasattr(module, row.name)]
     if not found:
         raise KeyError(row.name)
@@ -173,7 +173,7 @@ def test_every_number_of_the_rules_is_on_the_page(section):
 
 def test_every_variant_and_strength_has_its_column():
     columns = {row.column for row in ROWS if row.section == "PiTanks" and row.column}
-    assert columns == set(GAMES["pitanks"].variants)
+    assert columns == set(games()["pitanks"].variants)
     for section in GAME_OF:
         columns = {row.column for row in ROWS if row.section == "Opponents" and row.first == section}
         assert columns == {"easy", "normal", "hard"}
@@ -219,9 +219,9 @@ def quoted():
     yield f"{tanks.protection / world.HZ:g} s of protection, none in `classic`"
     yield f"after {shop.replace / world.HZ:g} s it is replaced"
     yield f"three workers, {shop.walk:g} px/s, {shop.process / world.HZ:g} s a pallet"
-    yield f"{GAMES['factory'].default_goal} a team; 2 to {GAMES['factory'].goals[-1]} by choice"
+    yield f"{games()['factory'].default_goal} a team; 2 to {games()['factory'].goals[-1]} by choice"
     yield f"nobody collects for {shop.collect / world.HZ:g} s"
-    yield f"{GAMES['race'].default_goal}; 1 to {GAMES['race'].goals[-1]} by choice"
+    yield f"{games()['race'].default_goal}; 1 to {games()['race'].goals[-1]} by choice"
     yield f"{track.speed:g} px/s, that is ×{track.speed / tanks.speed:g}"
     yield f"×{Fraction(track.mud).limit_denominator(9)} | **open**: ×2/3 or ×1/3"
     yield f"{track.patience / world.HZ:g} s after the first has finished"
@@ -269,7 +269,7 @@ def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
 
 
 @pytest.mark.parametrize(("charge", "boosts"), [(0.0999, 0), (0.1001, 1)])
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_turbo_starts_from_a_tenth_of_the_meter(game, charge, boosts):
     class Pressing:
         def think(self, state, seat):
@@ -282,7 +282,7 @@ def test_turbo_starts_from_a_tenth_of_the_meter(game, charge, boosts):
     assert match.state.robots[0].boosting == boosts
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize("game", games())
 def test_the_example_of_an_arena_can_be_played(game):
     page = GAMES_PAGE.read_text(encoding="utf-8")
     (source,) = re.findall(rf"^```toml\n(# assets/arenas/{game}/.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)

@@ -1,6 +1,6 @@
-"""The first start: make the environment and fetch the packages into it, one start at a time. Standard library only.
+"""The first start: creates the environment and fetches its packages, one process at a time. Standard library only.
 
-It can be stopped at any moment and started again. Whatever goes wrong is one sentence that says what to do.
+It can be interrupted at any moment and started again. Every failure is one sentence with the remedy.
 """
 
 import errno
@@ -16,6 +16,7 @@ from typing import IO
 
 from pigaming_app.boot.interpreter import (
     Trouble,
+    fingerprint,
     lacks,
     packages,
     places,
@@ -24,9 +25,7 @@ from pigaming_app.boot.interpreter import (
     requirements,
     say,
     site_packages,
-    standing_on,
 )
-from pigaming_app.storage.safe_files import write
 
 PIP_OPTIONS = ("--only-binary=:all:", "--no-input", "--disable-pip-version-check", "--retries=2", "--progress-bar=off")
 NOT_ALLOWED = {errno.EACCES, errno.EPERM, errno.EROFS}
@@ -37,7 +36,7 @@ NO_VENV = (
 NO_ROOM = "the disk is full: free about 1 GB and start again."
 OFFLINE = "{names} could not be fetched: connect this machine to the internet, this once, and start again."
 UNKNOWN = "{names} is not to be had: if this machine is online, use a Python from 3.11 to 3.14 (this is {python})."
-CAUSES = (  # the first of these words in what a tool said decides
+CAUSES = (  # the first match in the output of a tool decides
     (r"No space left|Errno 28|not enough space|Disk quota", NO_ROOM),
     (r"ensurepip is not|No module named (ensurepip|venv)", NO_VENV),
     (r"Permission denied|Access is denied|Errno 13|Read-only file system", "no permission to write in {place}."),
@@ -47,7 +46,7 @@ CAUSES = (  # the first of these words in what a tool said decides
 
 
 def prepared(needed: set[str], wished: set[str]) -> Path:
-    """An environment with these groups; another start that makes one is waited for. Raises Trouble."""
+    """An environment with these groups; waits while another process makes one. Raises Trouble."""
     place, lock = _claimed()
     with lock:
         if not works(place):
@@ -65,7 +64,7 @@ def prepared(needed: set[str], wished: set[str]) -> Path:
 
 
 def _claimed() -> tuple[Path, IO[str]]:
-    """The first place that can be written, locked until the file is closed or this process dies."""
+    """The first writable place, locked until the file is closed or this process ends."""
     for place in places():
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
@@ -82,16 +81,16 @@ def _claimed() -> tuple[Path, IO[str]]:
 
 
 def _wait_for(lock: IO[str]) -> None:
-    told = False
+    waited = False
     while not _locked(lock):
-        if not told:
+        if not waited:
             say("another start is installing at this moment; waiting for it.")
-        told = True
+        waited = True
         time.sleep(0.2)
 
 
 def _locked(lock: IO[str]) -> bool:
-    """Take the lock, which the system gives back when the process ends, however it ends. False: someone has it."""
+    """Take the lock, which the system releases with the process. False: another process has it."""
     try:
         if sys.platform == "win32":
             import msvcrt
@@ -107,7 +106,7 @@ def _locked(lock: IO[str]) -> bool:
 
 
 def works(place: Path) -> bool:
-    """Whether an environment is there with a Python that runs, is new enough and finds its pip."""
+    """Whether there is an environment with a Python that runs, is new enough and finds its pip."""
     if not python_of(place).exists():
         return False
     look = "import os, sys, sysconfig; print(sys.version_info >= (3, 11), os.path.isdir(sysconfig.get_path('purelib')))"
@@ -118,36 +117,46 @@ def works(place: Path) -> bool:
 
 
 def make(place: Path) -> None:
-    """Make an empty environment, in the place of a broken one if there is any. Raises Trouble."""
+    """Create an empty environment, in place of a broken one. Raises Trouble."""
     if not (importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip")):
         raise Trouble(NO_VENV)
     if place.exists():
         say(f"{place} is not whole, or its Python has gone; making it again.")
     else:
         say(f"first start: making {place}, for this program only.")
-    code, said = _run([sys.executable, "-I", "-m", "venv", "--clear", str(place)])
+    code, output = _run([sys.executable, "-I", "-m", "venv", "--clear", str(place)])
     if code:
-        raise Trouble(_cause(said, place, []))
+        raise Trouble(_cause(output, place, []))
 
 
 def install(place: Path, groups: set[str]) -> None:
-    """Fetch what is missing of these groups, and note that they are whole. Raises Trouble."""
+    """Install the missing packages of these groups, and note that the groups are complete. Raises Trouble."""
     wanted = requirements(groups)
     try:
         (place / "ready").unlink(missing_ok=True)
         installed = packages([site_packages(place)])
         if fetched := [one for one in wanted if lacks(installed, one)]:
             say(f"fetching {_names(fetched)} (only once; it may take a minute).")
-        code, said = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], tell=True)
+        code, output = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], names=True)
         if code:
-            raise Trouble(_cause(said, place, wanted))
-        write(place / "ready", "\n".join([standing_on(place), *sorted(groups)]).encode())
+            raise Trouble(_cause(output, place, wanted))
+        _write(place / "ready", "\n".join([fingerprint(place), *sorted(groups)]))
     except OSError as error:
         raise Trouble(_cause(str(error), place, wanted)) from error
 
 
-def _run(command: list[str], tell: bool = False) -> tuple[int, str]:
-    """Run a tool to its end; its exit code and all that it said. `tell`: name every file that it downloads."""
+def _write(path: Path, text: str) -> None:
+    """Replace a file in one step. Raises OSError."""
+    draft = path.with_name(f"{path.name}.new")
+    with open(draft, "w", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(draft, path)
+
+
+def _run(command: list[str], names: bool = False) -> tuple[int, str]:
+    """Run a tool to its end; its exit code and output. `names`: print the name of each file that it downloads."""
     surroundings = {**os.environ, "PIP_USER": "0", "PIP_REQUIRE_VIRTUALENV": "0"}
     try:
         process = subprocess.Popen(
@@ -161,28 +170,28 @@ def _run(command: list[str], tell: bool = False) -> tuple[int, str]:
         )
     except OSError as error:
         return 1, str(error)
-    said = []
+    output = []
     with process:
         try:
             for line in process.stdout or []:
-                said.append(line)
-                if tell and (match := re.match(r"\s*Downloading (?:\S*/)?(\w+)-([^-]+)-\S+\.whl \((.+?)\)", line)):
+                output.append(line)
+                if names and (match := re.match(r"\s*Downloading (?:\S*/)?(\w+)-([^-]+)-\S+\.whl \((.+?)\)", line)):
                     say(f"  {match[1]} {match[2]}, {match[3]}")
         except KeyboardInterrupt:
             process.terminate()
             raise
-    return process.returncode, "".join(said)
+    return process.returncode, "".join(output)
 
 
 def _names(wanted: list[str]) -> str:
     return ", ".join(re.split("[<>]", one)[0] for one in wanted)
 
 
-def _cause(said: str, place: Path, wanted: list[str]) -> str:
-    """One sentence for what a tool said."""
-    missing = re.search(r"requirement ([\w.-]+)", said)
+def _cause(output: str, place: Path, wanted: list[str]) -> str:
+    """One sentence for the output of a tool that failed."""
+    missing = re.search(r"requirement ([\w.-]+)", output)
     about = {"place": place, "names": missing[1] if missing else _names(wanted), "python": platform.python_version()}
     for words, sentence in CAUSES:
-        if re.search(words, said):
+        if re.search(words, output):
             return sentence.format(**about)
-    return (said.strip() or "the installing failed.").splitlines()[-1]
+    return (output.strip() or "the installation failed.").splitlines()[-1]

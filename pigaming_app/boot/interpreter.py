@@ -1,7 +1,8 @@
-"""Which Python does the job, and handing it over. Standard library only, and fast: it runs before every start.
+"""Choice of the Python that runs the job. Standard library only, and fast: it runs before every start.
 
-`.venv` beside main.py is used once it is ready: the file `.venv/ready` says what was installed whole, and on which
-Python. Else this very Python is, if it has every package. Else install.py makes `.venv` ready.
+`.venv` beside main.py is used once it is ready: the file `.venv/ready` lists the groups of packages that are complete,
+and the Python below. Otherwise this Python is used if it has every package; failing that, environment.py makes `.venv`
+ready.
 """
 
 import os
@@ -13,11 +14,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROJECT = ROOT / "pyproject.toml"
-ARCADE = "arcade"  # the group of packages that every job needs; the others are the extras of pyproject.toml
+ARCADE = "arcade"  # the group of packages that every job needs; the other groups are the extras of pyproject.toml
 NEEDED = {"test": {"test"}}
-WISHED = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # the job goes on without
+WISHED = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # optional: the job runs without
 WISHED |= {"test": {"train", "hardware", "plots"}}
-MEANT = {  # words that mean an extra wherever they stand
+MEANT = {  # words that ask for an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
 }
@@ -26,16 +27,19 @@ HANDED_OVER = "pigaming"  # python -X pigaming: main.py need not ask again
 
 
 class Trouble(Exception):
-    """It cannot start. The text is one sentence, with what to do about it."""
+    """The program cannot start. The text is one sentence, with the remedy."""
 
 
-def start(args: list[str]) -> int:
-    """Do the job of these arguments; its exit code, 2 where it cannot start, 130 where the installing was stopped."""
+def start(args: list[str]) -> int | None:
+    """Hand the job over to the Python that has its packages; its exit code. None: that is this Python.
+
+    2 where it cannot start, 130 where the installation was interrupted.
+    """
     job = "" if not args or {"-h", "--help"} & set(args) else args[0]
     try:
         wished = WISHED.get(job, set()) | {MEANT[word] for word in args if word in MEANT}
         place = environment({ARCADE} | NEEDED.get(job, set()), wished)
-        return arcade(args) if place is None else hand_over(place, args)
+        return None if place is None else hand_over(place, args)
     except Trouble as trouble:
         say(str(trouble))
         return 2
@@ -49,15 +53,8 @@ def say(text: str) -> None:
     print(f"PiGaming: {text}", file=sys.stderr, flush=True)
 
 
-def arcade(args: list[str]) -> int:
-    """Do the job in this Python."""
-    from pigaming_app.cli import main
-
-    return main(args)
-
-
 def hand_over(place: Path, args: list[str]) -> int:
-    """Do the job in that environment: instead of this process, or on Windows below it."""
+    """Run main.py in that environment: instead of this process, or on Windows as its child. Raises Trouble."""
     if both_pygames(packages([site_packages(place)])):
         say(f"{place} holds both pygame and pygame-ce, which overwrite each other: delete it and start again.")
     command = [str(python_of(place)), "-X", HANDED_OVER, str(ROOT / "main.py"), *args]
@@ -72,12 +69,12 @@ def hand_over(place: Path, args: list[str]) -> int:
     while True:
         try:
             return process.wait()
-        except KeyboardInterrupt:  # the job heard it as well, and decides
+        except KeyboardInterrupt:  # the job received it as well, and decides
             continue
 
 
 def environment(needed: set[str], wished: set[str]) -> Path | None:
-    """The environment that has these groups, made ready if none has; None: this very Python. Raises Trouble."""
+    """The environment that has these groups, made ready if none has; None: this Python. Raises Trouble."""
     groups = needed | wished
     place = next((place for place in places() if groups <= ready(place)), None)
     if place and sys.prefix == sys.base_prefix:
@@ -95,7 +92,7 @@ def environment(needed: set[str], wished: set[str]) -> Path | None:
 
 
 def requirements(groups: Iterable[str]) -> list[str]:
-    """What the groups are made of, in the words of pyproject.toml. Raises Trouble."""
+    """The packages of these groups, as pyproject.toml lists them. Raises Trouble."""
     import tomllib
 
     try:
@@ -134,12 +131,12 @@ def _numbers(text: str) -> list[int]:
 
 
 def both_pygames(installed: dict[str, str]) -> bool:
-    """Whether the two libraries that write the same files are both there."""
+    """Whether both are installed, which write the same files."""
     return "pygame" in installed and "pygame-ce" in installed
 
 
 def places() -> list[Path]:
-    """Where the environment may be: beside main.py; where that cannot be written, among the user's own files."""
+    """Possible folders of the environment: beside main.py, or if that is read-only among the user's files."""
     home = Path.home()
     if override := os.environ.get("PIGAMING_HOME"):
         data = Path(override)
@@ -158,23 +155,23 @@ def python_of(place: Path) -> Path:
 
 
 def site_packages(place: Path) -> Path:
-    """Where an environment keeps its packages."""
+    """The folder of an environment's packages."""
     if WINDOWS:
         return place / "Lib" / "site-packages"
     return next(place.glob("lib/python3*/site-packages"), place / "lib")
 
 
 def ready(place: Path) -> set[str]:
-    """The groups that were installed whole, if pyproject.toml and the Python below are still the same; else none."""
+    """The groups that are complete, provided that pyproject.toml and the Python below have not changed since."""
     try:
-        standing, *groups = (place / "ready").read_text(encoding="utf-8").splitlines()
-        return set(groups) if standing == standing_on(place) else set()
+        fingerprint_then, *groups = (place / "ready").read_text(encoding="utf-8").splitlines()
+        return set(groups) if fingerprint_then == fingerprint(place) else set()
     except (OSError, ValueError):
         return set()
 
 
-def standing_on(place: Path) -> str:
-    """What an environment stands on: it changes with pyproject.toml and its Python. OSError if one of them is gone."""
+def fingerprint(place: Path) -> str:
+    """A fingerprint of pyproject.toml and of the Python below an environment. Raises OSError if one of them is gone."""
     python = python_of(place).resolve()
     if WINDOWS:  # where that is only a launcher
         lines = (place / "pyvenv.cfg").read_text(encoding="utf-8").splitlines()

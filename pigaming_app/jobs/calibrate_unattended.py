@@ -1,13 +1,12 @@
-"""The wizard on an emulated arena without anybody: its own pages, pressed by a script, in made-up time.
+"""Unattended calibration of an emulated arena: the wizard's own pages, operated by a script, in simulated time.
 
-What it finds is compared with what is true there, which the wizard never hears of.
+The result is compared with ground truth, which the wizard never sees.
 """
 
 from time import perf_counter
 from typing import Any
 
 import numpy as np
-import pygame
 
 from pigaming_app.hardware.calibration.ground_plane import Ground
 from pigaming_app.hardware.emulator.arena import ARENA_AT
@@ -26,17 +25,16 @@ from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 
-FRAME = 1 / 30  # s of made-up time
-PATIENCE = 60.0  # s of made-up time in which it must be done
-GRID = [(x, y) for x in range(0, 1601, 200) for y in range(0, 901, 150)]  # arena px, where it is compared
+FRAME = 1 / 30  # s, simulated
+TIMEOUT = 60.0  # s, simulated
+GRID = [(x, y) for x in range(0, 1601, 200) for y in range(0, 901, 150)]  # arena px, of the comparison
 
 
 class Operator:
-    """Somebody who presses the right buttons; `robot`: a robot on outlines tells the camera's height."""
+    """Presses the buttons of the wizard; `robot`: the camera height is measured by a robot on projected outlines."""
 
     def __init__(self, seed: int, robot: bool = False) -> None:
         self.site, self.robot = EmulatedSite(seed), robot
-        pygame.font.init()
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         canvas.watchers.append(lambda window: self.site.see(pixels_of(window)))
         self.house = House(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
@@ -48,44 +46,43 @@ class Operator:
         self.stack.turn(self.stack.top.on(Press(act, Device("keys", 0))))
 
     def frame(self) -> None:
-        """One picture."""
-        pygame.event.pump()
+        """One frame."""
         self.stack.turn(self.stack.top.update(FRAME))
         self.stack.top.draw(self.house.canvas.screen)
         self.house.canvas.flip()
 
     def go(self, row: str) -> None:
-        """Put the focus on a row of the first page."""
+        """Focus a row of the first page."""
         while self.page.focus.name != row:
             self.press(Act.DOWN)
 
     def work(self) -> ResultPage | None:
-        """Calibrate; the result, or None where nothing came of it in time."""
+        """Calibrate; the result, or None after TIMEOUT."""
         if self.robot:
             self.go("by")
             self.press(Act.RIGHT)
         self.go("begin")
         self.press(Act.FIRE)
-        for _ in range(round(PATIENCE / FRAME)):
+        for _ in range(round(TIMEOUT / FRAME)):
             self.frame()
             if isinstance(self.stack.top, ResultPage):
                 return self.stack.top
         return None
 
     def close(self) -> None:
-        """Go home."""
+        """Close all pages, the arena and the window."""
         self.stack.clear()
         self.site.close()
         self.house.canvas.close()
 
 
 def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
-    """Calibrate and save; what came of it, by name."""
+    """Calibrate and save; the results by name."""
     began, operator = perf_counter(), Operator(seed, robot)
     try:
         page = operator.work()
         if page is None:
-            return {"saved": False, "trouble": "It was not done in time."}
+            return {"saved": False, "trouble": "The calibration timed out."}
         finding, trouble = page.finding, page.finding.trouble
         if finding.good:
             operator.press(Act.FIRE)
@@ -105,7 +102,7 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
 
 
 def _compared(ground: Ground, site: EmulatedSite) -> dict[str, float]:
-    """Errors against what is true, on the mat and at the height of the lids, where robots are, in mm."""
+    """Errors against ground truth on the mat and at the height of the lids, mm."""
     optics = site.arena.optics
     places = np.array(GRID, dtype=np.float64)
     on_mat = optics.mat(places + ARENA_AT)

@@ -1,4 +1,4 @@
-"""Standard streams that may be closed, full, or of a narrow encoding: a job neither raises nor writes elsewhere."""
+"""Standard streams that may be closed, full, or of a narrow encoding: none of that raises or misplaces output."""
 
 import contextlib
 import io
@@ -10,7 +10,7 @@ from pigaming_app.storage.parsing import one_line, reason
 
 
 class _Lossy(io.RawIOBase):
-    """A file descriptor that takes what it can; the rest is lost."""
+    """A file descriptor whose failed writes are dropped."""
 
     def __init__(self, descriptor: int) -> None:
         self._descriptor = descriptor
@@ -31,7 +31,7 @@ class _Lossy(io.RawIOBase):
 
 
 def prepare() -> None:
-    """Make standard error lossy, and keep files that are opened later off the numbers of streams that are closed."""
+    """Make standard error lossy, and occupy the descriptors of closed streams: no file opened later may get one."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -60,13 +60,20 @@ def flushed(code: int) -> int:
     return code
 
 
-def say(sentence: str) -> None:
+def say(line: str) -> None:
     """One line on standard error; standard output belongs to the job."""
     with contextlib.suppress(OSError):
-        print(f"PiGaming: {one_line(sentence)}", file=sys.stderr, flush=True)
+        print(f"PiGaming: {one_line(line)}", file=sys.stderr, flush=True)
+
+
+def sentence(error: OSError) -> str:
+    """An error of the system as one line: the file, or the output, and the reason."""
+    if error.strerror is None:  # NotSaved
+        return str(error)
+    return f"{error.filename or 'the output cannot be written'}: {reason(error)}"
 
 
 def _mute() -> None:
-    """Let what is still to be written vanish, so that the interpreter can end in silence."""
+    """Discard unwritten output, so that the interpreter can exit silently."""
     with contextlib.suppress(OSError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

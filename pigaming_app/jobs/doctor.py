@@ -1,32 +1,39 @@
-"""The job `doctor`: what is there, what is missing, and what to do about it. It changes nothing and never hangs."""
+"""Check of the installation: packages, folders, assets, devices and engine, with advice. It changes no file."""
 
 import contextlib
 import json
 import os
 import platform
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from importlib import metadata
 from pathlib import Path
 
-from pigaming_app import ASSETS
-from pigaming_app.boot.interpreter import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
+from pigaming_app import ASSETS, INSTALLED, ROOT
+from pigaming_app.boot.interpreter import ARCADE, Trouble, both_pygames, lacks, packages
+from pigaming_app.boot.interpreter import requirements as listed
+from pigaming_app.jobs.options import shared
+from pigaming_app.jobs.refusal import remedy
 from pigaming_app.storage.parsing import json_of, one_line
 from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import folders
 
-ROOM = 100_000_000  # bytes of free disk, below which it is said
-PATIENCE = 15.0  # seconds for all that drivers are asked
-ANEW = "get the whole folder of the program again"
+ROOM = 100_000_000  # bytes of free disk below which there is a note
+PATIENCE = 15.0  # s for the drivers to answer
+ANEW = "install the package again" if INSTALLED else "get the whole folder of the program again"
+AGAIN = ANEW if INSTALLED else "start main.py again"
 EXTRAS = {
-    "train": "bench and duel fetch it when they first run; the arcade does not need it",
+    "train": "bench, duel, league and train are slow without it; the arcade does not need it",
     "hardware": "only real robots need it",
 }
-DEVICES = {  # what main.py can do without, and what to do about it
-    "pygame": ("problem", "delete the folder .venv and start main.py again"),
+DEVICES = {  # state and advice where it is missing
+    "pygame": ("problem", ANEW if INSTALLED else "delete the folder .venv and start main.py again"),
     "displays": ("note", "connect one to play; play --headless, duel and bench go without"),
     "sound": ("note", "the arcade is silent, and works"),
     "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
@@ -36,7 +43,7 @@ DEVICES = {  # what main.py can do without, and what to do about it
 
 @dataclass(frozen=True)
 class Line:
-    """One thing that was looked at. `state`: ok, note (one can play all the same) or problem."""
+    """One finding. `state`: ok, note (playing is possible all the same) or problem."""
 
     what: str
     state: str
@@ -44,11 +51,16 @@ class Line:
     advice: str = ""
 
 
-def run(as_json: bool) -> int:
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    shared(parser, "--json")
+
+
+def run(arguments: Namespace) -> int:
     """Print the report; 1 if something prevents playing."""
     lines = report()
     well = all(line.state != "problem" for line in lines)
-    if as_json:
+    if arguments.json:
         print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
         return int(not well)
     for line in lines:
@@ -59,7 +71,7 @@ def run(as_json: bool) -> int:
 
 
 def report() -> list[Line]:
-    """Everything worth looking at. It never raises: what fails becomes a line."""
+    """All findings. It never raises: a failed check becomes a line."""
     return [*_system(), *_packages(), *_folders(), *_older_scores(), *_assets(), *_devices(), _engine()]
 
 
@@ -74,22 +86,38 @@ def _packages() -> Iterator[Line]:
     there = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
     for group in (ARCADE, *EXTRAS):
         try:
-            wanted = requirements([group])
+            wanted = requirements(group)
         except Trouble as trouble:
-            yield Line("packages", "problem", str(trouble))
+            yield Line("packages", "problem", str(trouble), ANEW)
             return
         for one in wanted:
-            name = one.partition(">")[0]
+            name = re.split("[<>]", one)[0]
             if not lacks(there, one):
                 yield Line(name, "ok", there[name])
             elif group == ARCADE:
-                yield Line(name, "problem", f"{there.get(name, 'missing')}, but {one} is needed", "start main.py again")
+                yield Line(name, "problem", f"{there.get(name, 'missing')}, but {one} is needed", AGAIN)
             else:
-                yield Line(name, "note", there.get(name, "not installed"), EXTRAS[group])
+                yield Line(name, "note", there.get(name, "not installed"), _advice(group))
     if both_pygames(there):
         yield Line(
             "pygame", "problem", "it is installed beside pygame-ce and they overwrite each other", "uninstall both"
         )
+
+
+def requirements(group: str) -> list[str]:
+    """The packages of an extra, or of ARCADE, with their versions: `numba>=0.61,<1`. Raises Trouble."""
+    if not INSTALLED:
+        return listed([group])
+    try:
+        lines = [line.partition(";") for line in metadata.requires("pigaming-app") or ()]
+    except metadata.PackageNotFoundError:
+        raise Trouble("the list of packages is missing") from None
+    extra = "" if group == ARCADE else group
+    return [one.strip() for one, _, marker in lines if marker.partition("==")[2].strip(" '\"") == extra]
+
+
+def _advice(extra: str) -> str:
+    return EXTRAS[extra] + (f": {remedy(extra)}" if INSTALLED else "; main.py fetches it for the jobs that use it")
 
 
 def _folders() -> Iterator[Line]:
@@ -107,7 +135,7 @@ def _folders() -> Iterator[Line]:
 
 
 def _older_scores() -> Iterator[Line]:
-    """What was carried over from version 1.3.0, when, and where its backup lies."""
+    """Scores carried over from version 1.3.0: when, how many, and their backup."""
     data = folders().data
     done, waits = migrations(data)
     for one in done:
@@ -121,7 +149,7 @@ def _older_scores() -> Iterator[Line]:
 
 
 def _nearest(folder: Path) -> Path:
-    """The folder, or the first one above it that is there."""
+    """The folder, or its nearest parent that exists."""
     for place in (folder, *folder.parents):
         with contextlib.suppress(OSError):  # a name that is too long
             if place.exists():
@@ -162,17 +190,17 @@ def _devices() -> Iterator[Line]:
 
 
 def _probed() -> dict[str, tuple[str, str]]:
-    """What the probe could tell before it ended, crashed or had to be stopped: found and wrong, by name."""
+    """The answers of the probe until it ended, crashed or ran out of time: found and wrong, by name."""
     command = [sys.executable, "-m", "pigaming_app.ui.probe"]
     surroundings = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
     try:
-        said = subprocess.run(
+        output = subprocess.run(
             command, cwd=ROOT, env=surroundings, capture_output=True, timeout=PATIENCE, check=False
         ).stdout
     except subprocess.TimeoutExpired as stopped:
-        said = stopped.stdout or b""
+        output = stopped.stdout or b""
     answers: dict[str, tuple[str, str]] = {}
-    for line in said.decode(errors="replace").splitlines():
+    for line in output.decode(errors="replace").splitlines():
         with contextlib.suppress(ValueError):  # a driver may print as well
             name, found, wrong = json_of(line)
             answers[str(name)] = str(found), str(wrong)

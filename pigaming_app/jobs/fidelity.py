@@ -1,54 +1,63 @@
-"""The job `fidelity`: record real robots, find out what their wheels are like, and let the simulator know.
-
-`record FILE` lets the robots dance and writes what they were told and where they were seen. `identify FILE` finds their
-drivetrains, says how much better the simulator then foresees them, and keeps them for the arcade. `replay FILE` plays a
-run again in the simulator.
-"""
+"""Measure real robots for the simulator: record a run, identify the drivetrains, replay the run in the simulator."""
 
 import json
 import os
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.session.workshop import kept_robots, open_workshop, wiring
+from pigaming_app.jobs.options import mat_settings, path, shared, whole
+from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.storage.parsing import reason
 
+LONGEST = 3600  # s of a recording
 HZ = 50
 LOST = 5.0  # s of robots that cannot drive after which a recording is given up
 
 
-class NotDone(Exception):
-    """What was asked for cannot be done; the text is one sentence."""
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("step", choices=list(STEPS), help="in this order, on the same run")
+    parser.add_argument("file", type=path, metavar="FILE", help="run (JSONL)")
+    parser.add_argument(
+        "--seconds", type=whole(high=LONGEST), metavar="NUMBER", default=60, help="record: length; default 60"
+    )
+    parser.add_argument("--out", type=path, metavar="FILE", help="identify: drivetrains (TOML); default: the arcade's")
+    parser.add_argument("--plots", type=path, metavar="FOLDER", help="identify: draw the errors (extra `plots`)")
+    parser.add_argument("--robots", type=path, metavar="FILE", help="replay: drivetrains; default: the arcade's")
+    shared(parser, "--emulate", "--camera", "--port", "--json")
 
 
 def run(arguments: Namespace) -> int:
-    """Do the job. Raises NotDone."""
-    told = {"record": record, "identify": identify, "replay": replay}[arguments.what](arguments)
+    """Carry out one step and print its result. Raises Refusal or NotSaved."""
+    mat_settings(arguments)
+    if arguments.plots is not None:
+        require("plots")
+    result = STEPS[arguments.step](arguments)
     if arguments.json:
-        print(json.dumps(told))
+        print(json.dumps(result))
     else:
-        for line in told["said"]:
+        for line in result["said"]:
             print(line)
     return 0
 
 
 def record(arguments: Namespace) -> dict[str, Any]:
-    """Let the robots dance for a while on an empty mat, and write the run."""
+    """Drive the robots for a while on an empty mat, and write their commands and poses. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
     from pigaming_app.hardware.recordings import Recorder
     from pigaming_app.hardware.vision.markers import NoVision
     from pigaming_app.storage.safe_files import check_target
 
     if arguments.emulate is None and wiring().radio == "stock":
-        raise NotDone(NO_DEADMAN)
+        raise Refusal(NO_DEADMAN)
+    require("hardware")
     check_target(arguments.file)
-    try:
+    with refused(ValueError, ImportError, NoVision):
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
-    except (ValueError, ImportError, NoVision) as trouble:
-        raise NotDone(str(trouble)) from None
     try:
         present = _present(shop)
         recorder = Recorder(arguments.file, shop.mm, arguments.emulate is not None)
@@ -60,7 +69,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
         finally:
             recorder.discard()
     except OSError as trouble:
-        raise NotDone(f"{arguments.file}: cannot be written ({reason(trouble)})") from None
+        raise Refusal(f"{arguments.file}: cannot be written ({reason(trouble)})") from None
     finally:
         shop.close()
     robots = ", ".join(str(robot + 1) for robot in present)
@@ -69,18 +78,18 @@ def record(arguments: Namespace) -> dict[str, Any]:
 
 
 def _present(shop: Any) -> list[int]:
-    """The robots that are seen and heard. Raises NotDone, before any run kept earlier is written over."""
+    """The robots that are seen and heard. Raises Refusal, before an earlier run is overwritten."""
     for _ in range(HZ):
         shop.tick()
         shop.rig.pump()
     present = [i for i, seen in enumerate(shop.rig.sense()) if seen.age < 1.0 and shop.rig.telemetry(i)]
     if not present:
-        raise NotDone("No robot is both seen and heard: look at them with the job robots.")
+        raise Refusal("No robot is both seen and heard: see the job robots.")
     return present
 
 
 def _dance(shop: Any, present: list[int], seconds: float) -> None:
-    """Let them drive for a while. Raises NotDone."""
+    """Drive these robots for so many s. Raises Refusal."""
     from pigaming_app.hardware.control.real_plant import RealPlant
     from pigaming_app.hardware.sysid.excitation import Dance
     from pigaming_app.sim.world import DT, World
@@ -94,32 +103,30 @@ def _dance(shop: Any, present: list[int], seconds: float) -> None:
         shop.tick()
         stuck = stuck + 1 if plant.safety.pauses else 0
         if stuck > LOST * HZ:
-            raise NotDone(f"The robots cannot drive. {plant.faults[0]}")
+            raise Refusal(f"The robots cannot drive. {plant.faults[0]}")
 
 
 def identify(arguments: Namespace) -> dict[str, Any]:
-    """Find the drivetrains, keep them, tell and draw how good they are."""
+    """Identify and save the drivetrains; compare the simulator with and without them. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.session.assembly import measured
     from pigaming_app.hardware.sysid.evaluate import HORIZONS, TooShort, measure
     from pigaming_app.sim.drivetrain import DrivetrainError, tell
-    from pigaming_app.storage.safe_files import NotSaved, keep
+    from pigaming_app.storage.safe_files import keep
 
     run = _load(arguments.file)
     out = arguments.out or kept_robots(run.emulated)
-    try:
+    with refused(TooShort, DrivetrainError):
         verdicts = measure(run)
         drivetrains = list(measured(out))
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
         keep(out, tell(drivetrains))
-    except (TooShort, NotSaved, DrivetrainError) as trouble:
-        raise NotDone(str(trouble)) from None
-    said = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on what was held out"]
+    said = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on held-out data"]
     for one in verdicts:
         before, after = (" ".join(f"{mm:7.1f}" for mm in errors.mm) for errors in (one.before, one.after))
         said.append(f"robot {one.robot + 1}  nominal {before}   identified {after}")
     left_out = sorted(run.courses.keys() - {one.robot for one in verdicts})
-    said += [f"robot {robot + 1}  is left out: it hardly moved, or what was found makes no sense" for robot in left_out]
+    said += [f"robot {robot + 1}  left out: it hardly moved, or its result is implausible" for robot in left_out]
     said.append(f"kept in {out}")
     if arguments.plots:
         said += _draw(run, verdicts, arguments.plots)
@@ -137,23 +144,21 @@ def identify(arguments: Namespace) -> dict[str, Any]:
 
 
 def _known(figures: tuple[float, ...]) -> list[float | None]:
-    """Figures as JSON has them: None where too little was seen to tell."""
+    """Figures for JSON: None where there are too few samples."""
     return [figure if isfinite(figure) else None for figure in figures]
 
 
 def replay(arguments: Namespace) -> dict[str, Any]:
-    """Play a run again in the simulator, with the robots of a file or the kept ones."""
+    """Play a run again in the simulator, with the drivetrains of a file or the saved ones. Raises Refusal."""
     from pigaming_app.hardware.session.assembly import measured
     from pigaming_app.hardware.sysid.evaluate import replay as play_again
     from pigaming_app.sim.drivetrain import DrivetrainError
 
     run = _load(arguments.file)
     if arguments.robots and not os.path.exists(arguments.robots):
-        raise NotDone(f"{arguments.robots}: there is no such file")
-    try:
+        raise Refusal(f"{arguments.robots}: there is no such file")
+    with refused(DrivetrainError):
         drivetrains = measured(arguments.robots or kept_robots(run.emulated))
-    except DrivetrainError as trouble:
-        raise NotDone(str(trouble)) from None
     said, robots = [], {}
     for robot, found in play_again(run, drivetrains).items():
         apart = ((found.seen - found.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm
@@ -167,16 +172,15 @@ def replay(arguments: Namespace) -> dict[str, Any]:
 def _load(file: Path) -> Any:
     from pigaming_app.hardware.recordings import RunError, load
 
-    try:
+    with refused(RunError):
         return load(file)
-    except RunError as trouble:
-        raise NotDone(str(trouble)) from None
 
 
 def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
     from pigaming_app.hardware.sysid.plots import NoPlots, draw
 
-    try:
+    with refused(NoPlots):
         return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
-    except NoPlots as missing:
-        return [str(missing)]
+
+
+STEPS = {"record": record, "identify": identify, "replay": replay}

@@ -1,16 +1,17 @@
-"""The job `league`: every brain against every other, told as two tables not wider than 100 columns, or as JSON.
+"""A round robin of AIs: ratings and a cross table, at most 100 columns wide."""
 
-The first says who stands where, the second how each fared against each.
-"""
-
-import argparse
 import json
 import sys
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 from pigaming_app.ai.experiments import league as leagues
 from pigaming_app.ai.experiments.league import Duel, League, Standing
+from pigaming_app.games.setup import ChoiceError
+from pigaming_app.jobs.options import AIS, duel_options, game_option, goal
+from pigaming_app.jobs.refusal import refused
+from pigaming_app.sim.arena import ArenaError
 
 WIDTH = 100  # columns
 NOTES = (
@@ -20,30 +21,38 @@ NOTES = (
 )
 
 
-def rank(arguments: argparse.Namespace, goal: int | None) -> int:
-    """Play the league that the command line asked for, and tell how it went. Raises ChoiceError or ArenaError."""
-    found = leagues.league(
-        arguments.game,
-        arguments.brains,
-        arguments.matches,
-        arguments.seed,
-        arguments.minutes,
-        arguments.arena,
-        arguments.variant,
-        goal=goal,
-        heard=_progress if sys.stderr.isatty() else None,
-    )
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    game_option(parser, required=True)
+    parser.add_argument("brains", nargs="*", metavar="AI", help=AIS)
+    duel_options(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Play the league and print its tables. Raises Refusal."""
+    with refused(ChoiceError, ArenaError):
+        found = leagues.league(
+            arguments.game,
+            arguments.brains,
+            arguments.matches,
+            arguments.seed,
+            arguments.minutes,
+            arguments.arena,
+            arguments.variant,
+            goal=goal(arguments),
+            heard=_progress if sys.stderr.isatty() else None,
+        )
     if sys.stderr.isatty():
         print(end="\r\x1b[K", file=sys.stderr)
     if arguments.json:
         print(json.dumps(plain(found)))
     else:
-        print("\n".join(line.rstrip() for line in told(found)))
+        print("\n".join(line.rstrip() for line in table(found)))
     return 0
 
 
 def plain(found: League) -> dict[str, object]:
-    """A league as plain values; a brain's rating lies beside its other numbers."""
+    """A league as plain values, each rating among the other numbers of its brain."""
     whole = asdict(found)
     for standing in whole["standings"]:
         rating = standing.pop("rating")
@@ -51,7 +60,7 @@ def plain(found: League) -> dict[str, object]:
     return whole
 
 
-def told(found: League) -> Iterator[str]:
+def table(found: League) -> Iterator[str]:
     """The lines of both tables."""
     brains = [standing.brain for standing in found.standings]
     name = max(len(brain) for brain in brains) + 2
@@ -94,7 +103,7 @@ def _cross(duels: Sequence[Duel], brains: Sequence[str], name: int) -> Iterator[
 
 
 def _cells(duel: Duel) -> Iterator[tuple[tuple[str, str], tuple[str, str]]]:
-    """What a duel says from either side: results, and the interval of the wins."""
+    """A duel from either side: results, and the interval of the wins."""
     for left, right, wins, losses in (
         (duel.left, duel.right, duel.wins, duel.losses),
         (duel.right, duel.left, duel.losses, duel.wins),

@@ -1,13 +1,21 @@
-"""Types of the values of options, for argparse: each accepts what makes sense and says in one line what it needs."""
+"""Options that several jobs share, and the types of their values.
+
+Each type accepts every sensible value and refuses the others in one line (argparse.ArgumentTypeError).
+"""
 
 import argparse
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
+from pigaming_app.jobs.refusal import Refusal
 from pigaming_app.storage.parsing import shown
 
 MOST_WHOLE = 2**63 - 1
+DEFAULT_GAME = "pitanks"
+AIS = "idle, random, easy, normal, hard, or another of the game"
 
 
 def whole(low: int = 1, high: int = MOST_WHOLE) -> Callable[[str], int]:
@@ -54,3 +62,96 @@ def word(text: str) -> str:
     if not text.isprintable():
         raise argparse.ArgumentTypeError(f"{shown(text)} is not a plain text")
     return text
+
+
+SHARED: dict[str, dict[str, Any]] = {
+    "--arena": {"help": "name, or path of a .toml file; default: the game's first"},
+    "--minutes": {"type": real(0.0, 3600.0), "help": "length of a match; default: the game's own"},
+    "--variant": {"help": "set of rules; default: the game's first"},
+    "--laps": {"type": whole(), "metavar": "NUMBER", "help": "length of a race"},
+    "--pallets": {"type": whole(), "metavar": "NUMBER", "help": "pallets that win the factory"},
+    "--seed": {"type": whole(-MOST_WHOLE), "metavar": "NUMBER", "default": 1, "help": "random seed; default 1"},
+    "--json": {"action": "store_true", "help": "print the result as one JSON object"},
+    "--kiosk": {"action": "store_true", "help": "only the operator can leave"},
+    "--display": {
+        "type": whole(high=64),
+        "metavar": "NUMBER",
+        "help": "display, from 1; default: that of the settings",
+    },
+    "--emulate": {
+        "type": whole(0),
+        "nargs": "?",
+        "const": 1,
+        "metavar": "SEED",
+        "help": "emulated robots, camera and projector, no hardware; default seed 1",
+    },
+    "--camera": {"type": whole(0), "metavar": "NUMBER", "help": "camera above the mat, from 0"},
+    "--port": {"type": word, "help": "serial port of the radio; empty: the first one"},
+    "--baud": {"type": whole(), "metavar": "NUMBER", "help": "baud rate of the radio"},
+    "--radio": {"metavar": "MODE", "help": "api2, api1, transparent, or stock (a robot on a cable)"},
+}
+MATCH = ("--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed")
+
+
+def shared(parser: argparse._ActionsContainer, *names: str) -> None:
+    """Declare some of SHARED."""
+    for name in names:
+        parser.add_argument(name, **SHARED[name])
+
+
+def game_option(parser: ArgumentParser, required: bool = False, more: tuple[str, ...] = ()) -> None:
+    """Declare the game, by its position. `more`: other words that may stand there."""
+    from pigaming_app.games.registry import games
+
+    names = ", ".join([*games(), *more])
+    if required:
+        parser.add_argument("game", metavar="GAME", help=names)
+    else:
+        text = f"{names}; default {DEFAULT_GAME}"
+        parser.add_argument("game", metavar="GAME", nargs="?", default=DEFAULT_GAME, help=text)
+
+
+def duel_options(parser: ArgumentParser) -> None:
+    """Declare the matches of a pair of AIs."""
+    parser.add_argument(
+        "--matches", type=whole(), metavar="NUMBER", default=100, help="matches of each pair; default 100"
+    )
+    shared(parser, *MATCH, "--json")
+
+
+def mat_options(parser: ArgumentParser) -> None:
+    """Declare camera and radio of the real robots, for jobs that save them."""
+    group = parser.add_argument_group("real robots", "Camera and radio are saved in the settings.")
+    shared(group, "--emulate", "--camera", "--port", "--baud", "--radio")
+
+
+def goal(arguments: Namespace) -> int | None:
+    """The goal that was given; None: the game's own. Raises Refusal for the goal of another game."""
+    from pigaming_app.games.registry import games
+
+    for name in ("laps", "pallets"):
+        wanted: int | None = getattr(arguments, name)
+        if wanted is not None:
+            if arguments.game in games() and games()[arguments.game].goal != name:
+                raise Refusal(f"--{name}: {arguments.game} is not played for {name}")
+            return wanted
+    return None
+
+
+def display(arguments: Namespace) -> int | None:
+    """The display that was given, from 0; None: that of the settings."""
+    return None if arguments.display is None else arguments.display - 1
+
+
+def mat_settings(arguments: Namespace) -> dict[str, Any]:
+    """The settings of camera and radio that were given. Raises Refusal for a value that does not fit."""
+    from pigaming_app.storage.settings import Settings
+
+    given = {name: getattr(arguments, name, None) for name in ("camera", "port", "baud", "radio")}
+    given = {name: value for name, value in given.items() if value is not None}
+    for name, value in given.items():
+        try:
+            Settings().choose(name, value)
+        except ValueError as error:
+            raise Refusal(f"--{error}") from None
+    return given

@@ -1,9 +1,10 @@
-"""The job `play`: one match, with or without a screen, at any speed, recorded if wished."""
+"""One match, with or without a window, at any speed; on request recorded."""
 
 import argparse
 import json
 import os
 import sys
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter, sleep
@@ -12,8 +13,23 @@ from typing import Any
 from pigaming_app.ai import BRAINS, seated
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.setup import choose
+from pigaming_app.games.setup import ChoiceError, choose
+from pigaming_app.jobs.arcade import show
+from pigaming_app.jobs.options import (
+    DEFAULT_GAME,
+    MATCH,
+    display,
+    game_option,
+    goal,
+    mat_options,
+    mat_settings,
+    path,
+    real,
+    shared,
+)
+from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.jobs.replay_files import save
+from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS
@@ -21,101 +37,131 @@ from pigaming_app.storage.parsing import ParseError, read_text, reason, shown
 from pigaming_app.storage.safe_files import NotSaved, check_target
 from pigaming_app.storage.settings import Settings, folders
 
-HELD_UP = 4.0  # s after which a picture is taken of what holds up real robots
+HELD_UP = 4.0  # s after which a picture is taken of a match that real robots hold up
 FASTEST = 64.0  # times real time that a window shows
 SLOWEST_RATE, FASTEST_RATE = 0.01, 10_000.0  # times real time that can be asked for
-WATCHED = 150  # ticks before a picture in which shots, sparks and treads of it begin
+WATCHED = 150  # ticks before a picture in which its shots, sparks and tread marks begin
 
 
-def play(
-    arguments: argparse.Namespace,
-    goal: int | None,
-    chosen: dict[str, Any],
-    show: Callable[[Any], int],
-    wrong: type[Exception],
-) -> int:
-    """Play what the command line asked for; `show` opens the arcade, `wrong` is raised for a bad value.
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    game_option(parser)
+    parser.add_argument("--game", dest="named_game", help=argparse.SUPPRESS)  # the only way up to 1.4.0
+    parser.set_defaults(game=None)  # to notice a contradiction
+    parser.add_argument("--seats", help="human, off, or an AI for each seat; default human,normal")
+    parser.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; default: the game's own")
+    shared(parser, *MATCH)
+    parser.add_argument("--headless", action="store_true", help="no window, no sound")
+    parser.add_argument("--speed", default="1", help="times real time, or max; default 1")
+    parser.add_argument("--record", type=path, metavar="FILE", help="write a replay")
+    parser.add_argument("--screenshot", type=path, metavar="FILE", help="save a picture (PNG)")
+    parser.add_argument(
+        "--at", type=real(0.0, 3600.0), metavar="SECONDS", default=5.0, help="time of the picture; default 5"
+    )
+    parser.add_argument("--robots", type=path, metavar="FILE", help="simulate these measured robots (see fidelity)")
+    parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
+    mat_options(parser)
+    shared(parser, "--kiosk", "--display", "--json")
 
-    `chosen`: settings of camera and radio.
-    """
-    teams = None
-    if arguments.teams is not None:
-        try:
-            teams = [int(team) for team in arguments.teams.split(",")]
-        except ValueError:
-            raise wrong(f"--teams: {shown(arguments.teams)}; numbers such as 0,0,1,1 are needed") from None
+
+def run(arguments: Namespace) -> int:
+    """Play the match; the exit code. Raises Refusal or NotSaved."""
+    with refused(ChoiceError, ArenaError):
+        return _play(arguments)
+
+
+def _play(arguments: Namespace) -> int:
+    arguments.game = _game(arguments.game, arguments.named_game)
+    wanted = goal(arguments)
+    chosen = mat_settings(arguments)
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
     names = list(BRAINS.get(arguments.game, {}))
     arena, minutes, seed, variant = arguments.arena, arguments.minutes, arguments.seed, arguments.variant
-    setup = choose(arguments.game, seats, arena, minutes, seed, variant, teams, names, goal)
-    speed = _speed(arguments.speed, wrong)
-    real = _real(arguments, setup, speed, wrong)
-    if real:
-        _check_radio(chosen, wrong)
-    plant = _plant(arguments, real, wrong)
-    _check_targets(arguments.record, arguments.screenshot, wrong)
-    if arguments.headless and not real:
+    setup = choose(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
+    speed = _speed(arguments.speed)
+    real_seats = _real_seats(arguments, setup, speed)
+    if real_seats:
+        _check_radio(chosen)
+    plant = _plant(arguments, real_seats)
+    _check_targets(arguments.record, arguments.screenshot)
+    if real_seats or arguments.emulate is not None:
+        require("hardware")
+    if arguments.headless and not real_seats:
         return _headless(arguments, setup, speed, plant)
-    return _on_screen(arguments, setup, min(speed, FASTEST), real, plant, chosen, show, wrong)
+    return _on_screen(arguments, setup, min(speed, FASTEST), real_seats, plant, chosen)
 
 
-def _check_targets(record: Path | None, screenshot: Path | None, wrong: type[Exception]) -> None:
-    """Refuse before the match what could not be written after it. Raises `wrong` or NotSaved."""
+def _game(game: str | None, named: str | None) -> str:
+    """The game, by its position or by --game."""
+    if game is not None and named is not None and game != named:
+        raise Refusal(f"--game: {shown(named)} contradicts {shown(game)}")
+    return next((name for name in (game, named) if name is not None), DEFAULT_GAME)
+
+
+def _teams(text: str | None) -> list[int] | None:
+    try:
+        return None if text is None else [int(team) for team in text.split(",")]
+    except ValueError:
+        raise Refusal(f"--teams: {shown(text)}; numbers such as 0,0,1,1 are needed") from None
+
+
+def _check_targets(record: Path | None, screenshot: Path | None) -> None:
+    """Check before the match that its files can be written after it. Raises Refusal or NotSaved."""
     if screenshot is not None and screenshot.suffix.lower() != ".png":
-        raise wrong(f"--screenshot: {screenshot}: the name of a picture ends in .png")
+        raise Refusal(f"--screenshot: {screenshot}: the name of a picture ends in .png")
     if record is not None and screenshot is not None and os.path.realpath(record) == os.path.realpath(screenshot):
-        raise wrong(f"--record: {record}: the picture has that name")
-    for path in (record, screenshot):
-        if path is not None:
-            check_target(path)
+        raise Refusal(f"--record: {record}: the picture has that name")
+    for target in (record, screenshot):
+        if target is not None:
+            check_target(target)
 
 
-def _plant(arguments: argparse.Namespace, real: list[int], wrong: type[Exception]) -> Callable[[Any], Plant]:
-    """What makes the simulated robots: ideal ones, or with --robots FILE such as `fidelity` measured."""
+def _plant(arguments: Namespace, real: list[int]) -> Callable[[Any], Plant]:
+    """The maker of the simulated robots: ideal ones, or with --robots those that `fidelity` measured."""
     if arguments.robots is None:
         return SimPlant
     if real or arguments.record is not None:
-        raise wrong("--robots: goes without --real and --record")
+        raise Refusal("--robots: goes without --real and --record")
     try:
         drivetrains = parse(read_text(arguments.robots), arguments.robots.name)
     except DrivetrainError as error:
-        raise wrong(str(error)) from None
+        raise Refusal(str(error)) from None
     except (OSError, ParseError) as error:
-        raise wrong(f"{arguments.robots}: cannot be read ({reason(error)})") from None
+        raise Refusal(f"{arguments.robots}: cannot be read ({reason(error)})") from None
     return lambda world: SimPlant(world, drivetrains)
 
 
-def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type[Exception]) -> list[int]:
-    """The seats with real robots, from 0 on; in an emulated arena all, if nothing else is said."""
+def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
+    """The seats with real robots, from 0; in an emulated arena by default all."""
     text = arguments.real if arguments.real is not None else "all" if arguments.emulate is not None else ""
     there = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
     try:
         seats = there if text == "all" else sorted({int(one) - 1 for one in text.split(",") if one})
     except ValueError:
-        raise wrong(f"--real: {shown(text)}; numbers such as 1,3, or all, are needed") from None
+        raise Refusal(f"--real: {shown(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in there]:
-        raise wrong(f"--real: nobody sits on seat {shown(stray[0])}")
+        raise Refusal(f"--real: nobody sits on seat {shown(stray[0])}")
     if seats and arguments.record is not None:
-        raise wrong("--record: what real robots do cannot be played out again; record it with `fidelity record`")
+        raise Refusal("--record: a match of real robots cannot be played out again; use `fidelity record`")
     if seats and speed != 1.0 and not arguments.headless:
-        raise wrong("--speed: real robots drive as fast as they drive")
+        raise Refusal("--speed: real robots drive in real time")
     if seats and arguments.headless and arguments.emulate is None:
-        raise wrong("--headless: real robots need the picture on their mat; add --emulate for emulated ones")
+        raise Refusal("--headless: real robots need the picture on their mat; add --emulate for emulated ones")
     return seats
 
 
-def _check_radio(chosen: dict[str, Any], wrong: type[Exception]) -> None:
-    """Refuse robots whose motors would not stop by themselves, whether the command line or the settings name them."""
+def _check_radio(chosen: dict[str, Any]) -> None:
+    """Raises Refusal for robots without a deadman, whether the command line or the settings name them."""
     from pigaming_app.hardware.session.real import unfit
 
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
     if reason := unfit(settings):
-        raise wrong(f"--radio: {reason}")
+        raise Refusal(f"--radio: {reason}")
 
 
-def _speed(text: str, wrong: type[Exception]) -> float:
-    """How many times real time; infinity for "max"."""
+def _speed(text: str) -> float:
+    """Times real time; infinity for "max"."""
     if text == "max":
         return float("inf")
     try:
@@ -123,12 +169,12 @@ def _speed(text: str, wrong: type[Exception]) -> float:
     except ValueError:
         speed = 0.0
     if not SLOWEST_RATE <= speed <= FASTEST_RATE:
-        raise wrong(f"--speed: {shown(text)}; a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}, or max, is needed")
+        raise Refusal(f"--speed: {shown(text)}; a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}, or max, is needed")
     return speed
 
 
 def _headless(
-    arguments: argparse.Namespace,
+    arguments: Namespace,
     setup: Setup,
     speed: float,
     plant: Callable[[Any], Plant],
@@ -149,7 +195,7 @@ def _headless(
         if arguments.record:
             save(match, arguments.record)
     finally:
-        _tell(match, arguments.json, perf_counter() - began)
+        _print(match, arguments.json, perf_counter() - began)
     if photographer and photographer.trouble:
         raise photographer.trouble
     return 0
@@ -186,14 +232,12 @@ class Photographer:
 
 
 def _on_screen(
-    arguments: argparse.Namespace,
+    arguments: Namespace,
     setup: Setup,
     speed: float,
     real: list[int],
     plant: Callable[[Any], Plant],
     chosen: dict[str, Any],
-    show: Callable[[Any], int],
-    wrong: type[Exception],
 ) -> int:
     """In a window; or, with emulated robots, without one and as fast as this machine can."""
     from pigaming_app.scenes.app import Options
@@ -220,7 +264,7 @@ def _on_screen(
         return shown
 
     def due() -> bool:
-        """The time of the picture has come, or will not come because real robots are missing."""
+        """Whether the time of the picture has come, or cannot come because real robots are missing."""
         nonlocal shot
         if made and not made[0].stuck:
             shot = bool(made[0].match.over or made[0].match.seconds >= arguments.at)
@@ -235,7 +279,7 @@ def _on_screen(
         Options(
             first=scene,
             kiosk=arguments.kiosk,
-            display=None if arguments.display is None else arguments.display - 1,
+            display=display(arguments),
             shot=arguments.screenshot,
             shot_due=due,
             headless=arguments.headless,
@@ -246,12 +290,12 @@ def _on_screen(
         )
     )
     if made and arguments.headless and not arguments.screenshot:
-        _tell(made[0].match, arguments.json, made[0].match.seconds)
+        _print(made[0].match, arguments.json, made[0].match.seconds)
     if made and arguments.record:
         save(made[0].match, arguments.record)
     if code == 0 and arguments.screenshot and not shot:
-        raise wrong("--screenshot: the match was left before its time, so there is no picture")
-    return code if made or not arguments.headless else 2  # no match: why not has been said
+        raise Refusal("--screenshot: the match was left before its time, so there is no picture")
+    return code if made or not arguments.headless else 2  # no match: the reason has been printed
 
 
 def _camera(match: Match) -> Any:
@@ -262,8 +306,8 @@ def _camera(match: Match) -> Any:
     return Still(match)
 
 
-def _tell(match: Match, as_json: bool, seconds: float) -> None:
-    """The table of results."""
+def _print(match: Match, as_json: bool, seconds: float) -> None:
+    """Print the results: a table, or one JSON object."""
     outcome = match.outcome()
     if as_json:
         rows = [
@@ -277,8 +321,12 @@ def _tell(match: Match, as_json: bool, seconds: float) -> None:
             }
             for row in outcome.rows
         ]
-        told = {"game": match.setup.game, "arena": match.setup.arena, "winners": [seat + 1 for seat in outcome.winners]}
-        print(json.dumps({**told, "rows": rows, "match_seconds": outcome.seconds, "seconds": seconds}))
+        result = {
+            "game": match.setup.game,
+            "arena": match.setup.arena,
+            "winners": [seat + 1 for seat in outcome.winners],
+        }
+        print(json.dumps({**result, "rows": rows, "match_seconds": outcome.seconds, "seconds": seconds}))
         return
     for row in outcome.rows:
         brain = match.setup.seats[row.seat].brain

@@ -1,31 +1,39 @@
-"""The job `robots`: what is plugged in, which robots are there and how well; on request who is who, and how late."""
+"""Status of robots, radios and cameras; on request pairing (each robot spins in turn) and latency."""
 
 import json
 import time
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from pigaming_app.hardware.session.workshop import Workshop, keep_radios, open_workshop, wiring
+from pigaming_app.jobs.options import mat_settings, shared
+from pigaming_app.jobs.refusal import Refusal, require
 
 LISTEN = 2.5  # s
 HZ = 50
 CASES = {
-    "fits": "drives marker {marker}, as it should",
-    "swapped": "drives marker {marker}: swap the markers, or go on like this",
-    "none": "no marker turned: is it covered, off the mat, or the battery empty?",
-    "wired": "the robot with marker {marker} turned the wrong way or drove off: check the wires of its motors",
+    "fits": "drives marker {marker}, as expected",
+    "swapped": "drives marker {marker}: swap the markers, or keep this pairing",
+    "none": "no marker turned: it is covered or off the mat, or the battery is empty",
+    "wired": "the robot with marker {marker} turned the wrong way or drove off: check its motor wires",
     "several": "more than one robot turned: two radios have the same number",
     "twice": "two robots wear the same marker",
-    "absent": "nobody answers there",
+    "absent": "no answer",
 }
 
 
-class NotThere(Exception):
-    """What was asked for cannot be done; the text is one sentence."""
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
+    parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
+    shared(parser, "--emulate", "--camera", "--port", "--json")
 
 
 def run(arguments: Namespace) -> int:
-    """Do the job. Raises NotThere."""
+    """Print the status. Raises Refusal."""
+    mat_settings(arguments)
+    if arguments.emulate is not None or arguments.pair or arguments.latency:
+        require("hardware")
     told = look(arguments)
     if arguments.json:
         print(json.dumps(told))
@@ -35,7 +43,7 @@ def run(arguments: Namespace) -> int:
 
 
 def look(arguments: Namespace) -> dict[str, Any]:
-    """All that can be said, by name; what is wrong stands there as a sentence. Raises NotThere."""
+    """The status by name; a fault is a sentence. Raises Refusal."""
     from pigaming_app.hardware.radio.serial_line import ports
     from pigaming_app.hardware.vision.discovery import cameras
     from pigaming_app.hardware.vision.markers import NoVision
@@ -48,9 +56,9 @@ def look(arguments: Namespace) -> dict[str, Any]:
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
     except (ValueError, ImportError, NoVision) as trouble:
         if arguments.emulate is not None:
-            raise NotThere(str(trouble)) from None
+            raise Refusal(str(trouble)) from None
         if arguments.pair or arguments.latency:
-            raise NotThere(f"Robots can only be moved where they are seen. {trouble}") from None
+            raise Refusal(f"Robots move only in view of the camera. {trouble}") from None
         return {**told, **_heard(arguments), "eyes": str(trouble)}
     try:
         return {**told, **_looked(shop, arguments)}
@@ -59,7 +67,7 @@ def look(arguments: Namespace) -> dict[str, Any]:
 
 
 def _heard(arguments: Namespace) -> dict[str, Any]:
-    """What the radio alone tells."""
+    """The status by radio alone."""
     from pigaming_app.hardware.session.assembly import linked
 
     link = linked(wiring(arguments.camera, arguments.port))
@@ -69,7 +77,7 @@ def _heard(arguments: Namespace) -> dict[str, Any]:
 
 
 def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
-    """What is heard and seen; then the robots move, if that was asked for."""
+    """The status by radio and camera; then pairing and latency on request. Raises Refusal."""
     rig, told = shop.rig, dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
         shop.tick()
@@ -80,7 +88,7 @@ def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
     told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if told["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
-        raise NotThere(told["radio"] or "No robot answers: are they switched on?")
+        raise Refusal(told["radio"] or "No robot answers: are they switched on?")
     if arguments.pair:
         told["pairing"] = _paired(shop, kept=arguments.emulate is None)
     if arguments.latency:
@@ -89,7 +97,7 @@ def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
 
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
-    """One robot: its radio, battery (V), how well it is heard, where it is seen (px, px, rad)."""
+    """One robot: its radio, battery (V), share of reports received, and pose (px, px, rad) if it is seen."""
     report, quality = link.telemetry.get(channel), link.quality(channel)
     there = seen is not None and seen.age < 1.0
     return {
@@ -106,19 +114,15 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
 
 
 def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
-    """Spin each robot in turn; remember who is who unless it is unclear."""
+    """Spin each robot in turn; the pairing is saved if it is unambiguous. Raises Refusal."""
     from pigaming_app.hardware.commissioning.pairing import Case, Pairing
-    from pigaming_app.storage.safe_files import NotSaved
 
     pairing = Pairing(shop.rig)
     while not pairing.tick():
         shop.tick()
     shop.rig.channels = pairing.channels
     if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
-        try:
-            keep_radios(pairing.channels)
-        except NotSaved as trouble:
-            raise NotThere(str(trouble)) from None
+        keep_radios(pairing.channels)
     return [
         {"radio": one.channel + 1, "marker": None if one.marker is None else one.marker + 1, "case": str(one.case)}
         for one in sorted(pairing.findings)
@@ -126,7 +130,7 @@ def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
 
 
 def _late(shop: Workshop, robot: int) -> dict[str, Any]:
-    """Shake one robot."""
+    """The latency of one robot, in ms; None where it did not move or was hardly seen."""
     from pigaming_app.hardware.commissioning.latency import Shake
 
     shake = Shake(shop.rig, robot)

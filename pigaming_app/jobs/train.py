@@ -1,18 +1,16 @@
-"""The job `train`: a Q-table trained in self-play, with its progress shown, kept in a file, and measured on the way.
+"""Train an AI from nothing, in self-play. Ctrl-C ends the training after the current match and saves the result.
 
-Ctrl-C ends it after the match that is being played, and keeps what has been learned; `--resume` goes on from there, and
-the table is then the same, to the last bit, as if nothing had happened.
+`--resume` continues from the saved file; the result is the same, to the last bit, as without the interruption.
 """
 
-import argparse
 import csv
 import json
 import signal
 import sys
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
-from importlib.util import find_spec
 from io import BytesIO, StringIO
 from os.path import realpath
 from time import perf_counter
@@ -20,9 +18,14 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
-from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError, one_of
+from pigaming_app.jobs.options import game_option, path, real, shared, whole
+from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.scenes.lab import table_files
+from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 from pigaming_app.storage.safe_files import check_target, write
@@ -34,7 +37,7 @@ MEASURED = 10  # matches for each
 
 
 class Point(NamedTuple):
-    """Where a training stood; wins, ties and losses against the frozen FSM."""
+    """State of a training; wins, ties and losses against the frozen FSM."""
 
     matches: int
     experiences: int
@@ -46,8 +49,32 @@ class Point(NamedTuple):
     losses: int
 
 
-def train(arguments: argparse.Namespace) -> int:
-    """Train as asked. Raises ChoiceError, ArenaError, TableError or NotSaved."""
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("learner", choices=["qlearning"], help="a table, for pitanks only")
+    game_option(parser)
+    parser.add_argument("--reward", type=whole(), default=1, choices=[1, 2], help="published reward; default 1")
+    parser.add_argument(
+        "--matches", type=whole(), metavar="NUMBER", default=200, help="matches of self-play; default 200"
+    )
+    parser.add_argument("--minutes", type=real(0.0, 3600.0), default=2.0, help="length of a match; default 2")
+    shared(parser, "--seed", "--json")
+    parser.add_argument("--arena", default="classic", help="name, or path of a .toml file; default classic")
+    parser.add_argument("--out", type=path, metavar="FILE", required=True, help="table (.npz)")
+    parser.add_argument("--resume", action="store_true", help="continue from that file")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=NUMBER", help="change a hyperparameter")
+    parser.add_argument("--curve", type=path, metavar="FILE", help="learning curve (PNG; extra `plots`)")
+    parser.add_argument("--csv", type=path, metavar="FILE", help="learning curve as numbers")
+    parser.add_argument("--plain", action="store_true", help="without numba: the same table, slower")
+
+
+def run(arguments: Namespace) -> int:
+    """Train, save and print the result; 130 after Ctrl-C. Raises Refusal or NotSaved."""
+    with refused(ChoiceError, ArenaError, TableError):
+        return _train_and_save(arguments)
+
+
+def _train_and_save(arguments: Namespace) -> int:
     _check(arguments)
     course = _begin(arguments)
     points: list[Point] = []
@@ -55,63 +82,66 @@ def train(arguments: argparse.Namespace) -> int:
         print("compiling the training, once", file=sys.stderr)
     course.warm()
     with _interrupts() as stopped:
-        print("Ctrl-C ends it after the match that is being played, and keeps what has been learned", file=sys.stderr)
+        print("Ctrl-C ends the training after the current match and saves the result", file=sys.stderr)
         seconds = _train(course, arguments, points, stopped)
         table_files.save(course.trained(arguments.out.stem), arguments.out)
         if arguments.csv:
             write(arguments.csv, _csv_of(points))
         if arguments.curve:
             write(arguments.curve, _curve_of(points, arguments))
-    _tell(course, arguments, points, seconds, bool(stopped))
+    _print(course, arguments, points, seconds, bool(stopped))
     return 130 if stopped else 0
 
 
-def _check(arguments: argparse.Namespace) -> None:
-    """Say at the door what cannot be done, not after the training."""
+def _check(arguments: Namespace) -> None:
+    """Refuse before the training what would fail after it. Raises Refusal, ChoiceError, ArenaError or NotSaved."""
+    one_of("game", arguments.game, list(games()))
+    if arguments.game != training.GAME:
+        raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
     if not 1 <= arguments.matches <= 1_000_000:
-        raise ChoiceError(f"--matches: {arguments.matches}; possible are 1 to 1000000")
+        raise Refusal(f"--matches: {arguments.matches}; possible are 1 to 1000000")
     if not LEAST_MINUTES <= arguments.minutes <= MOST_MINUTES:
-        raise ChoiceError(f"--minutes: {arguments.minutes:g}; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
+        raise Refusal(f"--minutes: {arguments.minutes:g}; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
     load_arena(training.GAME, arguments.arena)
     if arguments.out.suffix != ".npz":
-        raise ChoiceError(f"--out: {arguments.out}: the name of a table ends in .npz")
+        raise Refusal(f"--out: {arguments.out}: the name of a table ends in .npz")
     if arguments.curve and arguments.curve.suffix.lower() != ".png":
-        raise ChoiceError(f"--curve: {arguments.curve}: the name of a picture ends in .png")
+        raise Refusal(f"--curve: {arguments.curve}: the name of a picture ends in .png")
     taken: set[str] = set()
     for option in ("out", "csv", "curve"):
         path = getattr(arguments, option)
         if path is None:
             continue
         if path.is_dir() or not path.absolute().parent.is_dir():
-            raise ChoiceError(f"--{option}: {path}: there is no such folder, or it is one itself")
+            raise Refusal(f"--{option}: {path}: there is no such folder, or it is one itself")
         if realpath(path) in taken:
-            raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
+            raise Refusal(f"--{option}: {path}: another file of this training has that name")
         taken.add(realpath(path))
         check_target(path)
-    if arguments.curve and find_spec("matplotlib") is None:
-        raise ChoiceError("--curve: matplotlib is missing; `pip install matplotlib`, or use --csv")
+    if arguments.curve:
+        require("plots")
 
 
-def _recipe(arguments: argparse.Namespace) -> Recipe:
-    """The recipe that was asked for. Raises ChoiceError."""
+def _recipe(arguments: Namespace) -> Recipe:
+    """The recipe with the changes of --set. Raises Refusal."""
     kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
     changes: dict[str, float] = {}
     for text in arguments.set:
         name, equals, value = text.partition("=")
         if name not in kinds or not equals:
-            raise ChoiceError(f"--set: {text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
+            raise Refusal(f"--set: {text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
         try:
             changes[name] = kinds[name](value)
         except ValueError:
-            raise ChoiceError(f"--set: {text!r}; {value!r} is not such a number") from None
+            raise Refusal(f"--set: {text!r}; {value!r} is not such a number") from None
     try:
         return replace(RECIPES[arguments.reward], **changes)  # type: ignore[arg-type]
     except ValueError as wrong:
-        raise ChoiceError(f"--set: {wrong}") from None
+        raise Refusal(f"--set: {wrong}") from None
 
 
-def _begin(arguments: argparse.Namespace) -> training.Training:
-    """A fresh training, or one that goes on. Raises ChoiceError or TableError."""
+def _begin(arguments: Namespace) -> training.Training:
+    """A fresh training, or the saved one. Raises Refusal or TableError."""
     recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
     if not arguments.resume:
         return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
@@ -121,15 +151,15 @@ def _begin(arguments: argparse.Namespace) -> training.Training:
     there = (kept.recipe, kept.seed, kept.arena, kept.minutes)
     for word, wish, found in zip(words, asked, there, strict=True):
         if wish != found:
-            raise ChoiceError(f"--resume: {arguments.out.name} was trained with another {word}")
+            raise Refusal(f"--resume: {arguments.out.name} was trained with another {word}")
     if kept.other_engine:
         name = arguments.out.name
         print(f"{name}: trained with another version of the engine; what it learned may fit less", file=sys.stderr)
     return training.resumed(kept, fast)
 
 
-def _train(course: training.Training, arguments: argparse.Namespace, points: list[Point], stopped: list[int]) -> float:
-    """Train on to so many matches, or until stopped; the s that it took, without those spent on measuring."""
+def _train(course: training.Training, arguments: Namespace, points: list[Point], stopped: list[int]) -> float:
+    """Train until that many matches are played, or until stopped; the time that took, without measuring, s."""
     a_match = round(arguments.minutes * 60 * HZ)
     every = max(1, -(-arguments.matches // MEASURES))
     seconds, shown = 0.0, 0.0
@@ -149,7 +179,7 @@ def _train(course: training.Training, arguments: argparse.Namespace, points: lis
 
 
 def _note(course: training.Training, points: list[Point]) -> None:
-    """Measure where the training stands; before the first match nothing has been learned yet, and nothing is played."""
+    """Append the present state of the training, measured against the FSM once a match has been played."""
     score = course.measure(matches=MEASURED) if course.matches else (0, 0, 0)
     pairs = int(course.table.pairs)
     points.append(Point(course.matches, course.experiences, course.temperature, course.visited, pairs, *score))
@@ -171,7 +201,7 @@ def _show(course: training.Training, matches: int, last: Point) -> None:
 
 @contextmanager
 def _interrupts() -> Iterator[list[int]]:
-    """While this lasts Ctrl-C and a polite end only note that somebody wishes to stop."""
+    """Within this context SIGINT and SIGTERM are only noted in the list."""
     stopped: list[int] = []
     kinds = (signal.SIGINT, signal.SIGTERM)
     before = [signal.signal(kind, lambda number, frame: stopped.append(number)) for kind in kinds]
@@ -190,8 +220,8 @@ def _csv_of(points: list[Point]) -> bytes:
     return text.getvalue().encode()
 
 
-def _curve_of(points: list[Point], arguments: argparse.Namespace) -> bytes:
-    """The learning curve as a PNG file: what it scored, what it had seen, how daring it was."""
+def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
+    """The learning curve as a PNG file: results against the FSM, states visited, temperature."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -216,13 +246,11 @@ def _curve_of(points: list[Point], arguments: argparse.Namespace) -> bytes:
     return picture.getvalue()
 
 
-def _tell(
-    course: training.Training, arguments: argparse.Namespace, points: list[Point], seconds: float, stopped: bool
-) -> None:
-    """What came of it."""
+def _print(course: training.Training, arguments: Namespace, points: list[Point], seconds: float, stopped: bool) -> None:
+    """Print the result."""
     last = points[-1]
     if arguments.json:
-        told = {
+        result = {
             "reward": arguments.reward,
             "seed": arguments.seed,
             **last._asdict(),
@@ -234,11 +262,11 @@ def _tell(
             "finished": not stopped,
             "out": str(arguments.out),
         }
-        print(json.dumps(told))
+        print(json.dumps(result))
         return
     how = "compiled" if course.fast else "plain"
     score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against the FSM" if last.matches else ""
     print(f"{course.matches} matches, {course.experiences:,} experiences, {course.visited:,} states: {arguments.out}")
     print(f"trained in {seconds:.1f} s ({how}){score}")
     if stopped:
-        print("stopped before the end; go on with --resume")
+        print("stopped before the end; continue with --resume")

@@ -12,7 +12,9 @@ from threading import Thread
 
 import pygame
 
-FOLDER = Path(__file__).parents[2] / "assets" / "sounds"
+from pigaming_app import ASSETS
+
+FOLDER = ASSETS / "sounds"
 _VOICES = 24  # sounds at the same time; what comes on top is dropped
 _GAP = 0.05  # seconds in which the same sound starts only once: four players mash their buttons
 _log = logging.getLogger(__name__)

@@ -22,8 +22,7 @@ from pigaming_app.boot import interpreter as start
 ROOT = Path(__file__).resolve().parents[2]
 BARE = sys._base_executable
 FILES = ("main.py", "pyproject.toml", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
-FILES += ("pigaming_app/boot/interpreter.py", "pigaming_app/boot/environment.py", "pigaming_app/storage/__init__.py")
-FILES += ("pigaming_app/storage/safe_files.py", "pigaming_app/storage/parsing.py")
+FILES += ("pigaming_app/boot/interpreter.py", "pigaming_app/boot/environment.py")
 JOB = """
 import sys
 

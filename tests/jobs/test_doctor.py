@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from pigaming_app.boot.interpreter import Trouble
+from pigaming_app.cli import main
 from pigaming_app.jobs import doctor
 from pigaming_app.storage.scores import Scores
 
@@ -36,7 +37,7 @@ def line(what):
 
 
 def test_where_all_is_well_the_exit_code_is_zero(capsys):
-    assert doctor.run(as_json=False) == 0
+    assert main(["doctor"]) == 0
     assert capsys.readouterr().out.endswith("All is well.\n")
 
 
@@ -45,7 +46,7 @@ def test_every_line_that_is_not_well_says_what_to_do():
 
 
 def test_as_json_it_is_one_object(capsys):
-    assert doctor.run(as_json=True) == 0
+    assert main(["doctor", "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["ok"]
     assert {"what": "pads", "state": "ok", "found": "Xbox pad", "advice": ""} in report["lines"]
@@ -70,7 +71,7 @@ def test_a_driver_that_hangs_costs_only_its_own_lines(monkeypatch):
 
 def test_a_pygame_that_cannot_be_imported_is_a_problem(monkeypatch, capsys):
     answer(monkeypatch)
-    assert doctor.run(as_json=False) == 1
+    assert main(["doctor"]) == 1
     assert "problem  pygame" in capsys.readouterr().out
 
 

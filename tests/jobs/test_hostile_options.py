@@ -51,6 +51,7 @@ OPTIONS = {
     tuple(TRAIN): ("--reward", "--matches", "--minutes", "--seed", "--arena", "--out", "--set", "--curve", "--csv", ""),
     ("replay", "--verify"): ("",),
     ("bench",): ("",),
+    ("train", "qlearning", "--out", "a.npz"): ("",),
     ("duel", "pitanks", "easy"): ("",),
     ("calibrate", "--sheet", "a.pdf"): ("--edge", "--camera", "--display", "--emulate", "--sheet", ""),
     ("robots", "--nonsense"): ("--camera", "--port", "--emulate", ""),
@@ -134,7 +135,7 @@ def test_a_picture_is_there_whenever_it_was_asked_for(here, at):
 
 
 def test_a_match_that_ends_before_the_time_of_the_picture_is_shown_at_its_end(here):
-    race = ["play", "--game", "race", "--headless", "--speed", "max", "--laps", "1", "--minutes", "2"]
+    race = ["play", "race", "--headless", "--speed", "max", "--laps", "1", "--minutes", "2"]
     assert cli.main([*race, "--seats", "hard,hard", "--screenshot", "a.png", "--at", "3600"]) == 0
     assert pygame.image.load(here / "a.png").get_size() == (1920, 1080)
 

@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.ai.experiments.league import Duel, League, Standing, wilson
 from pigaming_app.ai.experiments.ratings import Rating
 from pigaming_app.cli import main
-from pigaming_app.jobs.league import told
+from pigaming_app.jobs.league import table
 
 NAMES = ["easy", "normal", "hard", "classic", "q1", "q2", "fsm", "random", "idle"]
 
@@ -41,14 +41,14 @@ def made_up(brains: list[str], matches: int) -> League:
 @pytest.mark.parametrize("count", [2, 5, 9])
 @pytest.mark.parametrize("matches", [1, 100, 100_000])
 def test_tables_are_not_wider_than_a_hundred_columns(count, matches):
-    lines = list(told(made_up(NAMES[:count], matches)))
+    lines = list(table(made_up(NAMES[:count], matches)))
     assert max(len(line.rstrip()) for line in lines) <= 100
     cells = [cell for line in lines for cell in re.findall(r"\S+/\S+/\S+", line) if cell[0].isdigit()]
     assert len(cells) == count * (count - 1), "every pair from both sides"
 
 
 def test_a_cell_says_how_the_row_fared_against_the_column():
-    lines = list(told(made_up(["hard", "idle"], 100)))
+    lines = list(table(made_up(["hard", "idle"], 100)))
     head = next(i for i, line in enumerate(lines) if line.split() == ["hard", "idle"])
     assert [line.split() for line in lines[head + 1 : head + 5]] == [
         ["hard", "-", "100/0/0"],

@@ -149,7 +149,7 @@ def test_simulated_robots_drive_like_measured_ones_where_that_is_wished(tmp_path
     slow = Drivetrain(Wheel(60.0, 0.0), Wheel(60.0, 0.0), 62.0, 0.2, 0.1)
     file = tmp_path / "robots.toml"
     file.write_text(tell([slow] * 4))
-    race = ["play", "--game", "race", "--seats", "hard,hard", "--headless", "--speed", "max", "--minutes", "0.4"]
+    race = ["play", "race", "--seats", "hard,hard", "--headless", "--speed", "max", "--minutes", "0.4"]
     ideal, measured = told(capsys, *race), told(capsys, *race, "--robots", str(file))
     assert max(row["laps"] for row in ideal["rows"]) >= 1
     assert max(row["laps"] for row in measured["rows"]) == 0

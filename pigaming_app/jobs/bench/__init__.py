@@ -1,0 +1,65 @@
+"""Performance on this machine: the simulator, frames, start and memory; or `robots`, the proof of the robot loop."""
+
+import json
+import sys
+from argparse import ArgumentParser, Namespace
+from typing import Any
+
+from pigaming_app.jobs.options import game_option, shared
+from pigaming_app.jobs.refusal import refused, require
+
+ROBOTS = "robots"
+
+
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    game_option(parser, more=(ROBOTS,))
+    shared(parser, "--json")
+
+
+def run(arguments: Namespace) -> int:
+    """Measure and print the figures. Raises Refusal."""
+    figures = _robots() if arguments.game == ROBOTS else _game(arguments.game)
+    if arguments.json:
+        print(json.dumps(figures))
+    else:
+        _print(figures)
+    return 0
+
+
+def _game(game: str) -> dict[str, Any]:
+    from pigaming_app.games.registry import games
+    from pigaming_app.games.setup import ChoiceError, one_of
+
+    with refused(ChoiceError):
+        one_of("game", game, [*games(), ROBOTS])
+    from pigaming_app.jobs.bench.figures import measure
+
+    return measure(game)
+
+
+def _robots() -> dict[str, Any]:
+    """The proof of the robot loop; its findings go to standard error as they come."""
+    require("hardware")
+    from pigaming_app.hardware.vision.markers import NoVision, opencv
+    from pigaming_app.jobs.bench.robots import Unproven, measure, reached
+
+    def note(line: str) -> None:
+        print(line, file=sys.stderr, flush=True)
+
+    with refused(NoVision, Unproven):
+        opencv()
+        figures = measure(note)
+    missed = [key for key, good in reached(figures).items() if not good]
+    note(f"not reached: {', '.join(missed)}" if missed else "everything is reached")
+    return figures
+
+
+def _print(figures: dict[str, Any], indent: str = "") -> None:
+    """A line for each figure; those of a group are indented below its name."""
+    for key, value in figures.items():
+        if isinstance(value, dict):
+            print(indent + key)
+            _print(value, indent + "  ")
+        else:
+            print(f"{indent + key:40} {value if not isinstance(value, float) else f'{value:,.3f}'}")

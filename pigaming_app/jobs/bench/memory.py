@@ -1,6 +1,6 @@
 """Resident memory of the arcade in its usual states, each measured in a process of its own without a window.
 
-A match is reached as by a visitor, over the title and the lobby. Time is simulated, so that a minute takes seconds.
+A match is reached over the title and the lobby, as in use. Time is simulated: a minute takes seconds.
 """
 
 import json
@@ -13,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from pigaming_app import ROOT
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -25,11 +26,10 @@ STATES = ("title", "lobby", *games())
 STEP = 1 / 30  # s of a frame
 SECONDS = {"title": 10.0, "lobby": 15.0, "match": 60.0}  # until memory is read
 MINUTES = 5.0  # of a match: it is still running then
-ROOT = Path(__file__).resolve().parents[3]
 
 
 def measure() -> dict[str, float | None]:
-    """Megabytes (2^20 bytes) by state: title, lobby, and a match of each game. None where the system does not tell."""
+    """Megabytes (2^20 bytes) by state: title, lobby, and a match of each game; None where unknown."""
     with ThreadPoolExecutor(2) as pool:
         return dict(zip(STATES, pool.map(measured_alone, STATES), strict=True))
 
@@ -47,7 +47,7 @@ def measured_alone(state: str) -> float | None:
 
 
 def resident_mb() -> float | None:
-    """Megabytes of memory that this process occupies now; None where the system does not tell."""
+    """Megabytes of memory that this process occupies now; None where unknown."""
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
         return round(pages * os.sysconf("SC_PAGE_SIZE") / 2**20, 1)
@@ -61,7 +61,7 @@ def resident_mb() -> float | None:
 
 
 def visit(state: str) -> float | None:
-    """Be in one of STATES for a while; the megabytes at its end."""
+    """Stay in one of STATES for a while; the memory at its end, MB."""
     from pigaming_app.scenes.app import Options, run
 
     way = WAY.get(state, WAY["match"])
@@ -77,17 +77,17 @@ def visit(state: str) -> float | None:
 
 
 class Tour:
-    """One scene after the other, each for some seconds; whatever a scene asks of the stack is ignored."""
+    """Shows one scene after the other, each for some seconds; the stack operations of a scene are ignored."""
 
     def __init__(self, house: "House", state: str, way: "Way") -> None:
         self.house, self.state, self.way = house, state, list(way)
         self._next()
 
     def entered(self) -> None:
-        """Nothing to begin: each scene is entered in its turn."""
+        """Each scene is entered in its turn."""
 
     def on(self, press: Any) -> None:
-        """Nobody presses anything."""
+        """Input is ignored."""
 
     def update(self, seconds: float) -> None:
         """Let time pass for the present scene, or go on to the next."""

@@ -1,9 +1,9 @@
-"""The job `bench robots`: can real robots be trusted to this program? Proven on the emulated arena, in two processes.
+"""The figures of `bench robots`: the proof of the robot loop on the emulated arena, in two processes.
 
-Robots are tracked at 0.35 m/s by a camera of 1080p with 30 and with 60 pictures a second, 80 ms late in all; everything
-in the table of faults goes wrong once; twenty minutes of all three games are played by people who mash the buttons,
-with two in a hundred packets and pictures lost; and a program that drives them is killed. Of several runs the worst
-counts, but for the time that a picture takes: there other programs can only do harm.
+Robots are tracked at 0.35 m/s by a 1080p camera at 30 and at 60 frames/s with 80 ms of latency in all; every fault of
+the table occurs once; twenty minutes of all three games are played with random button mashing and 2 % of packets and
+frames lost; and a process that drives the robots is killed. Of several runs the worst counts, except for the time that
+a frame takes, where the best counts: other programs can only add to it.
 """
 
 from collections.abc import Callable, Mapping
@@ -27,12 +27,12 @@ from pigaming_app.hardware.proof.trials import Followed, Masher, Played, Trail
 from pigaming_app.sim.world import ROBOTS
 
 Found = TypeVar("Found")
-Run = tuple[float, int]  # pictures a second, seed
-RATES = (30.0, 60.0)  # pictures a second
-SECONDS = 20.0  # for which robots are followed
+Run = tuple[float, int]  # frames/s, seed
+RATES = (30.0, 60.0)  # frames/s
+SECONDS = 20.0  # of tracking
 MATCHES, MINUTES = 10, 2.0
-LOST = 0.02  # share of packets, and of pictures, in a match
-TARGETS = {  # what the figures must reach: at most, but for frames_complete
+LOST = 0.02  # share of packets, and of frames, in a match
+TARGETS = {  # upper limits, but for frames_complete
     "pose_rmse_mm": 3.0,
     "pose_rmse_deg": 1.5,
     "tracker_ms": 4.0,
@@ -46,12 +46,12 @@ TARGETS = {  # what the figures must reach: at most, but for frames_complete
 
 
 class Unproven(Exception):
-    """Something that must happen did not: one sentence."""
+    """A proof failed; the text is one sentence."""
 
 
 class Job(NamedTuple):
-    """One match on the mat. `mashed`: by people who mash the buttons, else by the normal AIs; `carried`: somebody puts
-    the robots on their places, else they drive there."""
+    """One match on the mat. `mashed`: played by random button mashing, else by the normal AIs; `carried`: the robots
+    are set down on their places, else they drive there."""
 
     game: str
     arena: str
@@ -63,7 +63,7 @@ class Job(NamedTuple):
 
 
 def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
-    """All figures by name; `note` is told what was found on the way. Raises Unproven."""
+    """All figures by name; `note` receives a line for each finding. Raises Unproven."""
     with ProcessPoolExecutor(2, get_context("spawn"), one_core) as pool:
         followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
         stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
@@ -88,7 +88,7 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
 
 
 def reached(figures: dict[str, float]) -> dict[str, bool]:
-    """Which figures are as good as they must be."""
+    """Whether each figure meets its target."""
     return {
         key: value >= TARGETS[key] if key == "frames_complete" else value <= TARGETS[key]
         for key, value in figures.items()
@@ -96,7 +96,7 @@ def reached(figures: dict[str, float]) -> dict[str, bool]:
 
 
 def jobs() -> list[Job]:
-    """Twenty minutes in all games and many arenas, at both rates."""
+    """Twenty minutes of matches: all games, many arenas, both frame rates."""
     found = []
     for i in range(MATCHES):
         game = list(games())[i % len(games())]
@@ -106,7 +106,7 @@ def jobs() -> list[Job]:
 
 
 def on_mat(job: Job, ground: Ground | None = None) -> Played:
-    """Play a match on an emulated mat of its own; a `ground` that is known need not be found."""
+    """Play a match on its own emulated mat, which is calibrated first unless a `ground` is given."""
     rules = games()[job.game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
@@ -123,17 +123,17 @@ def on_mat(job: Job, ground: Ground | None = None) -> Played:
 
 
 def follow_alone(seed: int, fps: float) -> Followed:
-    """Follow robots, on one core."""
+    """Track robots, on one core."""
     return proving.follow(Trail(Bed(seed, fps)), SECONDS)
 
 
 def calibration(seed: int) -> Ground:
-    """What a calibration finds; it knows its errors on the board that it was not solved from."""
+    """A calibration, with its errors on the board that was left out of the solution."""
     return Bed(seed, RATES[0]).ground
 
 
 def all_emergencies(seed: int, fps: float) -> dict[str, Stopped]:
-    """Everything that can go wrong, one after the other, to different robots."""
+    """All faults, one after the other, on different robots."""
     trail = Trail(Bed(seed, fps))
     stops = {name: emergencies.stop(trail, name, i % ROBOTS) for i, name in enumerate(EMERGENCIES)}
     return {
@@ -156,7 +156,7 @@ def _noted(followed: Mapping[Run, Future[Followed]], note: Callable[[str], None]
 
 
 def _stops(stopped: dict[float, Future[dict[str, Stopped]]], note: Callable[[str], None]) -> dict[str, float]:
-    """Seconds by what went wrong. Raises Unproven when the game did not say what happened."""
+    """Stopping times by fault, s. Raises Unproven where the game did not report the fault."""
     stops = {}
     for fps, future in stopped.items():
         for name, run in _of(future, f"emergencies at {fps:.0f} fps").items():
@@ -168,7 +168,7 @@ def _stops(stopped: dict[float, Future[dict[str, Stopped]]], note: Callable[[str
 
 
 def _match(job: Job, future: Future[Played], note: Callable[[str], None]) -> Played:
-    """How a match went."""
+    """The result of a match. Raises Unproven."""
     run = _of(future, f"{job.game} in {job.arena}, seed {job.seed}")
     note(
         f"{job.game} in {job.arena} at {job.fps:.0f} fps: played to its end in {run.seconds:.0f} s, "
@@ -179,7 +179,7 @@ def _match(job: Job, future: Future[Played], note: Callable[[str], None]) -> Pla
 
 
 def _killed(note: Callable[[str], None]) -> float:
-    """Seconds; 0 where it cannot be tried. Raises Unproven."""
+    """The stopping time, s; 0 where this cannot be tried. Raises Unproven."""
     try:
         seconds = emergencies.kill(1)
     except (OSError, ImportError) as reason:
@@ -192,7 +192,7 @@ def _killed(note: Callable[[str], None]) -> float:
 
 
 def _of(future: Future[Found], what: str) -> Found:
-    """What a process found. Raises Unproven where something that must happen did not."""
+    """The result of a process. Raises Unproven."""
     try:
         return future.result()
     except (RuntimeError, NoGround) as reason:

@@ -1,13 +1,12 @@
-"""The longest frame of every screen, measured by a walk through the arcade in a process of its own; see scenes/walk."""
+"""The longest frame of every screen, measured by scenes/walk in a process of its own."""
 
 import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 from tempfile import TemporaryDirectory
 
-ROOT = Path(__file__).resolve().parents[3]
+from pigaming_app import ROOT
 
 
 def measure() -> dict[str, float]:

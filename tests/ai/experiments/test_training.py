@@ -358,7 +358,7 @@ def test_a_disk_that_is_full_after_the_training_leaves_the_table_before(tmp_path
 
 
 def test_a_curve_without_matplotlib_is_refused_before_the_training(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("pigaming_app.jobs.train.find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert train(tmp_path / "a.npz", "--curve", str(tmp_path / "a.png")) == 2
     assert "matplotlib" in capsys.readouterr().err
     assert not (tmp_path / "a.npz").exists()
@@ -375,7 +375,7 @@ def test_ctrl_c_keeps_what_has_been_learned(tmp_path):
     running.send_signal(signal.SIGINT)
     said, _ = running.communicate(timeout=60)
     assert running.returncode == 130
-    assert b"go on with --resume" in said
+    assert b"continue with --resume" in said
     trained = read(out)
     assert trained.matches > 0
     assert int(trained.rows["experiences"][0]) == 120 * trained.matches

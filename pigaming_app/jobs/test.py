@@ -1,13 +1,15 @@
-"""The job `test`: the linter, the formatter, the type checker and the tests, which share all cores."""
+"""Linter, formatter, type checker and tests, on all cores. Unknown options and files go to pytest."""
 
 import os
 import subprocess
 import sys
 import time
+from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from pigaming_app import INSTALLED, ROOT
+from pigaming_app.jobs.refusal import Refusal
+
 TOOLS: dict[str, tuple[str, ...]] = {
     "ruff check": ("ruff", "check", "--quiet", "."),
     "ruff format": ("ruff", "format", "--check", "--quiet", "."),
@@ -17,13 +19,20 @@ WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "loadfile", "--no-loadscope
 UNSEEN = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
 
 
-def run(for_pytest: Sequence[str] = ()) -> int:
-    """Run every tool, also after one has failed; 0 if all are content. The arguments go to pytest.
+def options(parser: ArgumentParser) -> None:
+    """Declare the options; `for_pytest` collects the unknown ones."""
+    parser.set_defaults(for_pytest=[])
 
-    The summary of pytest comes last on standard output; what failed besides is said after it on standard error.
+
+def run(arguments: Namespace) -> int:
+    """Run every tool, also after one has failed; 0 if all pass. Raises Refusal.
+
+    The summary of pytest comes last on standard output; failures before it are named after it on standard error.
     """
+    if INSTALLED:
+        raise Refusal("an installed package has no tests: run main.py test in a clone")
     failed = [name for name, tool in TOOLS.items() if not _passes(name, tool)]
-    code = _code(("pytest", *WORKERS, *for_pytest))
+    code = _code(("pytest", *WORKERS, *arguments.for_pytest))
     if failed:
         print(f"FAILED before the tests: {', '.join(failed)}", file=sys.stderr)
     return code or int(bool(failed))

@@ -1,8 +1,8 @@
-"""The job `bench`: how fast the engine, the pictures and the start are on this machine.
+"""The figures of `bench`: speed of the engine, frames, start and memory on this machine.
 
-Each figure of speed is the best of several runs: other programs can only make a run slower, so the best is nearest to
-what the code itself needs. The scene is a full match: the game's first arena, all its rules, four normal AIs, and the
-longest way to the goal, so that it does not end while it is measured.
+Each speed is the best of several runs: other programs can only slow a run down, so the best is nearest to the cost of
+the code itself. The scene is a full match: the game's first arena, full rules, four normal AIs and the longest goal, so
+that it does not end during the measurement.
 """
 
 import os
@@ -11,18 +11,18 @@ import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
-from pathlib import Path
 from statistics import median
 from time import perf_counter, time
 from typing import Any
 
+from pigaming_app import INSTALLED, ROOT
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.jobs.bench import memory as bench_memory
-from pigaming_app.jobs.bench import walk as bench_walk
+from pigaming_app.jobs.bench.memory import measure as measure_memory
+from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
@@ -32,7 +32,6 @@ MATCHES = 32
 TICKS = 6000
 FRAMES = 600
 STARTS = 3
-ROOT = Path(__file__).resolve().parents[3]
 
 
 def measure(game: str) -> dict[str, Any]:
@@ -44,7 +43,7 @@ def measure(game: str) -> dict[str, Any]:
         one = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
         both = max(1.0 / one, *(_two_processes(game) for _ in range(3)))
     frames = _frames(game)
-    slowest = bench_walk.measure()
+    slowest = measure_screens()
     return {
         "game": game,
         "plain_us_per_tick": 1e6 * plain,
@@ -55,14 +54,14 @@ def measure(game: str) -> dict[str, Any]:
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
         "worst_frame_ms": max(slowest.values()),
         "worst_frame_ms_by_screen": slowest,
-        "start_s": min(_start() for _ in range(STARTS)),
-        "rss_mb": bench_memory.measure(),
+        "start_s": min(start() for _ in range(STARTS)),
+        "rss_mb": measure_memory(),
         "machine": machine(),
     }
 
 
 def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
-    """The scene that is measured, in so many matches."""
+    """The scene, as a batch of that many matches."""
     rules = games()[game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
@@ -84,7 +83,7 @@ def compiled_ticks(game: str, seed: int) -> float:
 
 
 def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
-    """Play in a process of its own from the moment `start_at` on: when it began, when it ended, ticks played."""
+    """Play in a process of its own from the time `start_at`: begin and end (s since the epoch), ticks played."""
     matches = batch(game, 1000 * seed + 1, 2 * MATCHES, True)
     matches.play(0)
     while time() < start_at:
@@ -94,8 +93,17 @@ def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
     return began, time(), matches.ticks()
 
 
+def start() -> float:
+    """Seconds from the command that starts the arcade to the end of its first frame (and of the program)."""
+    unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    began = perf_counter()
+    command = ["-m", "pigaming_app"] if INSTALLED else [str(ROOT / "main.py")]
+    subprocess.run([sys.executable, *command, "--frames", "1"], cwd=ROOT, env=unseen, check=True)
+    return perf_counter() - began
+
+
 def machine() -> str:
-    """What this was measured on."""
+    """The machine: system, architecture, cores, Python."""
     python = f"Python {platform.python_version()}"
     return f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores, {python}"
 
@@ -117,16 +125,8 @@ def _two_processes(game: str) -> float:
 
 
 def _frames(game: str) -> list[float]:
-    """Milliseconds of each frame of a busy match, sorted, on a display that nobody sees."""
+    """Milliseconds of each frame of a busy match, sorted, on a dummy display."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
     from pigaming_app.scenes.views.benchmark.frame_times import frame_times
 
     return sorted(frame_times(game, FRAMES))
-
-
-def _start() -> float:
-    """Seconds from `python3 main.py` to the end of its first frame of the title (and of the program)."""
-    unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
-    began = perf_counter()
-    subprocess.run([sys.executable, str(ROOT / "main.py"), "--frames", "1"], env=unseen, check=True)
-    return perf_counter() - began

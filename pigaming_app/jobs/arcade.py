@@ -1,0 +1,45 @@
+"""PiGaming, a robot arcade. Without a job it starts on its title; `JOB --help` lists the options of a job."""
+
+import argparse
+from argparse import ArgumentParser, Namespace
+from typing import TYPE_CHECKING
+
+from pigaming_app.jobs.options import display, mat_options, mat_settings, shared, whole
+from pigaming_app.jobs.refusal import refused, require
+
+if TYPE_CHECKING:
+    from pigaming_app.scenes.app import Options
+
+
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.usage = "%(prog)s [JOB] [OPTIONS]"
+    shared(parser, "--kiosk", "--display")
+    mat_options(parser)
+    parser.add_argument("--frames", type=whole(), help=argparse.SUPPRESS)
+
+
+def run(arguments: Namespace) -> int:
+    """Open the arcade on its title. Raises Refusal."""
+    from pigaming_app.scenes.app import Options
+
+    if arguments.emulate is not None:
+        require("hardware")
+    return show(
+        Options(
+            kiosk=arguments.kiosk,
+            display=display(arguments),
+            frames=arguments.frames,
+            emulate=arguments.emulate,
+            chosen=mat_settings(arguments),
+        )
+    )
+
+
+def show(options: "Options") -> int:
+    """Open the arcade until it is closed; its exit code. Raises Refusal where there is no display."""
+    from pigaming_app.scenes.app import run
+    from pigaming_app.ui.window import NoDisplay
+
+    with refused(NoDisplay):
+        return run(options)

@@ -1,0 +1,58 @@
+"""Many matches between two AIs; each seed is played from both sides."""
+
+import json
+from argparse import ArgumentParser, Namespace
+from dataclasses import asdict
+
+from pigaming_app.ai import BRAINS
+from pigaming_app.ai.experiments import league
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import ChoiceError, one_of
+from pigaming_app.jobs.options import AIS, duel_options, game_option, goal
+from pigaming_app.jobs.refusal import refused
+from pigaming_app.sim.arena import ArenaError
+
+
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    game_option(parser, required=True)
+    parser.add_argument("left", metavar="AI", help=AIS)
+    parser.add_argument("right", metavar="AI", help="its opponent")
+    duel_options(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Play the duel and print its result. Raises Refusal."""
+    with refused(ChoiceError, ArenaError):
+        result = _play(arguments)
+    if arguments.json:
+        print(json.dumps(asdict(result)))
+    else:
+        _print(result)
+    return 0
+
+
+def _play(arguments: Namespace) -> league.Duel:
+    one_of("game", arguments.game, list(games()))
+    for brain in (arguments.left, arguments.right):
+        one_of("brain", brain, list(BRAINS[arguments.game]))
+    return league.duel(
+        arguments.game,
+        arguments.left,
+        arguments.right,
+        arguments.matches,
+        arguments.seed,
+        arguments.minutes,
+        arguments.arena,
+        arguments.variant,
+        goal=goal(arguments),
+    )
+
+
+def _print(result: league.Duel) -> None:
+    low, high = result.wilson95
+    print(f"{'':10}{'wins':>7}{'ties':>7}{'losses':>7}{'mean score':>12}")
+    print(f"{result.left:10}{result.wins:7}{result.ties:7}{result.losses:7}{result.mean_score_left:12.2f}")
+    print(f"{result.right:10}{result.losses:7}{result.ties:7}{result.wins:7}{result.mean_score_right:12.2f}")
+    print(f"{result.left} wins {100 * result.wins / result.matches:.1f} % of {result.matches} matches", end=" ")
+    print(f"(Wilson 95 %: {100 * low:.1f} to {100 * high:.1f} %), {result.ticks_per_second:,.0f} ticks/s")

@@ -1,0 +1,21 @@
+"""The user's files before and after a job."""
+
+FOLDERS = ("ghosts", "pictures", "robots")  # below the data folder
+
+
+def sweep() -> None:
+    """Delete the temporary files of processes that were killed."""
+    from pigaming_app.storage.safe_files import sweep as sweep_folders
+    from pigaming_app.storage.settings import folders
+
+    where = folders()
+    sweep_folders(where.config, where.data, *(where.data / folder for folder in FOLDERS))
+
+
+def log(line: str) -> None:
+    """Add a line to the arcade's log."""
+    from pigaming_app.storage.log import note
+    from pigaming_app.storage.parsing import one_line
+    from pigaming_app.storage.settings import folders
+
+    note(folders().data, one_line(line))

@@ -1,0 +1,35 @@
+"""Refusals of jobs: a request that cannot be carried out ends in one line and exit code 2."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
+
+from pigaming_app import INSTALLED
+
+EXTRAS = {"hardware": ("cv2", "OpenCV"), "plots": ("matplotlib", "matplotlib")}  # a module, and the package's name
+FETCHED = "connect this machine to the internet and start main.py again, which installs it"
+
+
+class Refusal(Exception):
+    """A request that cannot be carried out; the text is one line."""
+
+
+@contextmanager
+def refused(*errors: type[Exception]) -> Iterator[None]:
+    """Within this context, errors of these classes become a Refusal with the same text."""
+    try:
+        yield
+    except errors as error:
+        raise Refusal(str(error)) from None
+
+
+def require(extra: str) -> None:
+    """Raises Refusal where an extra of the package is not installed, with the way to install it."""
+    module, name = EXTRAS[extra]
+    if find_spec(module) is None:
+        raise Refusal(f"{name} is missing (extra `{extra}`): {remedy(extra)}")
+
+
+def remedy(extra: str) -> str:
+    """How to install an extra: `main.py` does it in a clone, pip in an installed package."""
+    return f"pip install 'pigaming-app[{extra}]'" if INSTALLED else FETCHED

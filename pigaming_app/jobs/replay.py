@@ -1,0 +1,33 @@
+"""Show a recorded match, or verify that it plays out the same."""
+
+import sys
+from argparse import ArgumentParser, Namespace
+
+from pigaming_app.games.replay import ReplayError, verify
+from pigaming_app.jobs.arcade import show
+from pigaming_app.jobs.options import path
+from pigaming_app.jobs.refusal import refused
+from pigaming_app.jobs.replay_files import load
+
+
+def options(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("file", type=path, metavar="FILE", help="replay")
+    parser.add_argument("--verify", action="store_true", help="no window; exit code 1 if it plays out differently")
+
+
+def run(arguments: Namespace) -> int:
+    """Show or verify the replay; 1: it plays out differently. Raises Refusal."""
+    with refused(ReplayError):
+        found = load(arguments.file)
+        if found.other_engine:
+            name = arguments.file.name
+            print(f"{name}: recorded with another version of the engine; it may play out differently", file=sys.stderr)
+        if arguments.verify:
+            same = verify(found)
+            print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
+            return 0 if same else 1
+    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.play.replay import ReplayScene
+
+    return show(Options(first=lambda house: ReplayScene(house, found), alone=True))

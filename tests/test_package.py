@@ -1,0 +1,176 @@
+"""The package as its users get it: built, installed without extras, and played from a folder that is not the clone."""
+
+import json
+import os
+import subprocess
+import sys
+import tarfile
+import venv
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import pigaming_app
+from pigaming_app.boot.interpreter import ARCADE, python_of, requirements, site_packages
+
+pytestmark = pytest.mark.long
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILD = "import sys\nfrom hatchling import build\nprint(getattr(build, f'build_{sys.argv[1]}')(sys.argv[2]))"
+SHEET = ("calibrate", "--sheet", "a.pdf")
+
+
+def built(kind, tree, folder):
+    """The sdist or wheel that the build backend makes of a folder with the project."""
+    command = [sys.executable, "-c", BUILD, kind, str(folder)]
+    said = subprocess.run(command, cwd=tree, capture_output=True, text=True, check=True).stdout
+    return folder / said.split()[-1]
+
+
+def names(archive):
+    """The files of an sdist, below its one folder, or of a wheel."""
+    if archive.suffix == ".whl":
+        with zipfile.ZipFile(archive) as file:
+            return {name for name in file.namelist() if not name.endswith("/")}
+    with tarfile.open(archive) as file:
+        return {member.name.partition("/")[2] for member in file if member.isfile()}
+
+
+def names_below(folder):
+    return {path.relative_to(ROOT).as_posix() for path in (ROOT / folder).rglob("*") if path.is_file()}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("package")
+
+
+@pytest.fixture(scope="module")
+def sdist(folder):
+    return built("sdist", ROOT, folder)
+
+
+@pytest.fixture(scope="module")
+def wheel(folder):
+    return built("wheel", ROOT, folder)
+
+
+@pytest.fixture(scope="module")
+def environment(folder, wheel):
+    """An environment with the wheel and the packages that it requires without any extra."""
+    place, required = folder / "environment", folder / "required" / "site-packages"
+    venv.create(place, with_pip=True, symlinks=os.name != "nt")
+    required.mkdir(parents=True)
+    for one in requirements([ARCADE]):
+        distribution = metadata.distribution(one.partition(">")[0])
+        for name in {file.parts[0] for file in distribution.files} - {"..", "__pycache__"}:
+            (required / name).symlink_to(Path(distribution.locate_file(name)))
+    (site_packages(place) / "required.pth").write_text(f"{required}\n")
+    command = [python_of(place), "-m", "pip", "install", "-q", "--no-deps", "--no-index", wheel]
+    subprocess.run(command, env=surroundings(folder), check=True)
+    return place
+
+
+def surroundings(folder, **extra):
+    mine = ("PIP_", "PYTHON", "VIRTUAL_ENV", "PIGAMING")
+    clean = {name: value for name, value in os.environ.items() if not name.startswith(mine)}
+    return {**clean, "PIGAMING_HOME": str(folder / "home"), **extra}
+
+
+@pytest.fixture
+def run(folder, environment, tmp_path):
+    """Runs a program of the environment elsewhere; afterwards no environment of our own has been made anywhere."""
+
+    def ended(program, *arguments, **extra):
+        command = [python_of(environment).with_name(program), *arguments]
+        return subprocess.run(
+            command, cwd=tmp_path, env=surroundings(folder, **extra), capture_output=True, text=True, timeout=120
+        )
+
+    yield ended
+    for place in (tmp_path, folder):
+        assert not list(place.rglob(".venv*"))
+    assert not list((folder / "home").rglob("venv-*"))
+
+
+def refused(ended):
+    assert (ended.returncode, ended.stdout, ended.stderr.count("\n")) == (2, "", 1)
+    return ended.stderr
+
+
+def test_the_wheel_has_the_package_and_the_assets_and_no_tests(wheel):
+    inside = {name for name in names(wheel) if ".dist-info/" not in name}
+    package = {name for name in names_below("pigaming_app") if "__pycache__" not in name}
+    assert inside == package | {f"pigaming_app/{name}" for name in names_below("assets")}
+    for kind in ("fonts", "text", "arenas", "brains", "sounds"):
+        assert any(name.startswith(f"pigaming_app/assets/{kind}/") for name in inside)
+
+
+def test_the_sdist_is_complete(sdist):
+    inside = names(sdist)
+    assert inside >= {"main.py", "pyproject.toml", "LICENSE", "README.md", "CHANGELOG.md", ".ci/run"}
+    for kind in ("pigaming_app", "assets", "tests"):
+        assert inside >= {name for name in names_below(kind) if "__pycache__" not in name}
+    assert not [name for name in inside if name.startswith((".venv", ".git/", ".mypy_cache", "build/"))]
+
+
+def test_the_wheel_of_the_sdist_is_that_of_the_tree(sdist, wheel, tmp_path):
+    with tarfile.open(sdist) as file:
+        file.extractall(tmp_path, filter="data")
+    (tree,) = tmp_path.iterdir()
+    again = built("wheel", tree, tmp_path)
+    assert again.name == wheel.name
+    assert names(again) == names(wheel)
+
+
+def test_the_wheel_declares_version_extras_and_program(environment):
+    (installed,) = metadata.distributions(name="pigaming-app", path=[str(site_packages(environment))])
+    assert installed.version == pigaming_app.__version__
+    assert set(installed.metadata.get_all("Provides-Extra")) == {"train", "hardware", "plots", "sounds", "test"}
+    (program,) = installed.entry_points
+    assert (program.name, program.value) == ("pigaming", "pigaming_app.cli:main")
+
+
+def test_a_match_is_played_from_elsewhere(run):
+    seats = ("--seats", "normal,hard", "--minutes", "0.2")
+    ended = run("pigaming", "play", "pitanks", "--headless", "--speed", "max", *seats)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert {line.split()[2] for line in ended.stdout.splitlines()} == {"normal", "hard"}
+
+
+def test_the_arcade_opens_and_can_be_measured(run):
+    code = "from pigaming_app.jobs.bench import figures, memory\nprint(figures.start(), memory.measured_alone('title'))"
+    ended = run("python", "-c", code)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    seconds, megabytes = ended.stdout.split()[-2:]
+    assert float(seconds) > 0.0
+    assert megabytes == "None" or float(megabytes) > 10.0
+
+
+def test_the_doctor_finds_packages_and_assets_and_names_the_extras(run, environment):
+    ended = run("python", "-m", "pigaming_app", "doctor", "--json")
+    report = json.loads(ended.stdout)
+    assert ended.returncode == 0
+    assert report["ok"]
+    lines = {line["what"]: line for line in report["lines"]}
+    assert str(environment) in lines["Python"]["found"]
+    assert {lines[what]["state"] for what in ("numpy", "pygame", "arenas", "texts", "sounds", "fonts", "engine")} == {
+        "ok"
+    }
+    assert lines["numba"]["state"] == "note"
+    assert "pip install 'pigaming-app[train]'" in lines["numba"]["advice"]
+    assert "pip install 'pigaming-app[hardware]'" in lines["opencv-python-headless"]["advice"]
+    assert "main.py" not in ended.stdout
+
+
+def test_a_missing_extra_is_one_line_and_with_it_the_job_works(run, tmp_path):
+    assert "pip install 'pigaming-app[hardware]'" in refused(run("pigaming", *SHEET))
+    everything = os.pathsep.join(folder for folder in sys.path if folder.endswith("-packages"))
+    assert run("pigaming", *SHEET, PYTHONPATH=everything).returncode == 0
+    assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_the_tests_are_not_part_of_it(run):
+    assert "clone" in refused(run("pigaming", "test"))
