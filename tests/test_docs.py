@@ -14,24 +14,30 @@ from operator import attrgetter
 from pathlib import Path
 
 import pytest
-from pigaming_app.ai.classic import Unknown
-from pigaming_app.ai.rewards import RECIPES
-from pigaming_app.games.choices import choose
-from pigaming_app.scores import table
 
-from pigaming_app.ai import make, qlearning, sectors
+from pigaming_app.ai import make
+from pigaming_app.ai.pitanks.classic import Unknown
+from pigaming_app.ai.qlearning import features as sectors
+from pigaming_app.ai.qlearning import learner as qlearning
+from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.games.arenas import parse
-from pigaming_app.games.factory import floor, state
+from pigaming_app.games.factory import layout as floor
+from pigaming_app.games.factory import pedestrians as walker
 from pigaming_app.games.factory import rules as factory_rules
+from pigaming_app.games.factory import state
 from pigaming_app.games.factory.start import Rules as FactoryRules
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
+from pigaming_app.games.race import circuit
 from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race.state import Rules as RaceRules
 from pigaming_app.games.registry import games
-from pigaming_app.scenes import initials
-from pigaming_app.sim import action, angles, arena, circuit, contact, drivetrain, robots, walker, world
+from pigaming_app.games.setup import choose
+from pigaming_app.scenes.results import initials
+from pigaming_app.sim import action, angles, arena, contact, drivetrain, world
+from pigaming_app.sim import robot as robots
 from pigaming_app.sim.record import fields_of
+from pigaming_app.storage.scores import table
 
 race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
 
