@@ -27,9 +27,7 @@ DEBTS = {
     ("boot", "storage"),
     *(("cli", room) for room in ("storage", "ai", "games", "sim", "scenes", "hardware", "ui")),
     ("games", "storage"),
-    ("hardware", "ui"),
     ("sim", "storage"),
-    ("ui", "hardware"),
     ("ui", "scenes"),
 }
 ONLY_IN = {"pygame": {"ui", "scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}

@@ -7,7 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.jobs.options import path, real, whole
+from pigaming_app.ui.i18n import english
 
 
 class NotCalibrated(Exception):
@@ -46,7 +48,6 @@ def run(arguments: argparse.Namespace, show: Callable[[Any], int]) -> int:
 
 def _write(path: Path, edge: float) -> int:
     from pigaming_app.hardware.calibration.marker_sheet import sheet
-    from pigaming_app.hardware.vision.markers import NoVision
     from pigaming_app.storage.safe_files import check_target, write
 
     if path.suffix.lower() != ".pdf":
@@ -54,8 +55,8 @@ def _write(path: Path, edge: float) -> int:
     try:
         check_target(path)
         write(path, sheet(edge))
-    except (NoVision, ValueError) as trouble:
-        raise NotCalibrated(str(trouble)) from None
+    except OperatorError as trouble:
+        raise NotCalibrated(english().explained(trouble.message)) from None
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")
     return 0
 
@@ -69,7 +70,7 @@ def _prove(arguments: argparse.Namespace) -> int:
     try:
         opencv()
     except NoVision as missing:
-        raise NotCalibrated(str(missing)) from None
+        raise NotCalibrated(english().explained(missing.message)) from None
     told = calibrate(arguments.emulate, arguments.robot)
     if arguments.json:
         print(json.dumps(told))

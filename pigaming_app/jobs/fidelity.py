@@ -13,8 +13,11 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.session.workshop import kept_robots, open_workshop, wiring
-from pigaming_app.storage.parsing import reason
+from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession, unfit
+from pigaming_app.jobs.sessions import new_session
+from pigaming_app.storage.parsing import reason as reason_of
+from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.i18n import english
 
 HZ = 50
 LOST = 5.0  # s of robots that cannot drive after which a recording is given up
@@ -37,49 +40,48 @@ def run(arguments: Namespace) -> int:
 
 def record(arguments: Namespace) -> dict[str, Any]:
     """Let the robots dance for a while on an empty mat, and write the run."""
-    from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
     from pigaming_app.hardware.recordings import Recorder
-    from pigaming_app.hardware.vision.markers import NoVision
     from pigaming_app.storage.safe_files import check_target
 
-    if arguments.emulate is None and wiring().radio == "stock":
-        raise NotDone(NO_DEADMAN)
+    if arguments.emulate is None and (reason := unfit(Settings.load(folders().config)[0])):
+        raise NotDone(english().explained(reason))
     check_target(arguments.file)
     try:
-        shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
-    except (ValueError, ImportError, NoVision) as trouble:
-        raise NotDone(str(trouble)) from None
+        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+        rig = session.open()
+    except NoRobots as trouble:
+        raise NotDone(english().explained(trouble.message)) from None
     try:
-        present = _present(shop)
-        recorder = Recorder(arguments.file, shop.mm, arguments.emulate is not None)
+        present = _present(session, rig)
+        recorder = Recorder(arguments.file, session.mm, arguments.emulate is not None)
         try:
-            shop.rig.recorder = recorder
-            _dance(shop, present, arguments.seconds)
-            shop.rig.recorder = None
+            rig.recorder = recorder
+            _dance(session, rig, present, arguments.seconds)
+            rig.recorder = None
             recorder.close()
         finally:
             recorder.discard()
     except OSError as trouble:
-        raise NotDone(f"{arguments.file}: cannot be written ({reason(trouble)})") from None
+        raise NotDone(f"{arguments.file}: cannot be written ({reason_of(trouble)})") from None
     finally:
-        shop.close()
+        session.end()
     robots = ", ".join(str(robot + 1) for robot in present)
     said = [f"{arguments.file}: {arguments.seconds:g} s of robots {robots}. Now: fidelity identify {arguments.file}"]
     return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": said}
 
 
-def _present(shop: Any) -> list[int]:
+def _present(session: RobotSession, rig: Any) -> list[int]:
     """The robots that are seen and heard. Raises NotDone, before any run kept earlier is written over."""
     for _ in range(HZ):
-        shop.tick()
-        shop.rig.pump()
-    present = [i for i, seen in enumerate(shop.rig.sense()) if seen.age < 1.0 and shop.rig.telemetry(i)]
+        session.tick()
+        rig.pump()
+    present = [i for i, seen in enumerate(rig.sense()) if seen.age < 1.0 and rig.telemetry(i)]
     if not present:
         raise NotDone("No robot is both seen and heard: look at them with the job robots.")
     return present
 
 
-def _dance(shop: Any, present: list[int], seconds: float) -> None:
+def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) -> None:
     """Let them drive for a while. Raises NotDone."""
     from pigaming_app.hardware.control.real_plant import RealPlant
     from pigaming_app.hardware.sysid.excitation import Dance
@@ -88,31 +90,35 @@ def _dance(shop: Any, present: list[int], seconds: float) -> None:
     world: Any = World()
     for i in present:
         world.robots[i].present = 1
-    plant, dance, begun, stuck = RealPlant(world, shop.rig, present), Dance(), shop.rig.clock(), 0
-    while shop.rig.clock() - begun < seconds:
-        plant.drive(dance.twists(shop.rig.clock(), plant.sense()), DT)
-        shop.tick()
+    plant, dance, begun, stuck = RealPlant(world, rig, present), Dance(), rig.clock(), 0
+    while rig.clock() - begun < seconds:
+        plant.drive(dance.twists(rig.clock(), plant.sense()), DT)
+        session.tick()
         stuck = stuck + 1 if plant.safety.pauses else 0
         if stuck > LOST * HZ:
-            raise NotDone(f"The robots cannot drive. {plant.faults[0]}")
+            fault = plant.faults[0]
+            cause = english()(f"faults.{fault.name}", robot=(fault.robot or 0) + 1, button="the button")
+            raise NotDone(f"The robots cannot drive. {cause}")
 
 
 def identify(arguments: Namespace) -> dict[str, Any]:
     """Find the drivetrains, keep them, tell and draw how good they are."""
-    from pigaming_app.hardware.session.assembly import measured
+    from pigaming_app.hardware.session.store import load_robots, robots_file
     from pigaming_app.hardware.sysid.evaluate import HORIZONS, TooShort, measure
     from pigaming_app.sim.drivetrain import DrivetrainError, tell
     from pigaming_app.storage.safe_files import NotSaved, keep
 
     run = _load(arguments.file)
-    out = arguments.out or kept_robots(run.emulated)
+    out = arguments.out or robots_file(run.emulated)
     try:
         verdicts = measure(run)
-        drivetrains = list(measured(out))
+        drivetrains = list(load_robots(out))
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
         keep(out, tell(drivetrains))
-    except (TooShort, NotSaved, DrivetrainError) as trouble:
+    except TooShort as trouble:
+        raise NotDone(english().explained(trouble.message)) from None
+    except (NotSaved, DrivetrainError) as trouble:
         raise NotDone(str(trouble)) from None
     said = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on what was held out"]
     for one in verdicts:
@@ -143,7 +149,7 @@ def _known(figures: tuple[float, ...]) -> list[float | None]:
 
 def replay(arguments: Namespace) -> dict[str, Any]:
     """Play a run again in the simulator, with the robots of a file or the kept ones."""
-    from pigaming_app.hardware.session.assembly import measured
+    from pigaming_app.hardware.session.store import load_robots, robots_file
     from pigaming_app.hardware.sysid.evaluate import replay as play_again
     from pigaming_app.sim.drivetrain import DrivetrainError
 
@@ -151,7 +157,7 @@ def replay(arguments: Namespace) -> dict[str, Any]:
     if arguments.robots and not os.path.exists(arguments.robots):
         raise NotDone(f"{arguments.robots}: there is no such file")
     try:
-        drivetrains = measured(arguments.robots or kept_robots(run.emulated))
+        drivetrains = load_robots(arguments.robots or robots_file(run.emulated))
     except DrivetrainError as trouble:
         raise NotDone(str(trouble)) from None
     said, robots = [], {}
@@ -179,4 +185,4 @@ def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
     try:
         return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
     except NoPlots as missing:
-        return [str(missing)]
+        return [english().explained(missing.message)]

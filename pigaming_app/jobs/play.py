@@ -106,12 +106,13 @@ def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type
 
 def _check_radio(chosen: dict[str, Any], wrong: type[Exception]) -> None:
     """Refuse robots whose motors would not stop by themselves, whether the command line or the settings name them."""
-    from pigaming_app.hardware.session.real import unfit
+    from pigaming_app.hardware.session.robot_session import unfit
+    from pigaming_app.ui.i18n import english
 
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
     if reason := unfit(settings):
-        raise wrong(f"--radio: {reason}")
+        raise wrong(f"--radio: {english().explained(reason)}")
 
 
 def _speed(text: str, wrong: type[Exception]) -> float:

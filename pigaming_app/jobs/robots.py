@@ -3,9 +3,15 @@
 import json
 import time
 from argparse import Namespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pigaming_app.hardware.session.workshop import Workshop, keep_radios, open_workshop, wiring
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession
+from pigaming_app.jobs.sessions import new_session
+from pigaming_app.ui.i18n import english
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.control.rig import Rig
 
 LISTEN = 2.5  # s
 HZ = 50
@@ -35,57 +41,57 @@ def run(arguments: Namespace) -> int:
 
 
 def look(arguments: Namespace) -> dict[str, Any]:
-    """All that can be said, by name; what is wrong stands there as a sentence. Raises NotThere."""
+    """All that is known, by name; faults as sentences. Raises NotThere."""
     from pigaming_app.hardware.radio.serial_line import ports
     from pigaming_app.hardware.vision.discovery import cameras
-    from pigaming_app.hardware.vision.markers import NoVision
 
     told: dict[str, Any] = {
         "ports": [found._asdict() for found in ports()],
         "cameras": [known._asdict() for known in cameras()],
     }
     try:
-        shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
-    except (ValueError, ImportError, NoVision) as trouble:
-        if arguments.emulate is not None:
-            raise NotThere(str(trouble)) from None
-        if arguments.pair or arguments.latency:
-            raise NotThere(f"Robots can only be moved where they are seen. {trouble}") from None
-        return {**told, **_heard(arguments), "eyes": str(trouble)}
+        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+    except NoRobots as trouble:
+        raise NotThere(english().explained(trouble.message)) from None
     try:
-        return {**told, **_looked(shop, arguments)}
+        return {**told, **_looked(session, arguments)}
+    except NoRobots as trouble:
+        reason = english().explained(trouble.message)
+        if arguments.pair or arguments.latency:
+            raise NotThere(f"Robots can only be moved where they are seen. {reason}") from None
+        return {**told, **_heard(session), "eyes": reason}
     finally:
-        shop.close()
+        session.end()
 
 
-def _heard(arguments: Namespace) -> dict[str, Any]:
+def _heard(session: RobotSession) -> dict[str, Any]:
     """What the radio alone tells."""
-    from pigaming_app.hardware.session.assembly import linked
-
-    link = linked(wiring(arguments.camera, arguments.port))
-    with link.start():
-        time.sleep(LISTEN)
-        return {"radio": link.trouble and str(link.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
+    link = session.listen()
+    time.sleep(LISTEN)
+    return {"radio": _sentence(session.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
 
 
-def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
-    """What is heard and seen; then the robots move, if that was asked for."""
-    rig, told = shop.rig, dict[str, Any]()
+def _looked(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
+    """What is heard and seen; then the robots move, if that was asked for. Raises NoRobots, NotThere."""
+    rig, told = session.open(), dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
-        shop.tick()
+        session.tick()
         rig.pump()
     seen = rig.sense()
-    told["radio"] = rig.link.trouble and str(rig.link.trouble)
-    told["eyes"] = getattr(rig.eye, "trouble", None)
+    told["radio"], told["eyes"] = _sentence(rig.link.trouble), _sentence(rig.eye.trouble)
     told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if told["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
         raise NotThere(told["radio"] or "No robot answers: are they switched on?")
     if arguments.pair:
-        told["pairing"] = _paired(shop, kept=arguments.emulate is None)
+        told["pairing"] = _paired(session, rig, kept=arguments.emulate is None)
     if arguments.latency:
-        told["latency"] = [_late(shop, i) for i in movable if told["robots"][i]["seen"]]
+        told["latency"] = [_late(session, rig, i) for i in movable if told["robots"][i]["seen"]]
     return told
+
+
+def _sentence(message: OperatorMessage | None) -> str | None:
+    return english().explained(message) if message else None
 
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
@@ -105,18 +111,19 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
     }
 
 
-def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
+def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any]]:
     """Spin each robot in turn; remember who is who unless it is unclear."""
     from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+    from pigaming_app.hardware.session.store import save_radios
     from pigaming_app.storage.safe_files import NotSaved
 
-    pairing = Pairing(shop.rig)
+    pairing = Pairing(rig)
     while not pairing.tick():
-        shop.tick()
-    shop.rig.channels = pairing.channels
+        session.tick()
+    rig.channels = pairing.channels
     if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
         try:
-            keep_radios(pairing.channels)
+            save_radios(pairing.channels)
         except NotSaved as trouble:
             raise NotThere(str(trouble)) from None
     return [
@@ -125,13 +132,13 @@ def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
     ]
 
 
-def _late(shop: Workshop, robot: int) -> dict[str, Any]:
+def _late(session: RobotSession, rig: "Rig", robot: int) -> dict[str, Any]:
     """Shake one robot."""
     from pigaming_app.hardware.commissioning.latency import Shake
 
-    shake = Shake(shop.rig, robot)
+    shake = Shake(rig, robot)
     while not shake.tick():
-        shop.tick()
+        session.tick()
     found = shake.result()
     names = ("acts", "picture", "total", "lag")
     return {"robot": robot + 1, **{f"{name}_ms": found and round(1000 * getattr(found, name)) for name in names}}

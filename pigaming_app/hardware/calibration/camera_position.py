@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
 from pigaming_app.hardware.calibration.solver import least_squares
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
@@ -30,15 +30,14 @@ def hung(ground: Ground, height: float) -> Ground:
     seen. Raises NoGround.
     """
     if not LOWEST <= height <= HIGHEST:
-        sentence = f"A camera {height:.0f} mm above the mat: {LOWEST:.0f} to {HIGHEST:.0f} mm are possible."
-        raise NoGround(Said(sentence, "height", height=f"{height:.0f}", low=f"{LOWEST:.0f}", high=f"{HIGHEST:.0f}"))
+        limits = {"low": f"{LOWEST:.0f}", "high": f"{HIGHEST:.0f}"}
+        raise NoGround(OperatorMessage("height", height=f"{height:.0f}", **limits))
     x, y = np.meshgrid(np.linspace(0.0, WIDTH, 5), np.linspace(0.0, HEIGHT, 4))
     view = _View(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
     first = min((view.start(focal) for focal in np.geomspace(*FOCAL, 24)), key=view.cost)
     best = least_squares(view.misses, first)
     if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > UNLIKE:
-        sentence = f"The mat does not look as from {height:.0f} mm above: measure the camera's height again."
-        raise NoGround(Said(sentence, "other_height", height=f"{height:.0f}"))
+        raise NoGround(OperatorMessage("other_height", height=f"{height:.0f}"))
     return replace(
         ground, foot=(float(best[3] * 1000.0 / ground.mm), float(best[4] * 1000.0 / ground.mm)), height=height
     )
@@ -52,12 +51,11 @@ def stood(ground: Ground, places: Sequence[tuple[float, float]], seen: Sequence[
     """
     there, apparent = np.array(places, dtype=np.float64), ground.on_mat(np.array(seen, dtype=np.float64))
     if len(there) < 2 or float(there.std(axis=0).max()) < 100.0:
-        raise NoGround(Said("The robot must stand in at least two places, far from each other.", "places"))
+        raise NoGround(OperatorMessage("places"))
     away = there - there.mean(axis=0)
     grown = float((away * (apparent - apparent.mean(axis=0))).sum() / (away * away).sum())
     if not ground.lid / HIGHEST < grown - 1.0 < ground.lid / (LOWEST - ground.lid):
-        sentence = "The robot was not where the outlines are: put it there as exactly as possible and try again."
-        raise NoGround(Said(sentence, "beside"))
+        raise NoGround(OperatorMessage("beside"))
     foot = (apparent.mean(axis=0) - grown * there.mean(axis=0)) / (1.0 - grown)
     return replace(ground, foot=(float(foot[0]), float(foot[1])), height=ground.lid * grown / (grown - 1.0))
 

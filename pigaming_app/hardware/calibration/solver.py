@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.calibration.boards import ENOUGH, Board
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
 from pigaming_app.hardware.calibration.lens import Lens
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 
 MEAN_MM, MAX_MM = 1.5, 3.0  # the largest errors on the held-out board with which a calibration is accepted
 ROUNDS = 60
@@ -40,14 +40,12 @@ class Residuals:
         return self.mean_mm <= MEAN_MM and self.max_mm <= MAX_MM
 
     @property
-    def verdict(self) -> Said:
-        """One sentence for the operator."""
-        said = f"The error is {self.mean_mm:.1f} mm in the mean and {self.max_mm:.1f} mm at most"
+    def verdict(self) -> OperatorMessage:
+        """The errors for the operator, and whether they are small enough."""
         errors = {"mean": f"{self.mean_mm:.1f}", "most": f"{self.max_mm:.1f}"}
         if self.accepted:
-            return Said(f"{said}.", "accurate", **errors)
-        sentence = f"{said}, but {MEAN_MM} and {MAX_MM:.0f} are needed: hold everything still, focus, calibrate again."
-        return Said(sentence, "inaccurate", **errors, need_mean=MEAN_MM, need_most=f"{MAX_MM:.0f}")
+            return OperatorMessage("accurate", **errors)
+        return OperatorMessage("inaccurate", **errors, need_mean=MEAN_MM, need_most=f"{MAX_MM:.0f}")
 
 
 def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width_mm: float, display: str) -> Ground:
@@ -59,8 +57,7 @@ def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width
     numbers = [number for number in seen if number in truth]
     for _ in range(3):
         if len(numbers) < ENOUGH:
-            sentence = "The board looks wrong to the camera: is it the picture of this program, and is it flat?"
-            raise NoGround(Said(sentence, "wrong_board"))
+            raise NoGround(OperatorMessage("wrong_board"))
         places, points = _stacked(truth, numbers), _stacked(seen, numbers)
         found = _fit(places, points, size)
         errors = np.abs(_model(found, places, size) - points).reshape(len(numbers), -1).max(axis=1)

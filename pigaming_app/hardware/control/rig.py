@@ -9,7 +9,7 @@ import logging
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from pigaming_app.hardware.control.kinematics import Kinematics
 from pigaming_app.hardware.control.motion_check import Obedience
 from pigaming_app.hardware.control.motion_model import Wear
 from pigaming_app.hardware.control.safety import Signs
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
 from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Image, Telemetry, Wheels
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
@@ -63,7 +64,7 @@ class Talks(Protocol):
     def telemetry(self) -> Mapping[int, Telemetry]: ...
 
     @property
-    def trouble(self) -> Any: ...
+    def trouble(self) -> OperatorMessage | None: ...
 
     def send(self, wheels: Sequence[Wheels | None]) -> None: ...
 

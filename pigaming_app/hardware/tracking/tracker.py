@@ -31,11 +31,17 @@ MARGIN, ASTRAY = 6.0, 200.0  # how far from its prediction a marker is looked fo
 class Tracker:
     """The robots 0 to 3. Times are of `clock`; poses in arena px and rad. Raises NoVision where OpenCV is missing."""
 
-    def __init__(self, ground: Ground, clock: Clock, drivetrains: Sequence[Drivetrain] | None = None) -> None:
+    def __init__(
+        self,
+        ground: Ground,
+        clock: Clock,
+        drivetrains: Sequence[Drivetrain] | None = None,
+        drift: Drift | None = None,
+    ) -> None:
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # which robots are worth searching for; others are taken if they are seen
         self.looked = -inf  # s, when the newest picture was taken that was looked at
-        self.drift: Drift | None = None  # watches the same pictures, where the corner markers are projected
+        self.drift = drift  # watches the same pictures for the corner markers
         self._markers = Markers(ROBOT_IDS)
         self._followers = [Follower(one, ground.mm) for one in drivetrains or [NOMINAL] * ROBOTS]
         self._refused: dict[tuple[int, str], float] = {}

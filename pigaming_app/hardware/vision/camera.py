@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Self
 
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import Clock, Frame
 from pigaming_app.hardware.vision.discovery import why_not
 from pigaming_app.hardware.vision.markers import opencv
@@ -50,7 +50,7 @@ class Camera:
         self._cv = opencv()
         self.number, self.wanted, self.clock, self.settle = number, wanted or Wanted(), clock, settle
         self.fresh = fresh  # whether exposure and the like are found anew; else they stay as a calibration locked them
-        self.trouble: str | None = Said(f"Camera {number} has not shown a picture yet.", "yet", number=number)
+        self.trouble: OperatorMessage | None = OperatorMessage("yet", number=number)
         self.loose: Sequence[str] = ()  # what it goes on correcting by itself
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: Frame | None = None
@@ -129,11 +129,7 @@ class Camera:
                 last = now
                 self._keep(capture, picture)
             elif now - last > STALE:
-                self.trouble = Said(
-                    f"Camera {self.number} has stopped sending pictures: is it unplugged?",
-                    "stopped",
-                    number=self.number,
-                )
+                self.trouble = OperatorMessage("stopped", number=self.number)
                 return
             else:
                 self._closing.wait(0.005)

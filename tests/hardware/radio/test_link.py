@@ -14,6 +14,7 @@ from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import Received, Report
 from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
 from pigaming_app.hardware.signals import Telemetry, Wheels
+from tests.hardware.sentences import sentence
 from tests.hardware.wire import Radio, Time, Wire, run
 
 ROOT = Path(__file__).parents[3]
@@ -159,7 +160,7 @@ def test_a_radio_that_never_answers_is_named(time):
     run(link, time, 0.9)
     assert link.trouble is None
     run(link, time, 0.2)
-    assert str(link.trouble) == (
+    assert sentence(link.trouble) == (
         "COM3 opens, but what should be there does not answer; is it the right port and the right baud rate?"
     )
 
@@ -173,7 +174,7 @@ def test_garbage_on_the_line_is_named_and_forgotten(mode, time):
         wire.coming += b"\x00\xff\x7e\x12\xd4\xff"
 
     run(link, time, 1.2, noise)
-    assert link.trouble.reason == "garbled"
+    assert link.trouble.key == "radio_garbled"
     report = packets.report_packet(Report(1, 0, 0, 5000))
     escaped = mode is Mode.API2
     good = packets.frame(packets.encode(Received(1, -30, 0, report)), escaped)
@@ -187,7 +188,7 @@ def test_a_radio_of_the_other_api_mode_is_named(time):
     radio = Radio(time, escaped=True, ap=1)
     link = Link(lambda: radio, time, name="COM3")
     run(link, time, 0.1)
-    assert str(link.trouble) == "The radio at COM3 is set to AP=1, but the link is not; set both to the same."
+    assert sentence(link.trouble) == "The radio at COM3 is set to AP=1, but the link is not; set both to the same."
 
 
 def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
@@ -198,7 +199,7 @@ def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
     radio.say(Received(1, -40, 0, packets.report_packet(Report(1, 0, packets.DEADMAN, 5000))))
     link.pump()
     assert 0 in link.telemetry
-    assert str(link.trouble) == "The radio at COM3 is set to AP=1 or 2, but the link is not; set both to the same."
+    assert sentence(link.trouble) == "The radio at COM3 is set to AP=1 or 2, but the link is not; set both to the same."
 
 
 def test_a_quiet_transparent_line_is_no_trouble(time):
@@ -232,7 +233,7 @@ def test_a_fault_of_the_program_stops_the_robots_and_is_told():
     link.start()
     link._thread.join(timeout=5.0)
     assert crews(radio) == [STOPPED] * 5
-    assert str(link.trouble) == "COM3 failed: the program has a fault; its log has more."
+    assert sentence(link.trouble) == "COM3 failed: the program has a fault; its log has more."
     link.close()
 
 
@@ -246,6 +247,7 @@ from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
 from pigaming_app.hardware.radio.serial_line import serial_port
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.signals import Wheels
+from tests.hardware.sentences import sentence
 
 link = Link(serial_port(sys.argv[1]), time.monotonic, Air(Mode.TRANSPARENT)).start()
 while link._dialect.broadcasts < 3:

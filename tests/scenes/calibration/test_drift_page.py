@@ -19,7 +19,7 @@ from tests.scenes.measuring import faults, measuring
 from tests.scenes.operated import Operated
 
 SPOT_BOX = pygame.Rect(LEFT + SPOT[0] - DISC, TOP + SPOT[1] - DISC, 2 * DISC, 2 * DISC)
-LONGEST = {language: max((text for key, text in texts(language).items() if key.startswith("vision.")), key=len)
+LONGEST = {language: max((text for key, text in texts(language).items() if key.startswith("hardware.")), key=len)
            for language in LANGUAGES}  # fmt: skip
 OFF = SimpleNamespace(ground=SimpleNamespace(marker=45.0))
 STATES: dict[str, dict[str, Any]] = {
