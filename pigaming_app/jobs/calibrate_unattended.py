@@ -7,7 +7,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-import pygame
 
 from pigaming_app.hardware.calibration.ground_plane import Ground
 from pigaming_app.hardware.emulator.arena import ARENA_AT
@@ -36,7 +35,6 @@ class Operator:
 
     def __init__(self, seed: int, robot: bool = False) -> None:
         self.site, self.robot = EmulatedSite(seed), robot
-        pygame.font.init()
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         canvas.watchers.append(lambda window: self.site.see(pixels_of(window)))
         self.house = House(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
@@ -49,7 +47,6 @@ class Operator:
 
     def frame(self) -> None:
         """One picture."""
-        pygame.event.pump()
         self.stack.turn(self.stack.top.update(FRAME))
         self.stack.top.draw(self.house.canvas.screen)
         self.house.canvas.flip()

@@ -6,14 +6,15 @@ a robot stands on four projected outlines, and how far the camera sees it beside
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import cos, exp, log, sin, sqrt
+from math import exp, log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
-from pigaming_app.hardware.calibration.solver import least_squares
+from pigaming_app.hardware.calibration.least_squares import least_squares
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
@@ -35,7 +36,7 @@ def hung(ground: Ground, height: float) -> Ground:
     x, y = np.meshgrid(np.linspace(0.0, WIDTH, 5), np.linspace(0.0, HEIGHT, 4))
     view = _View(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
     first = min((view.start(focal) for focal in np.geomspace(*FOCAL, 24)), key=view.cost)
-    best = least_squares(view.misses, first)
+    best = least_squares(view.misses, first).at
     if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > UNLIKE:
         raise NoGround(OperatorMessage("other_height", height=f"{height:.0f}"))
     return replace(
@@ -105,16 +106,10 @@ def _mat_to_rays(ground: Ground) -> Matrix:
 
 
 def _turn(vector: Matrix) -> Matrix:
-    """The rotation about a vector by its length (Rodrigues)."""
-    angle = sqrt(float(vector @ vector))
-    x, y, z = vector / max(angle, 1e-12)
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + sin(angle) * cross + (1.0 - cos(angle)) * (cross @ cross))
+    """The rotation about a vector by its length."""
+    return np.asarray(opencv().Rodrigues(vector)[0])
 
 
 def _vector(turn: Matrix) -> Matrix:
-    """The rotation vector of a rotation: its axis is what the rotation leaves alone."""
-    axis = np.linalg.svd(turn - np.eye(3))[2][-1]
-    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    angle = np.arctan2(0.5 * float(axis @ skew), 0.5 * (float(np.trace(turn)) - 1.0))
-    return np.asarray(axis * angle)
+    """The rotation vector of a rotation."""
+    return np.asarray(opencv().Rodrigues(turn)[0]).reshape(-1)

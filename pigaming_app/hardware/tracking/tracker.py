@@ -78,6 +78,11 @@ class Tracker:
         """Where every robot is at a time, and how old its newest sight is then."""
         return _apart([follower.at(now) for follower in self._followers])
 
+    def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]:
+        """Where every robot is at a time, and where robot i is `ahead[i]` s later."""
+        both = [one.along((now, now + more)) for one, more in zip(self._followers, ahead, strict=True)]
+        return _apart([at for at, _ in both]), _apart([later for _, later in both])
+
     def lost(self, robot: int) -> float:
         """Seconds since a robot was seen and believed; 1e9 if it never was."""
         return self._followers[robot].unseen(self.clock())

@@ -185,5 +185,5 @@ def test_a_robot_beside_the_outlines_is_refused():
 
 def test_least_squares_finds_a_valley_that_is_bent():
     """Rosenbrock's, H. H. Rosenbrock 1960: the least is at (1, 1)."""
-    found = least_squares(lambda p: np.array([10.0 * (p[1] - p[0] ** 2), 1.0 - p[0]]), np.array([-1.2, 1.0]), 200)
+    found = least_squares(lambda p: np.array([10.0 * (p[1] - p[0] ** 2), 1.0 - p[0]]), np.array([-1.2, 1.0]), 200).at
     assert found == pytest.approx([1.0, 1.0], abs=1e-6)
