@@ -33,6 +33,7 @@ from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, tell
 from pigaming_app.storage.parsing import LINE
+from tests.hardware.grounds import nominal
 from tests.hostile import HUGE, mutated, toml
 
 BYTES = (
@@ -80,7 +81,7 @@ def test_robots():
 
 @pytest.mark.filterwarnings("error")
 def test_calibrations(tmp_path):
-    tree = tomllib.loads(ground.written(ground.nominal()))
+    tree = tomllib.loads(ground.written(nominal()))
     tree.pop("check")
     path = tmp_path / "calibration.toml"
     used = 0

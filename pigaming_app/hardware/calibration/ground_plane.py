@@ -5,7 +5,7 @@ display, camera or version, or one that somebody edited by hand, is refused in o
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from math import atan2, hypot
 from zlib import crc32
 
@@ -108,13 +108,6 @@ def project(matrix: NDArray[np.float64], points: Points) -> Points:
     return np.asarray(flat[:, :2] / flat[:, 2:])
 
 
-def nominal(camera: tuple[int, int] = (1920, 1080), width_mm: float = 2112.0, height: float = 2500.0) -> Ground:
-    """A camera straight above the middle, without distortion, that sees the whole 1920 x 1080 canvas: for tests."""
-    scale = 1920.0 / camera[0]
-    plane = (scale, 0.0, -160.0, 0.0, scale, -140.0, 0.0, 0.0, 1.0)
-    return Ground("", Lens(camera), plane, width_mm, (800.0, 400.0), height)
-
-
 def written(ground: Ground) -> str:
     """The text of a calibration's file."""
     import tomli_w
@@ -149,11 +142,6 @@ def misfit(ground: Ground, camera: tuple[int, int]) -> OperatorMessage:
     """Why pictures of this size cannot be used with a calibration."""
     theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
     return OperatorMessage("other_camera", theirs=theirs, ours=ours)
-
-
-def measured(ground: Ground, foot: tuple[float, float], height: float) -> Ground:
-    """The same calibration with the camera's place as the operator measured it: foot in arena px, height in mm."""
-    return replace(ground, foot=foot, height=height)
 
 
 def _check(entries: dict[str, object]) -> int:

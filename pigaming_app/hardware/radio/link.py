@@ -45,10 +45,6 @@ class Link:
             raise ValueError(f"{len(wheels)} robots; there are at most {ROBOTS}")
         self._mail = self._clock(), (*wheels, *NOBODY[len(wheels) :])
 
-    def stop(self) -> None:
-        """Stop all robots until the next command."""
-        self._mail = float("-inf"), NOBODY
-
     @property
     def telemetry(self) -> dict[int, Telemetry]:
         """What every robot that was ever heard said last, by robot."""

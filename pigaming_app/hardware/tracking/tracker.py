@@ -1,7 +1,7 @@
 """Where every robot is now: seen a while ago by the camera, predicted from there by the commands sent since.
 
 Every picture corrects the robots' filters at the time when it was taken; `sense` then replays what was sent since.
-Nothing here moves a robot or stops one: `safety` judges `lost`, `doubled` and `looked`.
+Nothing here moves a robot or stops one: `safety` judges ages, `doubled` and `looked`.
 """
 
 from collections.abc import Sequence
@@ -82,10 +82,6 @@ class Tracker:
         """Where every robot is at a time, and where robot i is `ahead[i]` s later."""
         both = [one.along((now, now + more)) for one, more in zip(self._followers, ahead, strict=True)]
         return _apart([at for at, _ in both]), _apart([later for _, later in both])
-
-    def lost(self, robot: int) -> float:
-        """Seconds since a robot was seen and believed; 1e9 if it never was."""
-        return self._followers[robot].unseen(self.clock())
 
     def wear(self, robot: int) -> Wear:
         """What has been learnt of a robot's wheels."""

@@ -54,7 +54,6 @@ class Camera:
         self.loose: Sequence[str] = ()  # what it goes on correcting by itself
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: Frame | None = None
-        self._arrived = float("-inf")
         self._count = 0
         self._lock = threading.Lock()
         self._closing = threading.Event()
@@ -72,11 +71,6 @@ class Camera:
         with self._lock:
             frame, self._newest = self._newest, None
             return frame
-
-    @property
-    def age(self) -> float:
-        """Seconds since a picture came; infinite before the first."""
-        return self.clock() - self._arrived
 
     def close(self) -> None:
         """Let go of the camera, within a second."""
@@ -143,7 +137,7 @@ class Camera:
         captured = told if 0.0 < now - told < PLAUSIBLE else now - ASSUMED
         with self._lock:
             self._count += 1
-            self._newest, self._arrived, self.trouble = Frame(grey, captured, self._count), now, None
+            self._newest, self.trouble = Frame(grey, captured, self._count), None
 
 
 def free(cv: Any, capture: Any) -> None:

@@ -6,9 +6,9 @@ import pytest
 cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN, Drift, corner_markers  # noqa: E402
-from pigaming_app.hardware.calibration.ground_plane import nominal  # noqa: E402
 from pigaming_app.hardware.signals import Frame  # noqa: E402
 from pigaming_app.hardware.vision.markers import CORNER_IDS  # noqa: E402
+from tests.hardware.grounds import nominal  # noqa: E402
 from tests.hardware.pictures import SIZE, speckled  # noqa: E402
 
 GROUND = nominal(SIZE)

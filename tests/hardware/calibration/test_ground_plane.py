@@ -6,9 +6,10 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, measured, nominal, read, written
+from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, read, written
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.signals import Mark
+from tests.hardware.grounds import nominal
 from tests.hardware.sentences import refused, sentence
 
 SIZE = (1920, 1080)
@@ -35,7 +36,7 @@ def test_a_lens_that_bends_inwards_shows_straight_points_nearer_to_its_centre():
 
 def test_a_lid_is_seen_beside_its_place_by_the_height_rule():
     """Similar triangles: 70 mm up under a camera at 2500 mm, 1000 px away, appears 1000 * 70 / 2430 px further out."""
-    ground = measured(nominal(), (0.0, 0.0), 2500.0)
+    ground = replace(nominal(), foot=(0.0, 0.0), height=2500.0)
     apparent = ground.on_mat(ground.seen_at(np.array([[1000.0, 0.0]]), 70.0))[0]
     assert apparent == pytest.approx([1000.0 + 1000.0 * 70.0 / 2430.0, 0.0])
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.ground_plane import nominal
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.real import SizedCamera
 from pigaming_app.hardware.signals import Frame
+from tests.hardware.grounds import nominal
 from tests.hardware.sentences import sentence
 
 

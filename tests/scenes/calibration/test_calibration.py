@@ -18,6 +18,7 @@ from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.hardware.calibration.ground_plane import NoGround
 from pigaming_app.hardware.emulator.site import EmulatedSite
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.serial_line import ERRORS
 from pigaming_app.hardware.session import store
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.calibration.drift_page import CheckPage
@@ -264,10 +265,13 @@ def test_every_sentence_with_a_key_is_said_in_both_languages() -> None:
     keys = set()
     for file in Path(hardware.__file__).parent.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "OperatorMessage" and node.args:
+            named = getattr(node.func, "id", "") if isinstance(node, ast.Call) and node.args else ""
+            if named in ("OperatorMessage", "radio_message"):
+                prefix = "radio_" if named == "radio_message" else ""
                 inside = [one.value for one in ast.walk(node.args[0]) if isinstance(one, ast.Constant)]
-                keys |= {key for key in inside if isinstance(key, str) and key[:1].isalpha()}
-    assert {"few", "busy", "no_camera", "other_display"} <= keys
+                keys |= {prefix + key for key in inside if isinstance(key, str) and key[:1].isalpha()}
+    keys = keys - {"radio_"} | {f"radio_{reason}" for reason in ERRORS.values()}
+    assert {"few", "busy", "no_camera", "other_display", "radio_program", "radio_denied"} <= keys
     for language in ("en", "pt"):
         assert {f"hardware.{key}" for key in keys} <= set(texts(language))
         assert "35" in Words(language).sentence(OperatorMessage("few", seen=1, all=35, needed=26))

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.robots.fault_page import Trouble
-from pigaming_app.scenes.robots.match_scene import RealSessionch
+from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.input.events import Act
@@ -29,10 +29,10 @@ def named(arcade: Arcade) -> list[tuple[str, int | None]]:
     return [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
 
 
-def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealSessionch:
+def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
     """A match whose robots have yet to take their places."""
     match = match_of(arcade.house, match_for("pitanks", "normal easy easy easy", 1.0), [], real)
-    assert isinstance(match, RealSessionch)
+    assert isinstance(match, RealMatch)
     arcade.open(match)
     return match
 
@@ -64,7 +64,7 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
     mat.arena.faults.switch(fault, False, 0)
     play(arcade, 3.0)
     arcade.press(Act.ALT)
-    until(arcade, RealSessionch)
+    until(arcade, RealMatch)
     before = match.match.state.tick
     play(arcade, 2.5)
     assert match.match.state.tick > before
@@ -79,7 +79,7 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(
     play(arcade, 0.1)
     arcade.press(Act.FIRE)
     arcade.shown(PairAgain)
-    until(arcade, RealSessionch, 25.0)
+    until(arcade, RealMatch, 25.0)
     assert arcade.house.settings.radios[:2] == [2, 1]
     assert match.gathering is not None
 
@@ -100,7 +100,7 @@ def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcad
     play(arcade, 0.5)
     assert ("disobeys", 1) in named(arcade)
     arcade.press(Act.EXTRA)
-    until(arcade, RealSessionch)
+    until(arcade, RealMatch)
 
 
 def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedSession) -> None:

@@ -17,7 +17,7 @@ from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.fault_page import Trouble
-from pigaming_app.scenes.robots.match_scene import RealSessionch
+from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.unavailable import Refused
@@ -84,10 +84,10 @@ def until(arcade: Arcade, kind: type, most: float = 8.0) -> float:
     raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {most} s")
 
 
-def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealSessionch:
+def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealMatch:
     """A match of PiTanks whose robots may begin as they stand, running."""
     match = match_of(arcade.house, match_for("pitanks", "normal easy off off", minutes), [], real)
-    assert isinstance(match, RealSessionch)
+    assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
     arcade.press(Act.START)
@@ -98,7 +98,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
 
 def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedSession) -> None:
     match = match_of(arcade.house, match_for("pitanks", "easy easy off off", 0.05), [], (0, 1))
-    assert isinstance(match, RealSessionch)
+    assert isinstance(match, RealMatch)
     starts = [(robot.x, robot.y) for robot in match.match.state.robots[:2]]
     arcade.open(match)
     play(arcade, 1.0, lit=True)
@@ -121,7 +121,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
 @pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
 def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: str) -> None:
     match = match_of(arcade.house, match_for(game, "normal easy normal easy", 0.05), [], (0, 2))
-    assert isinstance(match, RealSessionch)
+    assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
     arcade.press(Act.START)
@@ -156,7 +156,7 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
     assert match.match.state.tick == before
     assert mat.arena.clock() - max(mat.arena.ran[:2]) > 0.5
     mat.arena.faults.switch(fault, False, 1)
-    until(arcade, RealSessionch)
+    until(arcade, RealMatch)
     play(arcade, 2.5)
     assert match.match.state.tick > before
 
@@ -173,7 +173,7 @@ def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedSess
     for kind in (pygame.KEYDOWN, pygame.KEYUP):
         pygame.event.post(pygame.Event(kind, key=pygame.K_SPACE, scancode=pygame.KSCAN_SPACE, mod=0))
         play(arcade, 1.2)
-    until(arcade, RealSessionch)
+    until(arcade, RealMatch)
     play(arcade, 2.0)
     assert match.match.state.tick > before
 
@@ -195,7 +195,7 @@ def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade
     until(arcade, Trouble, 3.0)
     play(arcade, 0.1)
     arcade.press(Act.EXTRA)
-    until(arcade, RealSessionch)
+    until(arcade, RealMatch)
     assert match.real == {0}
     before, x = match.match.state.tick, match.match.state.robots[1].x
     play(arcade, 4.0)
@@ -215,7 +215,7 @@ def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(ar
     assert page.wanted == {0: True, 1: True}
     arcade.press(Act.BACK)
     arcade.press(Act.BACK)
-    assert arcade.shown(RealSessionch).gathering is not None
+    assert arcade.shown(RealMatch).gathering is not None
     play(arcade, 1.0)
     arcade.press(Act.START)
     assert match.plant.real == {0, 1}
@@ -231,7 +231,7 @@ def test_a_battery_that_runs_low_is_only_said(
     ticks = match.match.state.tick
     play(arcade, 1.5)
     mat.arena.robots[1].battery = before
-    assert arcade.shown(RealSessionch) is match
+    assert arcade.shown(RealMatch) is match
     assert match.match.state.tick > ticks + 50
     assert "The battery of robot 2 will soon be empty." in caplog.text
 
@@ -247,7 +247,7 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
     play(arcade, 3.0)
     assert [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults] == [("empty", 1)]
     body.battery = 4.45
-    until(arcade, RealSessionch, 2.0)
+    until(arcade, RealMatch, 2.0)
     body.battery = before
     assert caplog.text.count("the motors stay off below 4.4 V") == 1
 
@@ -265,14 +265,14 @@ def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
     assert caplog.text.count("Robot 2 has stopped by itself") == 1
     monkeypatch.undo()
-    until(arcade, RealSessionch, 2.0)
+    until(arcade, RealMatch, 2.0)
 
 
 def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     match.restart()
     play(arcade, 0.1)
-    again = arcade.shown(RealSessionch)
+    again = arcade.shown(RealMatch)
     assert again is not match
     assert again.real == {0, 1}
     play(arcade, 1.0)
@@ -286,7 +286,7 @@ def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat:
     mat.arena.faults.switch("marker_covered", True, 1)
     mat.arena.faults.switch("robot_off", True, 2)
     match = match_of(arcade.house, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
-    assert isinstance(match, RealSessionch)
+    assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 2.5, lit=True)
     arcade.press(Act.EXTRA)

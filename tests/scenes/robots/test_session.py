@@ -10,18 +10,19 @@ from typing import cast
 import pytest
 
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.hardware.calibration.ground_plane import nominal, written
+from pigaming_app.hardware.calibration.ground_plane import written
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import NoRobots
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Turn
-from pigaming_app.scenes.robots.match_scene import RealSessionch
+from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Press
+from tests.hardware.grounds import nominal
 from tests.hardware.sentences import sentence
 from tests.scenes.arcade import Arcade
 
@@ -134,7 +135,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
     arcade.house.mat = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
     match = match_of(arcade.house, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
-    assert isinstance(match, RealSessionch)
+    assert isinstance(match, RealMatch)
     arcade.open(match)
 
     def told() -> bool:
@@ -152,7 +153,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
     assert soon(lambda: not threads(), 3.0)
 
 
-class Failing(RealSessionch):
+class Failing(RealMatch):
     """A match that breaks as soon as its robots drive."""
 
     def update(self, seconds: float) -> Turn:
@@ -169,7 +170,7 @@ class Failing(RealSessionch):
 def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, alone: bool) -> None:
     houses: list[House] = []
 
-    def first(house: House) -> RealSessionch:
+    def first(house: House) -> RealMatch:
         houses.append(house)
         assert isinstance(house.mat, EmulatedSession)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
