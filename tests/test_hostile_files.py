@@ -25,7 +25,8 @@ from pigaming_app.hardware import recordings as runs
 from pigaming_app.hardware.calibration import ground_plane as ground
 from pigaming_app.hardware.calibration.ground_plane import NoGround
 from pigaming_app.hardware.recordings import RunError
-from pigaming_app.hardware.session.assembly import ground_of, measured
+from pigaming_app.hardware.session.store import load as load_calibration
+from pigaming_app.hardware.session.store import load_robots
 from pigaming_app.hardware.sysid.evaluate import TooShort, measure
 from pigaming_app.hardware.sysid.evaluate import replay as replay_run
 from pigaming_app.jobs import replay_files
@@ -34,6 +35,7 @@ from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, tell
 from pigaming_app.storage.parsing import LINE
+from tests.hardware.grounds import nominal
 from tests.hostile import HUGE, mutated, toml
 
 BYTES = (
@@ -81,7 +83,7 @@ def test_robots():
 
 @pytest.mark.filterwarnings("error")
 def test_calibrations(tmp_path):
-    tree = tomllib.loads(ground.written(ground.nominal()))
+    tree = tomllib.loads(ground.written(nominal()))
     tree.pop("check")
     path = tmp_path / "calibration.toml"
     used = 0
@@ -89,7 +91,7 @@ def test_calibrations(tmp_path):
         kept = tomllib.loads(toml(one))
         path.write_text(toml({**one, "check": ground._check(kept)}), encoding="utf-8")
         with np.errstate(all="raise", under="ignore"):
-            used += refused_or_used(lambda: ground_of(path).fixes([], 0.0), NoGround)
+            used += refused_or_used(lambda: load_calibration(path).fixes([], 0.0), NoGround)
     assert used > 50
 
 
@@ -264,8 +266,8 @@ def test_a_table_with_a_hostile_header_is_refused(tmp_path, header):
 
 READERS = {
     "arena.toml": (lambda path: load_arena("pitanks", str(path)), ArenaError),
-    "robots.toml": (measured, DrivetrainError),
-    "calibration.toml": (ground_of, NoGround),
+    "robots.toml": (load_robots, DrivetrainError),
+    "calibration.toml": (load_calibration, NoGround),
     "run.jsonl": (runs.load, RunError),
     "a.replay": (replay_files.load, ReplayError),
     "a.npz": (table_files.load, TableError),

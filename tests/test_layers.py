@@ -24,11 +24,9 @@ MAY = {
     "cli": {"jobs"},
 }
 DEBTS = {
-    ("hardware", "ui"),
-    ("ui", "hardware"),
     ("ui", "scenes"),
 }
-ONLY_IN = {"pygame": {"ui", "scenes", "hardware"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
+ONLY_IN = {"pygame": {"ui", "scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 

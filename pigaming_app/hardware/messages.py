@@ -1,20 +1,33 @@
-"""Sentences for the operator: English for the log, with a key by which a screen says them in another language."""
+"""Messages for the operator: a key with values. The sentences are in `assets/text`, table `hardware`."""
 
-from typing import Self
-
-
-class Said(str):
-    """A sentence, and how to say it elsewhere: the text `hardware.KEY` with these values put in."""
-
-    key: str
-    values: dict[str, object]
-
-    def __new__(cls, sentence: str, key: str, **values: object) -> Self:
-        made = super().__new__(cls, sentence)
-        made.key, made.values = key, values
-        return made
+from collections.abc import Mapping
 
 
-def said(trouble: BaseException) -> str:
-    """The sentence of an exception, as it was given to it."""
-    return trouble.args[0] if trouble.args and isinstance(trouble.args[0], Said) else str(trouble)
+class OperatorMessage:
+    """A key of the table `hardware` and the values to put into its sentence. `str` is for logs that have no texts."""
+
+    __slots__ = ("key", "values")
+
+    def __init__(self, key: str, **values: object) -> None:
+        self.key = key
+        self.values: Mapping[str, object] = values
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, OperatorMessage) and (self.key, self.values) == (other.key, other.values)
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __str__(self) -> str:
+        return " ".join([self.key, *(f"{name}={value}" for name, value in self.values.items())])
+
+    def __repr__(self) -> str:
+        return f"OperatorMessage({self})"
+
+
+class OperatorError(Exception):
+    """Hardware that cannot be used, with the message for the operator."""
+
+    def __init__(self, message: OperatorMessage) -> None:
+        super().__init__(message)
+        self.message = message

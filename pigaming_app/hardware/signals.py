@@ -10,6 +10,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from pigaming_app.hardware.messages import OperatorMessage
+
 Clock = Callable[[], float]  # s
 Image = NDArray[np.uint8]  # (height, width), grey
 
@@ -24,6 +26,10 @@ class Frame(NamedTuple):
 
 class Eye(Protocol):
     """A camera. Its health is the age of its newest frame, never the word of the driver."""
+
+    @property
+    def trouble(self) -> OperatorMessage | None:
+        """What is wrong with it; None: nothing."""
 
     def newest(self) -> Frame | None:
         """The newest frame that was not given out before, or None."""

@@ -5,6 +5,7 @@ import os
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
+from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.options import display, mat_settings, path, real, shared
 from pigaming_app.jobs.refusal import Refusal, refused, require
@@ -40,12 +41,11 @@ def run(arguments: Namespace) -> int:
 
 def _write(path: Path, edge: float) -> int:
     from pigaming_app.hardware.calibration.marker_sheet import sheet
-    from pigaming_app.hardware.vision.markers import NoVision
     from pigaming_app.storage.safe_files import check_target, write
 
     if path.suffix.lower() != ".pdf":
         raise Refusal(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
-    with refused(NoVision, ValueError):
+    with refused(OperatorError, ValueError):
         check_target(path)
         write(path, sheet(edge))
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")

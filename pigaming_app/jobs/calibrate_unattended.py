@@ -11,7 +11,7 @@ import numpy as np
 from pigaming_app.hardware.calibration.ground_plane import Ground
 from pigaming_app.hardware.emulator.arena import ARENA_AT
 from pigaming_app.hardware.emulator.site import EmulatedSite
-from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.session import store
 from pigaming_app.scenes.calibration.result_page import ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.flow.context import House
@@ -19,7 +19,7 @@ from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import Words, english
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.sounds import Sounds
@@ -83,12 +83,17 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
         page = operator.work()
         if page is None:
             return {"saved": False, "trouble": "The calibration timed out."}
-        finding, trouble = page.finding, page.finding.trouble
+        finding, reason = page.finding, page.finding.trouble
+        trouble = reason and english().explained(reason)
         if finding.good:
             operator.press(Act.FIRE)
             trouble = page.sentence or None
         saved = finding.good and operator.stack.top is operator.page
-        told: dict[str, Any] = {"saved": saved, "trouble": trouble, "file": str(kept.path(operator.site))}
+        told: dict[str, Any] = {
+            "saved": saved,
+            "trouble": trouble,
+            "file": str(store.calibration_file(operator.site.name)),
+        }
         if finding.residuals and finding.ground:
             told |= {
                 "calibration_mean_mm": finding.residuals.mean_mm,

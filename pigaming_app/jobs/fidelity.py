@@ -8,10 +8,13 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.session.workshop import kept_robots, open_workshop, wiring
+from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession, unfit
 from pigaming_app.jobs.options import mat_settings, path, shared, whole
 from pigaming_app.jobs.refusal import Refusal, refused, require
+from pigaming_app.jobs.sessions import new_session
 from pigaming_app.storage.parsing import reason
+from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.i18n import english
 
 LONGEST = 3600  # s of a recording
 HZ = 50
@@ -47,48 +50,47 @@ def run(arguments: Namespace) -> int:
 
 def record(arguments: Namespace) -> dict[str, Any]:
     """Drive the robots for a while on an empty mat, and write their commands and poses. Raises Refusal or NotSaved."""
-    from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
     from pigaming_app.hardware.recordings import Recorder
-    from pigaming_app.hardware.vision.markers import NoVision
     from pigaming_app.storage.safe_files import check_target
 
-    if arguments.emulate is None and wiring().radio == "stock":
-        raise Refusal(NO_DEADMAN)
+    if arguments.emulate is None and (problem := unfit(Settings.load(folders().config)[0])):
+        raise Refusal(english().explained(problem))
     require("hardware")
     check_target(arguments.file)
-    with refused(ValueError, ImportError, NoVision):
-        shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
+    with refused(NoRobots):
+        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+        rig = session.open()
     try:
-        present = _present(shop)
-        recorder = Recorder(arguments.file, shop.mm, arguments.emulate is not None)
+        present = _present(session, rig)
+        recorder = Recorder(arguments.file, session.mm, arguments.emulate is not None)
         try:
-            shop.rig.recorder = recorder
-            _dance(shop, present, arguments.seconds)
-            shop.rig.recorder = None
+            rig.recorder = recorder
+            _dance(session, rig, present, arguments.seconds)
+            rig.recorder = None
             recorder.close()
         finally:
             recorder.discard()
     except OSError as trouble:
         raise Refusal(f"{arguments.file}: cannot be written ({reason(trouble)})") from None
     finally:
-        shop.close()
+        session.end()
     robots = ", ".join(str(robot + 1) for robot in present)
     said = [f"{arguments.file}: {arguments.seconds:g} s of robots {robots}. Now: fidelity identify {arguments.file}"]
     return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": said}
 
 
-def _present(shop: Any) -> list[int]:
+def _present(session: RobotSession, rig: Any) -> list[int]:
     """The robots that are seen and heard. Raises Refusal, before an earlier run is overwritten."""
     for _ in range(HZ):
-        shop.tick()
-        shop.rig.pump()
-    present = [i for i, seen in enumerate(shop.rig.sense()) if seen.age < 1.0 and shop.rig.telemetry(i)]
+        session.tick()
+        rig.pump()
+    present = [i for i, seen in enumerate(rig.sense()) if seen.age < 1.0 and rig.telemetry(i)]
     if not present:
         raise Refusal("No robot is both seen and heard: see the job robots.")
     return present
 
 
-def _dance(shop: Any, present: list[int], seconds: float) -> None:
+def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) -> None:
     """Drive these robots for so many s. Raises Refusal."""
     from pigaming_app.hardware.control.real_plant import RealPlant
     from pigaming_app.hardware.sysid.excitation import Dance
@@ -97,27 +99,29 @@ def _dance(shop: Any, present: list[int], seconds: float) -> None:
     world: Any = World()
     for i in present:
         world.robots[i].present = 1
-    plant, dance, begun, stuck = RealPlant(world, shop.rig, present), Dance(), shop.rig.clock(), 0
-    while shop.rig.clock() - begun < seconds:
-        plant.drive(dance.twists(shop.rig.clock(), plant.sense()), DT)
-        shop.tick()
+    plant, dance, begun, stuck = RealPlant(world, rig, present), Dance(), rig.clock(), 0
+    while rig.clock() - begun < seconds:
+        plant.drive(dance.twists(rig.clock(), plant.sense()), DT)
+        session.tick()
         stuck = stuck + 1 if plant.safety.pauses else 0
         if stuck > LOST * HZ:
-            raise Refusal(f"The robots cannot drive. {plant.faults[0]}")
+            fault = plant.faults[0]
+            cause = english()(f"faults.{fault.name}", robot=(fault.robot or 0) + 1, button="the button")
+            raise Refusal(f"The robots cannot drive. {cause}")
 
 
 def identify(arguments: Namespace) -> dict[str, Any]:
     """Identify and save the drivetrains; compare the simulator with and without them. Raises Refusal or NotSaved."""
-    from pigaming_app.hardware.session.assembly import measured
+    from pigaming_app.hardware.session.store import load_robots, robots_file
     from pigaming_app.hardware.sysid.evaluate import HORIZONS, TooShort, measure
     from pigaming_app.sim.drivetrain import DrivetrainError, tell
     from pigaming_app.storage.safe_files import keep
 
     run = _load(arguments.file)
-    out = arguments.out or kept_robots(run.emulated)
+    out = arguments.out or robots_file(run.emulated)
     with refused(TooShort, DrivetrainError):
         verdicts = measure(run)
-        drivetrains = list(measured(out))
+        drivetrains = list(load_robots(out))
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
         keep(out, tell(drivetrains))
@@ -150,7 +154,7 @@ def _known(figures: tuple[float, ...]) -> list[float | None]:
 
 def replay(arguments: Namespace) -> dict[str, Any]:
     """Play a run again in the simulator, with the drivetrains of a file or the saved ones. Raises Refusal."""
-    from pigaming_app.hardware.session.assembly import measured
+    from pigaming_app.hardware.session.store import load_robots, robots_file
     from pigaming_app.hardware.sysid.evaluate import replay as play_again
     from pigaming_app.sim.drivetrain import DrivetrainError
 
@@ -158,7 +162,7 @@ def replay(arguments: Namespace) -> dict[str, Any]:
     if arguments.robots and not os.path.exists(arguments.robots):
         raise Refusal(f"{arguments.robots}: there is no such file")
     with refused(DrivetrainError):
-        drivetrains = measured(arguments.robots or kept_robots(run.emulated))
+        drivetrains = load_robots(arguments.robots or robots_file(run.emulated))
     said, robots = [], {}
     for robot, found in play_again(run, drivetrains).items():
         apart = ((found.seen - found.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm

@@ -152,12 +152,13 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
 
 def _check_radio(chosen: dict[str, Any]) -> None:
     """Raises Refusal for robots without a deadman, whether the command line or the settings name them."""
-    from pigaming_app.hardware.session.real import unfit
+    from pigaming_app.hardware.session.robot_session import unfit
+    from pigaming_app.ui.i18n import english
 
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
     if reason := unfit(settings):
-        raise Refusal(f"--radio: {reason}")
+        raise Refusal(f"--radio: {english().explained(reason)}")
 
 
 def _speed(text: str) -> float:

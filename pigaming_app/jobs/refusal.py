@@ -5,6 +5,8 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 
 from pigaming_app import INSTALLED
+from pigaming_app.hardware.messages import OperatorError
+from pigaming_app.ui.i18n import english
 
 EXTRAS = {"hardware": ("cv2", "OpenCV"), "plots": ("matplotlib", "matplotlib")}  # a module, and the package's name
 FETCHED = "connect this machine to the internet and start main.py again, which installs it"
@@ -20,7 +22,12 @@ def refused(*errors: type[Exception]) -> Iterator[None]:
     try:
         yield
     except errors as error:
-        raise Refusal(str(error)) from None
+        raise Refusal(sentence(error)) from None
+
+
+def sentence(error: Exception) -> str:
+    """The text of an error; hardware errors carry a key, whose English sentence this is."""
+    return english().explained(error.message) if isinstance(error, OperatorError) else str(error)
 
 
 def require(extra: str) -> None:

@@ -3,11 +3,17 @@
 import json
 import time
 from argparse import ArgumentParser, Namespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pigaming_app.hardware.session.workshop import Workshop, keep_radios, open_workshop, wiring
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession
 from pigaming_app.jobs.options import mat_settings, shared
-from pigaming_app.jobs.refusal import Refusal, require
+from pigaming_app.jobs.refusal import Refusal, refused, require, sentence
+from pigaming_app.jobs.sessions import new_session
+from pigaming_app.ui.i18n import english
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.control.rig import Rig
 
 LISTEN = 2.5  # s
 HZ = 50
@@ -46,54 +52,51 @@ def look(arguments: Namespace) -> dict[str, Any]:
     """The status by name; a fault is a sentence. Raises Refusal."""
     from pigaming_app.hardware.radio.serial_line import ports
     from pigaming_app.hardware.vision.discovery import cameras
-    from pigaming_app.hardware.vision.markers import NoVision
 
     told: dict[str, Any] = {
         "ports": [found._asdict() for found in ports()],
         "cameras": [known._asdict() for known in cameras()],
     }
+    with refused(NoRobots):
+        session = new_session(arguments.emulate, arguments.camera, arguments.port)
     try:
-        shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
-    except (ValueError, ImportError, NoVision) as trouble:
-        if arguments.emulate is not None:
-            raise Refusal(str(trouble)) from None
+        return {**told, **_looked(session, arguments)}
+    except NoRobots as trouble:
         if arguments.pair or arguments.latency:
-            raise Refusal(f"Robots move only in view of the camera. {trouble}") from None
-        return {**told, **_heard(arguments), "eyes": str(trouble)}
-    try:
-        return {**told, **_looked(shop, arguments)}
+            raise Refusal(f"Robots move only in view of the camera. {sentence(trouble)}") from None
+        return {**told, **_heard(session), "eyes": sentence(trouble)}
     finally:
-        shop.close()
+        session.end()
 
 
-def _heard(arguments: Namespace) -> dict[str, Any]:
+def _heard(session: RobotSession) -> dict[str, Any]:
     """The status by radio alone."""
-    from pigaming_app.hardware.session.assembly import linked
-
-    link = linked(wiring(arguments.camera, arguments.port))
-    with link.start():
-        time.sleep(LISTEN)
-        return {"radio": link.trouble and str(link.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
+    link = session.listen()
+    time.sleep(LISTEN)
+    return {"radio": _sentence(session.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
 
 
-def _looked(shop: Workshop, arguments: Namespace) -> dict[str, Any]:
-    """The status by radio and camera; then pairing and latency on request. Raises Refusal."""
-    rig, told = shop.rig, dict[str, Any]()
+def _looked(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
+    """The status by radio and camera; then pairing and latency on request. Raises NoRobots or Refusal."""
+    rig, told = session.open(), dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
-        shop.tick()
+        session.tick()
         rig.pump()
     seen = rig.sense()
-    told["radio"] = rig.link.trouble and str(rig.link.trouble)
-    told["eyes"] = getattr(rig.eye, "trouble", None)
+    told["radio"], told["eyes"] = _sentence(rig.link.trouble), _sentence(rig.eye.trouble)
     told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if told["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
         raise Refusal(told["radio"] or "No robot answers: are they switched on?")
     if arguments.pair:
-        told["pairing"] = _paired(shop, kept=arguments.emulate is None)
+        told["pairing"] = _paired(session, rig, kept=arguments.emulate is None)
     if arguments.latency:
-        told["latency"] = [_late(shop, i) for i in movable if told["robots"][i]["seen"]]
+        told["latency"] = [_late(session, rig, i) for i in movable if told["robots"][i]["seen"]]
     return told
+
+
+def _sentence(message: OperatorMessage | None) -> str | None:
+    return english().explained(message) if message else None
 
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
@@ -113,29 +116,30 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
     }
 
 
-def _paired(shop: Workshop, kept: bool) -> list[dict[str, Any]]:
+def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any]]:
     """Spin each robot in turn; the pairing is saved if it is unambiguous. Raises Refusal."""
     from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+    from pigaming_app.hardware.session.store import save_radios
 
-    pairing = Pairing(shop.rig)
+    pairing = Pairing(rig)
     while not pairing.tick():
-        shop.tick()
-    shop.rig.channels = pairing.channels
+        session.tick()
+    rig.channels = pairing.channels
     if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
-        keep_radios(pairing.channels)
+        save_radios(pairing.channels)
     return [
         {"radio": one.channel + 1, "marker": None if one.marker is None else one.marker + 1, "case": str(one.case)}
         for one in sorted(pairing.findings)
     ]
 
 
-def _late(shop: Workshop, robot: int) -> dict[str, Any]:
+def _late(session: RobotSession, rig: "Rig", robot: int) -> dict[str, Any]:
     """The latency of one robot, in ms; None where it did not move or was hardly seen."""
     from pigaming_app.hardware.commissioning.latency import Shake
 
-    shake = Shake(shop.rig, robot)
+    shake = Shake(rig, robot)
     while not shake.tick():
-        shop.tick()
+        session.tick()
     found = shake.result()
     names = ("acts", "picture", "total", "lag")
     return {"robot": robot + 1, **{f"{name}_ms": found and round(1000 * getattr(found, name)) for name in names}}

@@ -19,8 +19,10 @@ from typing import IO, Any
 
 import pygame
 
-from pigaming_app.hardware.session.emulated import EmulatedMat
-from pigaming_app.hardware.session.real import NoMat, RealMat
+from pigaming_app.hardware.messages import OperatorError
+from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.hardware.session.robot_session import NoRobots
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
@@ -32,12 +34,12 @@ from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui import memory as heap
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import Words, english
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.notices import Gauge, Notices
-from pigaming_app.ui.window import Canvas, NoPin
+from pigaming_app.ui.window import Canvas
 
 FRAMES = 60  # a second
 SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
@@ -119,7 +121,7 @@ class App:
         self.options, self.house = options, house
         self.notices, self.gauge = Notices(), Gauge()
         mat = house.mat
-        self.window = CameraWindow(mat) if isinstance(mat, EmulatedMat) and mat.live else None
+        self.window = CameraWindow(mat) if isinstance(mat, EmulatedSession) and mat.live else None
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -165,10 +167,16 @@ class App:
 
     def _pin(self) -> None:
         """Draw the picture into the corners that the operator has set."""
+        corners = self.house.settings.corners
+        if not corners:
+            self.house.canvas.pin(None)
+            return
+        from pigaming_app.hardware.calibration.corner_pin import CornerPin
+
         try:
-            self.house.canvas.pin(self.house.settings.corners)
-        except NoPin as trouble:
-            log.warning("%s", trouble)
+            self.house.canvas.pin(CornerPin(corners))
+        except OperatorError as trouble:
+            log.warning("%s", english().explained(trouble.message))
             self.notices.say(self.house.words("app.pin"))
 
     def _failed(self, seconds: float) -> bool:
@@ -347,19 +355,27 @@ class App:
         self.gauge.draw(screen)
 
 
-def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedMat | RealMat:
+def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSession | RealSession:
     """Where real robots drive."""
     if options.emulate is None:
-        return RealMat(settings, canvas)
-    mat = EmulatedMat(canvas, options.emulate, live=options.step is None)
+        return RealSession(settings, lambda: canvas.projection)
+    mat = EmulatedSession(options.emulate, options.step is None, lambda: canvas.projection)
+    canvas.watchers.append(lambda window: mat.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     settings.real = settings.real or [1, 2, 3, 4]
     try:
         mat.open()  # now, while nobody waits for a picture; it is closed until somebody plays
         mat.close()
-    except NoMat as trouble:
-        print(f"PiGaming: {trouble}", file=sys.stderr)
+    except NoRobots as trouble:
+        print(f"PiGaming: {english().explained(trouble.message)}", file=sys.stderr)
     return mat
+
+
+def _projected(canvas: Canvas, window: pygame.Surface) -> object:
+    """The pixels that fall on the emulated mat: bars beside the picture do not, but a pinned picture has its own."""
+    from pigaming_app.ui.draw.pixels import pixels_of
+
+    return pixels_of(window if canvas.corners else canvas.screen)
 
 
 def _title(house: House) -> Scene:

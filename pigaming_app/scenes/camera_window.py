@@ -6,7 +6,7 @@ import warnings
 
 import pygame
 
-from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.hardware.session.emulated import EmulatedSession
 
 SIZE = (960, 540)
 EVERY = 1.0 / 15.0  # s between two pictures
@@ -17,7 +17,7 @@ log = logging.getLogger("pigaming")
 class CameraWindow:
     """The window; where the system gives no second one, the log says so and the arcade goes on."""
 
-    def __init__(self, mat: EmulatedMat) -> None:
+    def __init__(self, mat: EmulatedSession) -> None:
         self.mat = mat
         self.window: pygame.Window | None = None
         self._shown, self._age = -1, 0.0

@@ -6,13 +6,25 @@ words("lobby.seat", player=2)      "Jogador 2"
 
 import re
 import tomllib
-from typing import Any
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, Protocol
 
 from pigaming_app import ASSETS
 
 LANGUAGES = ("en", "pt")
 DECIMAL = re.compile(r"[+−-]?\d+\.\d+")
 NAMES = {"en": "English", "pt": "Português"}
+
+
+class Message(Protocol):
+    """A key of the table `hardware`, and the values to put into its sentence."""
+
+    @property
+    def key(self) -> str: ...
+
+    @property
+    def values(self) -> Mapping[str, object]: ...
 
 
 class Words:
@@ -25,6 +37,15 @@ class Words:
     def __call__(self, key: str, **values: object) -> str:
         """The text of a key, `table.name`, with values put in. Raises KeyError where there is no such text."""
         return self._texts[key].format(**{name: self._written(value) for name, value in values.items()})
+
+    def sentence(self, message: Message) -> str:
+        """The sentence of a message of the hardware, as short as a screen needs it."""
+        return self(f"hardware.{message.key}", **message.values)
+
+    def explained(self, message: Message) -> str:
+        """The sentence of a message for terminal and log: that of the table `terminal`, where there is one."""
+        table = "terminal" if f"terminal.{message.key}" in self._texts else "hardware"
+        return self(f"{table}.{message.key}", **message.values)
 
     def decimal(self, number: str) -> str:
         """A number, with a point before its decimals, as this language writes it: 1.5 s are 1,5 s in Portuguese."""
@@ -48,6 +69,12 @@ class Words:
         """What is put into a text: a number as this language writes it, anything else as it is."""
         number = isinstance(value, float) or (isinstance(value, str) and DECIMAL.fullmatch(value))
         return self.decimal(str(value)) if number else value
+
+
+@cache
+def english() -> Words:
+    """The texts of log and terminal, which are English whatever the screen's language."""
+    return Words("en")
 
 
 def texts(language: str) -> dict[str, str]:

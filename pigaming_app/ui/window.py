@@ -8,17 +8,14 @@ import os
 import sys
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import Any, Protocol
 
 import pygame
 
 from pigaming_app.storage.safe_files import write
 from pigaming_app.ui.png import png_of
-
-if TYPE_CHECKING:
-    from pigaming_app.hardware.calibration.corner_pin import Warp
 
 SIZE = (1920, 1080)
 CURSOR_SECONDS = 3.0  # the mouse pointer hides after so long without motion
@@ -29,15 +26,31 @@ class NoDisplay(Exception):
     """There is no display to open a window on; the text is one plain sentence."""
 
 
-class NoPin(Exception):
-    """The picture cannot be drawn into these corners; the text is one plain sentence."""
-
-
 class Wishes(Protocol):
     """What the settings say about the window."""
 
     display: int
     fullscreen: bool
+
+
+class Warp(Protocol):
+    """Draws the canvas into a quadrangle of a window of `size` px."""
+
+    size: tuple[int, int]
+
+    def draw(self, picture: Any, window: Any) -> None:
+        """Draw the canvas's pixels over the whole window, both (height, width, 4)."""
+
+    def back(self, at: tuple[float, float]) -> tuple[float, float]:
+        """The place of the canvas, px, that is shown at a place in the window."""
+
+
+class Pin(Protocol):
+    """The corners of the quadrangle, px of the canvas, upper left first, clockwise; `fit` makes it for a window."""
+
+    corners: tuple[float, ...]
+
+    def fit(self, size: tuple[int, int]) -> Warp: ...
 
 
 class Canvas:
@@ -52,8 +65,8 @@ class Canvas:
         self.display = display
         self.notices: list[str] = []
         self.watchers: list[Callable[[pygame.Surface], None]] = []
-        self.corners: tuple[float, ...] = ()  # of the corner pin, if there is one
-        self._warp: Warp | None = None
+        self._pin: Pin | None = None
+        self._warp: Warp | None = None  # of the pin, for the window as large as it was last
         self._picture: pygame.Surface | None = None
         self._pointer = (0, 0)
         self._pointer_moved = 0.0
@@ -141,23 +154,14 @@ class Canvas:
             return self._warp.back((mouse[0] - area.x, mouse[1] - area.y))
         return ((mouse[0] - area.x) * SIZE[0] / area.w, (mouse[1] - area.y) * SIZE[1] / area.h)
 
-    def pin(self, corners: Sequence[float]) -> None:
-        """Draw the picture into these corners, px of the canvas, see hardware/warp.py; none: straight again.
+    def pin(self, pin: Pin | None) -> None:
+        """Draw the picture into the corners of a pin; None: straight again."""
+        self._pin, self._warp = pin, pin.fit(SIZE) if pin else None
 
-        Raises NoPin where OpenCV is missing or nothing fits into the corners; then all stays as it is.
-        """
-        if not corners:
-            self.corners, self._warp = (), None
-            return
-        from pigaming_app.hardware.calibration.corner_pin import Warp
-        from pigaming_app.hardware.messages import said
-        from pigaming_app.hardware.vision.markers import NoVision
-
-        try:
-            self._warp = Warp(corners)
-        except (NoVision, ValueError) as trouble:
-            raise NoPin(said(trouble)) from trouble
-        self.corners = tuple(corners)
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Those of the pin; empty: there is none."""
+        return self._pin.corners if self._pin else ()
 
     @property
     def projection(self) -> str:
@@ -213,11 +217,11 @@ class Canvas:
         self._pointer_moved = time.monotonic()
 
     def _draw_warped(self, picture: pygame.Surface, window: pygame.Surface, area: pygame.Rect) -> None:
-        from pigaming_app.hardware.calibration.corner_pin import Warp
         from pigaming_app.ui.draw.pixels import pixels_of
 
         if self._warp is None or self._warp.size != area.size:
-            self._warp = Warp(self.corners, area.size)
+            assert self._pin is not None
+            self._warp = self._pin.fit(area.size)
         self._warp.draw(pixels_of(picture), pixels_of(window)[area.top : area.bottom, area.left : area.right])
 
     def _hide_pointer(self) -> None:

@@ -111,6 +111,9 @@ class Mat:
             for one in self.robots
         ]
 
+    def predict(self, now, ahead):
+        return self.sense(now), [self.sense(now + more)[i] for i, more in enumerate(ahead)]
+
     def doubled(self):
         return {i for i, robot in enumerate(self.robots) if robot.doubled}
 

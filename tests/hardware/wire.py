@@ -2,6 +2,7 @@
 
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import FrameDecoder, PacketDecoder
+from tests.hardware.robot_packets import drive_from
 
 
 class Time:
@@ -64,7 +65,7 @@ class Radio(Wire):
         for one in self._frames.feed(data):
             match packets.decode(one):
                 case packets.Send(number, packets.BROADCAST, packet):
-                    self.drives += [(self.time(), packets.drive_from(found)) for found in PacketDecoder().feed(packet)]
+                    self.drives += [(self.time(), drive_from(found)) for found in PacketDecoder().feed(packet)]
                     self.say(packets.Outcome(number, self.status))
                 case packets.Ask(number, "AP", b""):
                     self.say(packets.Answer(number, "AP", 0, bytes((self.ap,))))

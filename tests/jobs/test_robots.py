@@ -7,7 +7,7 @@ from math import cos, sin
 import pytest
 
 from pigaming_app.cli import main
-from pigaming_app.hardware.session.workshop import keep_radios
+from pigaming_app.hardware.session.store import save_radios
 from pigaming_app.jobs import fidelity, robots
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, tell
 from pigaming_app.storage.settings import Settings, folders
@@ -66,23 +66,26 @@ def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
 
 
 def test_who_is_who_is_remembered(home):
-    keep_radios([0, 2, 1, 3])
+    save_radios([0, 2, 1, 3])
     settings, said = Settings.load(folders().config)
     assert settings.radios == [1, 3, 2, 4]
     assert said == []
 
 
-class Shop:
-    """A workshop whose robots stand on a mat without light or air."""
+class Session:
+    """A session whose robots stand on a mat without light or air."""
 
     def __init__(self, *_):
         self.mat = Mat()
         self.rig, self.mm, self.tick = self.mat.rig, MM, self.mat.pass_time
-        self.close = self.rig.close
+        self.end = self.rig.close
+
+    def open(self):
+        return self.rig
 
 
 def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(fidelity, "open_workshop", Shop)
+    monkeypatch.setattr(fidelity, "new_session", Session)
     run, out = tmp_path / "run.jsonl", tmp_path / "robots.toml"
     assert told(capsys, "fidelity", "record", str(run), "--seconds", "24")["robots"] == [1, 2, 3, 4]
     found = told(capsys, "fidelity", "identify", str(run), "--out", str(out))
@@ -95,12 +98,12 @@ def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypat
 
 
 def test_a_run_kept_earlier_stays_where_nobody_can_dance(tmp_path, capsys, monkeypatch):
-    class Nobody(Shop):
+    class Nobody(Session):
         def __init__(self, *_):
             super().__init__()
             monkeypatch.setattr(self.rig, "telemetry", lambda robot: None)
 
-    monkeypatch.setattr(fidelity, "open_workshop", Nobody)
+    monkeypatch.setattr(fidelity, "new_session", Nobody)
     run = tmp_path / "run.jsonl"
     run.write_text("kept")
     assert main(["fidelity", "record", str(run)]) == 2

@@ -3,7 +3,7 @@
 import pygame
 import pytest
 
-from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.camera_window import SIZE, CameraWindow
 from pigaming_app.ui.input.controls import Controls
 
@@ -11,7 +11,7 @@ pytest.importorskip("cv2")
 
 
 def test_it_shows_the_newest_picture_and_can_be_closed_alone(controls: Controls) -> None:
-    mat = EmulatedMat(live=False)
+    mat = EmulatedSession(live=False)
     window = CameraWindow(mat)
     try:
         window.update(0.1)
@@ -39,7 +39,7 @@ def test_without_a_second_window_a_sentence_is_said_and_the_arcade_goes_on(
         raise pygame.error("windows are sold out")
 
     monkeypatch.setattr(pygame, "Window", refuse)
-    window = CameraWindow(EmulatedMat(live=False))
+    window = CameraWindow(EmulatedSession(live=False))
     window.update(1.0)
     assert "no second window" in capsys.readouterr().err
     assert window.window is None

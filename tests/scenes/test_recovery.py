@@ -7,6 +7,7 @@ from pathlib import Path
 import pygame
 import pytest
 
+from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Push, Scene, Turn
@@ -103,7 +104,7 @@ def cached_picture(house: House, screen: pygame.Surface) -> None:
 
 
 def pinned(house: House, screen: pygame.Surface) -> None:
-    house.canvas.pin((100, 100, 1800, 80, 1820, 1000, 80, 1020))
+    house.canvas.pin(CornerPin((100, 100, 1800, 80, 1820, 1000, 80, 1020)))
 
 
 def grabbed(house: House, screen: pygame.Surface) -> None:

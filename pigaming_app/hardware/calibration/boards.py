@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import NoGround, Points
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import Frame, Image
 from pigaming_app.hardware.vision.markers import Markers, opencv
 
@@ -97,24 +97,18 @@ class Look:
         """The mean corners of the markers seen in at least half of the pictures, camera px. Raises NoGround."""
         often = {number: np.array(seen) for number, seen in self._seen.items() if 2 * len(seen) >= self.frames}
         if len(often) < ENOUGH:
-            sentence = (
-                f"The camera sees {len(often)} of the {COLUMNS * ROWS} markers of the board, {ENOUGH} are needed: "
-                "aim it at the whole picture, focus it, dim the lights, clear the mat."
-            )
-            raise NoGround(Said(sentence, "few", seen=len(often), all=COLUMNS * ROWS, needed=ENOUGH))
+            raise NoGround(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=ENOUGH))
         if missing := _empty_corners(often):
-            sentence = f"The camera sees nothing of the board's {missing} corner: aim it at the whole picture."
-            raise NoGround(Said(sentence, missing.replace(" ", "_")))
+            raise NoGround(OperatorMessage(missing))
         shake = float(np.median([seen.std(axis=0).max() for seen in often.values()]))
         if shake > SHAKE:
-            sentence = f"The picture moves by {shake:.1f} px: hold camera, projector and mat still."
-            raise NoGround(Said(sentence, "moves", shake=f"{shake:.1f}"))
+            raise NoGround(OperatorMessage("moves", shake=f"{shake:.1f}"))
         return {number: np.median(seen, axis=0) for number, seen in often.items()}
 
 
 def _empty_corners(seen: Mapping[int, object]) -> str:
-    """The first corner of the board, 2 x 2 markers, of which none is seen, or nothing."""
-    for name, top, left in (("top left", 0, 0), ("top right", 0, 5), ("bottom left", 3, 0), ("bottom right", 3, 5)):
+    """The key of the first corner of the board, 2 x 2 markers, of which none is seen; empty: there is none."""
+    for name, top, left in (("top_left", 0, 0), ("top_right", 0, 5), ("bottom_left", 3, 0), ("bottom_right", 3, 5)):
         block = [FIRST_ID + (top + i) * COLUMNS + left + j for i in (0, 1) for j in (0, 1)]
         if not any(number in seen for number in block):
             return name

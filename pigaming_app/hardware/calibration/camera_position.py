@@ -6,14 +6,15 @@ a robot stands on four projected outlines, and how far the camera sees it beside
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import cos, exp, log, sin, sqrt
+from math import exp, log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
-from pigaming_app.hardware.calibration.solver import least_squares
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.calibration.least_squares import least_squares
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
@@ -30,15 +31,14 @@ def hung(ground: Ground, height: float) -> Ground:
     seen. Raises NoGround.
     """
     if not LOWEST <= height <= HIGHEST:
-        sentence = f"A camera {height:.0f} mm above the mat: {LOWEST:.0f} to {HIGHEST:.0f} mm are possible."
-        raise NoGround(Said(sentence, "height", height=f"{height:.0f}", low=f"{LOWEST:.0f}", high=f"{HIGHEST:.0f}"))
+        limits = {"low": f"{LOWEST:.0f}", "high": f"{HIGHEST:.0f}"}
+        raise NoGround(OperatorMessage("height", height=f"{height:.0f}", **limits))
     x, y = np.meshgrid(np.linspace(0.0, WIDTH, 5), np.linspace(0.0, HEIGHT, 4))
     view = _View(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
     first = min((view.start(focal) for focal in np.geomspace(*FOCAL, 24)), key=view.cost)
-    best = least_squares(view.misses, first)
+    best = least_squares(view.misses, first).at
     if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > UNLIKE:
-        sentence = f"The mat does not look as from {height:.0f} mm above: measure the camera's height again."
-        raise NoGround(Said(sentence, "other_height", height=f"{height:.0f}"))
+        raise NoGround(OperatorMessage("other_height", height=f"{height:.0f}"))
     return replace(
         ground, foot=(float(best[3] * 1000.0 / ground.mm), float(best[4] * 1000.0 / ground.mm)), height=height
     )
@@ -52,12 +52,11 @@ def stood(ground: Ground, places: Sequence[tuple[float, float]], seen: Sequence[
     """
     there, apparent = np.array(places, dtype=np.float64), ground.on_mat(np.array(seen, dtype=np.float64))
     if len(there) < 2 or float(there.std(axis=0).max()) < 100.0:
-        raise NoGround(Said("The robot must stand in at least two places, far from each other.", "places"))
+        raise NoGround(OperatorMessage("places"))
     away = there - there.mean(axis=0)
     grown = float((away * (apparent - apparent.mean(axis=0))).sum() / (away * away).sum())
     if not ground.lid / HIGHEST < grown - 1.0 < ground.lid / (LOWEST - ground.lid):
-        sentence = "The robot was not where the outlines are: put it there as exactly as possible and try again."
-        raise NoGround(Said(sentence, "beside"))
+        raise NoGround(OperatorMessage("beside"))
     foot = (apparent.mean(axis=0) - grown * there.mean(axis=0)) / (1.0 - grown)
     return replace(ground, foot=(float(foot[0]), float(foot[1])), height=ground.lid * grown / (grown - 1.0))
 
@@ -107,16 +106,10 @@ def _mat_to_rays(ground: Ground) -> Matrix:
 
 
 def _turn(vector: Matrix) -> Matrix:
-    """The rotation about a vector by its length (Rodrigues)."""
-    angle = sqrt(float(vector @ vector))
-    x, y, z = vector / max(angle, 1e-12)
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + sin(angle) * cross + (1.0 - cos(angle)) * (cross @ cross))
+    """The rotation about a vector by its length."""
+    return np.asarray(opencv().Rodrigues(vector)[0])
 
 
 def _vector(turn: Matrix) -> Matrix:
-    """The rotation vector of a rotation: its axis is what the rotation leaves alone."""
-    axis = np.linalg.svd(turn - np.eye(3))[2][-1]
-    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    angle = np.arctan2(0.5 * float(axis @ skew), 0.5 * (float(np.trace(turn)) - 1.0))
-    return np.asarray(axis * angle)
+    """The rotation vector of a rotation."""
+    return np.asarray(opencv().Rodrigues(turn)[0]).reshape(-1)

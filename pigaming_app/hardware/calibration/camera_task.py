@@ -11,9 +11,9 @@ import numpy as np
 
 from pigaming_app.hardware.calibration.drift import Drift
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
-from pigaming_app.hardware.calibration.site import Sees, Site
-from pigaming_app.hardware.messages import Said, said
-from pigaming_app.hardware.signals import Frame, Image
+from pigaming_app.hardware.calibration.site import Site
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.signals import Eye, Frame, Image
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers, NoVision, opencv
 from pigaming_app.hardware.worker import Worker, log
 
@@ -23,8 +23,8 @@ SPOT, NEAR = (140.0, 400.0), 90.0  # arena px: where a robot is asked to stand, 
 SEARCH = 0.5  # s between two looks for it
 RATE = 1.0  # s over which pictures are counted
 
-NO_PICTURE = Said("The camera sends no pictures.", "no_picture")
-BROKEN = Said("Something broke; the log says what.", "broken")
+NO_PICTURE = OperatorMessage("no_picture")
+BROKEN = OperatorMessage("broken")
 
 
 class Looking(Worker):
@@ -38,9 +38,9 @@ class Looking(Worker):
     def __init__(self, site: Site, number: int) -> None:
         super().__init__()
         self.site, self.number = site, number
-        self.trouble: str | None = None
+        self.trouble: OperatorMessage | None = None
         self.small: Image | None = None  # the newest picture, as small as it is shown
-        self._eye: Sees | None = None
+        self._eye: Eye | None = None
         self._since = self._newest = inf  # s: when it was opened, when the newest picture came
 
     def begin(self) -> None:
@@ -57,7 +57,7 @@ class Looking(Worker):
             try:
                 self._eye = self.site.open(self.number, self.locks, self.fresh)
             except NoVision as missing:
-                self.give_up(said(missing))
+                self.give_up(missing.message)
                 return
         frame = self._eye.newest()
         if frame is not None:
@@ -70,12 +70,12 @@ class Looking(Worker):
     def look(self, frame: Frame) -> None:
         """A new picture."""
 
-    def idle(self, seconds: float, trouble: str | None) -> None:
+    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
         """No new picture for so long."""
 
-    def give_up(self, trouble: str) -> None:
-        """Say this sentence, and write it into the log once."""
-        if trouble != self.trouble and getattr(trouble, "key", "") != "yet":
+    def give_up(self, trouble: OperatorMessage) -> None:
+        """Show this message, and write it into the log once."""
+        if trouble != self.trouble and trouble.key != "yet":
             log.warning("camera %d: %s", self.number, trouble)
         self.trouble = trouble
 
@@ -108,7 +108,7 @@ class Preview(Looking):
         if not 0.0 <= now - since <= RATE:
             self._counted = (now, self.count)
 
-    def idle(self, seconds: float, trouble: str | None) -> None:
+    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
         if seconds > 1.0:
             self.give_up(trouble or NO_PICTURE)
 
@@ -136,7 +136,7 @@ class Checking(Looking):
             if self.drift is None:
                 self.drift = Drift(self._load((frame.image.shape[1], frame.image.shape[0])))
         except NoGround as trouble:
-            self.give_up(said(trouble))
+            self.give_up(trouble.message)
             return
         self.drift.see(frame)
         self.mm = self.drift.mm or None  # exactly 0: none has been seen often enough
@@ -153,7 +153,7 @@ class Checking(Looking):
             if float(away @ away) < NEAR * NEAR:
                 self.marker_mm = ground.edge_mm(mark)
 
-    def idle(self, seconds: float, trouble: str | None) -> None:
+    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
         if seconds > BLIND:
             self.give_up(trouble or NO_PICTURE)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import project
 from pigaming_app.hardware.calibration.solver import homography
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.vision.markers import opencv
 
 CANVAS = (1920, 1080)
@@ -33,12 +33,28 @@ def crooked(corners: Sequence[float]) -> bool:
     return bool(turns.min() < LEAST * CANVAS[0] * LEAST * CANVAS[1])
 
 
+class NoPin(OperatorError):
+    """No picture fits into these corners."""
+
+
+class CornerPin:
+    """The picture in these corners, in windows of any size. Raises NoPin; NoVision where OpenCV is missing."""
+
+    def __init__(self, corners: Sequence[float]) -> None:
+        if crooked(corners):
+            raise NoPin(OperatorMessage("corners"))
+        opencv()
+        self.corners = tuple(corners)
+
+    def fit(self, size: tuple[int, int]) -> "Warp":
+        """The same corners in a window of `size` px."""
+        return Warp(self.corners, size)
+
+
 class Warp:
-    """A picture of the canvas in these corners, in a window of `size` px. Raises NoVision; ValueError if crooked."""
+    """A picture of the canvas in these corners, in a window of `size` px. Raises NoVision."""
 
     def __init__(self, corners: Sequence[float], size: tuple[int, int] = CANVAS) -> None:
-        if crooked(corners):
-            raise ValueError(Said("No picture fits into these corners.", "corners"))
         self._cv = opencv()
         self.size = size
         grown = np.array((size[0] / CANVAS[0], size[1] / CANVAS[1]))

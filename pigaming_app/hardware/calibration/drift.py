@@ -61,16 +61,6 @@ class Drift:
         full = [np.median(misses, axis=0) for misses in self._misses.values() if len(misses) == PICTURES]
         return max((hypot(x, y) * self.ground.mm for x, y in full), default=0.0)
 
-    @property
-    def warns(self) -> bool:
-        """Whether the operator should calibrate again soon."""
-        return self.mm > WARN
-
-    @property
-    def pauses(self) -> bool:
-        """Whether nobody can play like this."""
-        return self.mm > PAUSE
-
     def _further(self, frame: Frame, missing: list[int]) -> list[Mark]:
         """Those that are not where they were: near there at first, and from time to time everywhere."""
         if not missing or frame.captured - self._sought < SEEK:

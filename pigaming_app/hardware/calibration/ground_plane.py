@@ -5,7 +5,7 @@ display, camera or version, or one that somebody edited by hand, is refused in o
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from math import atan2, hypot
 from zlib import crc32
 
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.lens import Lens
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import Fix, Mark
 from pigaming_app.sim.toml_table import Table, Wrong
 from pigaming_app.sim.world import WIDTH
@@ -28,8 +28,8 @@ SKEW_TOLERANCE = 1.18  # longest edge by shortest: more is a marker that is tilt
 Points = NDArray[np.float64]  # (n, 2)
 
 
-class NoGround(ValueError):
-    """A calibration that cannot be used; the text is one sentence for the operator."""
+class NoGround(OperatorError):
+    """A calibration that is missing, or cannot be used."""
 
 
 @dataclass(frozen=True)
@@ -108,13 +108,6 @@ def project(matrix: NDArray[np.float64], points: Points) -> Points:
     return np.asarray(flat[:, :2] / flat[:, 2:])
 
 
-def nominal(camera: tuple[int, int] = (1920, 1080), width_mm: float = 2112.0, height: float = 2500.0) -> Ground:
-    """A camera straight above the middle, without distortion, that sees the whole 1920 x 1080 canvas: for tests."""
-    scale = 1920.0 / camera[0]
-    plane = (scale, 0.0, -160.0, 0.0, scale, -140.0, 0.0, 0.0, 1.0)
-    return Ground("", Lens(camera), plane, width_mm, (800.0, 400.0), height)
-
-
 def written(ground: Ground) -> str:
     """The text of a calibration's file."""
     import tomli_w
@@ -123,40 +116,32 @@ def written(ground: Ground) -> str:
     return tomli_w.dumps({**entries, "check": _check(entries)})
 
 
-def read(text: str, display: str, camera: tuple[int, int]) -> Ground:
-    """The calibration that a file holds, for this display and a camera of this size. Raises NoGround."""
+def read(text: str, display: str | None = None, camera: tuple[int, int] | None = None) -> Ground:
+    """The calibration that a file holds; one of another display or camera size is refused. Raises NoGround."""
     try:
         entries = toml_of(text)
     except ParseError as error:
-        raise NoGround(Said(f"The calibration cannot be read ({error}): calibrate again.", "damaged")) from error
+        raise NoGround(OperatorMessage("damaged", detail=error)) from error
     if entries.get("version") != VERSION:
-        sentence = f"The calibration is of version {shown(entries.get('version'))}, not {VERSION}: calibrate again."
-        raise NoGround(Said(sentence, "version"))
+        raise NoGround(OperatorMessage("version", theirs=shown(entries.get("version")), ours=VERSION))
     check = entries.pop("check", None)
     if check != _check(entries):
-        raise NoGround(Said("The calibration was changed by hand or is damaged: calibrate again.", "damaged"))
+        raise NoGround(OperatorMessage("changed"))
     try:
         ground = _ground(Table(entries))
     except (Wrong, np.linalg.LinAlgError) as wrong:
-        raise NoGround(Said(f"The calibration cannot be used ({wrong}): calibrate again.", "damaged")) from wrong
-    if ground.display != display:
-        sentence = f"The calibration was made on display {ground.display}, not {display}: calibrate again."
-        raise NoGround(Said(sentence, "other_display"))
-    if ground.lens.size != camera:
+        raise NoGround(OperatorMessage("damaged", detail=wrong)) from wrong
+    if display is not None and ground.display != display:
+        raise NoGround(OperatorMessage("other_display", theirs=ground.display, ours=display))
+    if camera is not None and ground.lens.size != camera:
         raise NoGround(misfit(ground, camera))
     return ground
 
 
-def misfit(ground: Ground, camera: tuple[int, int]) -> Said:
+def misfit(ground: Ground, camera: tuple[int, int]) -> OperatorMessage:
     """Why pictures of this size cannot be used with a calibration."""
     theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
-    sentence = f"The calibration was made with a camera of {theirs} px, not {ours}: calibrate again."
-    return Said(sentence, "other_camera", theirs=theirs, ours=ours)
-
-
-def measured(ground: Ground, foot: tuple[float, float], height: float) -> Ground:
-    """The same calibration with the camera's place as the operator measured it: foot in arena px, height in mm."""
-    return replace(ground, foot=foot, height=height)
+    return OperatorMessage("other_camera", theirs=theirs, ours=ours)
 
 
 def _check(entries: dict[str, object]) -> int:

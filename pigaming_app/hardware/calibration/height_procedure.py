@@ -13,7 +13,7 @@ from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, Looking
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
 from pigaming_app.hardware.calibration.procedure import LIT
 from pigaming_app.hardware.calibration.site import Site
-from pigaming_app.hardware.messages import Said, said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import Frame, Mark
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers
 
@@ -61,7 +61,7 @@ class Standing(Looking):
         if self.place is None or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
         if frame.captured > self._begun + PATIENCE:
-            self.give_up(Said("Nobody has put a robot on the outline.", "nobody"))
+            self.give_up(OperatorMessage("nobody"))
             return
         self._markers = self._markers or Markers(ROBOT_IDS)
         here = [mark for mark in self._markers.everywhere(frame.image) if self._is_near(mark, self.place)]
@@ -73,7 +73,7 @@ class Standing(Looking):
         if len(self._lately) == STILL and _tremble(self._lately) < UNREST:
             self._note()
 
-    def idle(self, seconds: float, trouble: str | None) -> None:
+    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
         if seconds > looking.BLIND and self.place is not None:
             self.give_up(trouble or NO_PICTURE)
 
@@ -91,7 +91,7 @@ class Standing(Looking):
         try:
             found = stood(self.ground, PLACES, self.seen)
         except NoGround as trouble:
-            self.give_up(said(trouble))
+            self.give_up(trouble.message)
             return
         self.marker_mm = found.edge_mm(last)
         self.found = found

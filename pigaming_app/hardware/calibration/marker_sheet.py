@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import MARKER
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, opencv
 
 PAGE = (210.0, 297.0)  # mm, A4
@@ -22,10 +23,14 @@ SAID = (
 )
 
 
+class NoSheet(OperatorError):
+    """Markers that fit neither on the page nor on a robot."""
+
+
 def sheet(edge: float = MARKER) -> bytes:
-    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60). Raises NoVision, ValueError."""
+    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60). Raises NoVision, NoSheet."""
     if not 20.0 <= edge <= 60.0:
-        raise ValueError(f"Markers of {edge:g} mm: 20 to 60 mm fit on the page and on a robot.")
+        raise NoSheet(OperatorMessage("marker_edge", edge=f"{edge:g}"))
     return _pdf("\n".join([*_markers(edge), *_ruler(), *_words()]))
 
 

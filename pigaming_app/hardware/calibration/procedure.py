@@ -15,7 +15,7 @@ from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, Looking
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
 from pigaming_app.hardware.calibration.site import Measures, Site
 from pigaming_app.hardware.calibration.solver import Residuals, solve, verified, verify
-from pigaming_app.hardware.messages import Said, said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import Frame
 
 QUEUED = 5  # pictures of the time before that a driver may still hand out
@@ -74,7 +74,7 @@ class Calibration(Looking):
         if self.over or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
         if self.site.clock() - self._since > LONGEST:
-            self.give_up(Said("It takes too long: the camera sends too few pictures.", "slow"))
+            self.give_up(OperatorMessage("slow"))
             return
         self._skipped += 1
         if self._skipped <= QUEUED:
@@ -87,13 +87,13 @@ class Calibration(Looking):
             try:
                 self._solve(self._look) if self.stage is Stage.LOOKING else self._verify(self._look)
             except NoGround as trouble:
-                self.give_up(said(trouble))
+                self.give_up(trouble.message)
 
-    def idle(self, seconds: float, trouble: str | None) -> None:
+    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
         if seconds > looking.BLIND and not self.over:
             self.give_up(trouble or NO_PICTURE)
 
-    def give_up(self, trouble: str) -> None:
+    def give_up(self, trouble: OperatorMessage) -> None:
         super().give_up(trouble)
         self.stage, self.board = Stage.FAILED, None
 

@@ -7,21 +7,11 @@ from math import inf
 from typing import Protocol
 
 from pigaming_app.hardware.calibration.ground_plane import LID
-from pigaming_app.hardware.signals import Clock, Frame
+from pigaming_app.hardware.signals import Clock, Eye
 from pigaming_app.hardware.vision.camera import SETTLE, Camera
 from pigaming_app.hardware.vision.discovery import Known, cameras
 
 SETTLED = 2.6  # s after which a real camera has locked its exposure
-
-
-class Sees(Protocol):
-    """An Eye that says what is wrong with it; None: nothing."""
-
-    trouble: str | None
-
-    def newest(self) -> Frame | None: ...
-
-    def close(self) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -50,7 +40,7 @@ class Site(Protocol):
 
     def cameras(self) -> list[Known]: ...
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Sees:
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Eye:
         """Use a camera that locks its exposure when it has settled; `fresh`: having found it anew. Raises NoVision."""
 
     def advance(self, seconds: float) -> None: ...
@@ -78,7 +68,7 @@ class RealSite:
         """The cameras that are plugged in."""
         return cameras()
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Sees:
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Eye:
         """Use a camera. Raises NoVision."""
         return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh)
 

@@ -4,7 +4,7 @@ The residual is where a corner is seen less where the model says that it is seen
 wrong markers by leaving out those that fit far worse than the rest. HARDWARE.md has why k1 and k2 belong to it.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.boards import ENOUGH, Board
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
+from pigaming_app.hardware.calibration.least_squares import least_squares
 from pigaming_app.hardware.calibration.lens import Lens
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.vision.markers import opencv
 
 MEAN_MM, MAX_MM = 1.5, 3.0  # the largest errors on the held-out board with which a calibration is accepted
-ROUNDS = 60
 OFF_CENTRE = 0.02  # of the width: how far a lens may well be off the picture's middle (prior)
 CERTAIN = 0.1  # px, about the noise of an averaged corner, against which that prior is weighed
 FAR = 5.0  # times the median error (and 0.5 px): a marker that is left out
@@ -40,14 +41,12 @@ class Residuals:
         return self.mean_mm <= MEAN_MM and self.max_mm <= MAX_MM
 
     @property
-    def verdict(self) -> Said:
-        """One sentence for the operator."""
-        said = f"The error is {self.mean_mm:.1f} mm in the mean and {self.max_mm:.1f} mm at most"
+    def verdict(self) -> OperatorMessage:
+        """The errors for the operator, and whether they are small enough."""
         errors = {"mean": f"{self.mean_mm:.1f}", "most": f"{self.max_mm:.1f}"}
         if self.accepted:
-            return Said(f"{said}.", "accurate", **errors)
-        sentence = f"{said}, but {MEAN_MM} and {MAX_MM:.0f} are needed: hold everything still, focus, calibrate again."
-        return Said(sentence, "inaccurate", **errors, need_mean=MEAN_MM, need_most=f"{MAX_MM:.0f}")
+            return OperatorMessage("accurate", **errors)
+        return OperatorMessage("inaccurate", **errors, need_mean=MEAN_MM, need_most=f"{MAX_MM:.0f}")
 
 
 def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width_mm: float, display: str) -> Ground:
@@ -59,8 +58,7 @@ def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width
     numbers = [number for number in seen if number in truth]
     for _ in range(3):
         if len(numbers) < ENOUGH:
-            sentence = "The board looks wrong to the camera: is it the picture of this program, and is it flat?"
-            raise NoGround(Said(sentence, "wrong_board"))
+            raise NoGround(OperatorMessage("wrong_board"))
         places, points = _stacked(truth, numbers), _stacked(seen, numbers)
         found = _fit(places, points, size)
         errors = np.abs(_model(found, places, size) - points).reshape(len(numbers), -1).max(axis=1)
@@ -89,45 +87,11 @@ def verified(ground: Ground, residuals: Residuals) -> Ground:
 
 
 def homography(places: Points, points: Points) -> Vector:
-    """The 3 x 3 homography from places to points, both (n, 2), n >= 4, by the direct linear transform."""
-    here, there = _normalised(places), _normalised(points)
-    (x, y), (u, v) = project(here, places).T, project(there, points).T
-    one, nil = np.ones_like(x), np.zeros_like(x)
-    rows = np.concatenate(
-        [
-            np.stack([x, y, one, nil, nil, nil, -u * x, -u * y, -u], axis=1),
-            np.stack([nil, nil, nil, x, y, one, -v * x, -v * y, -v], axis=1),
-        ]
-    )
-    matrix = np.linalg.inv(there) @ np.linalg.svd(rows)[2][-1].reshape(3, 3) @ here
-    return np.asarray(matrix / matrix[2, 2])
-
-
-def least_squares(residual: Callable[[Vector], Vector], start: Vector, rounds: int = ROUNDS) -> Vector:
-    """Where the sum of squares of `residual` is least, by Levenberg-Marquardt with a numerical Jacobian.
-
-    Marquardt's scaling by the diagonal; the parameters should be about as large as 1.
-    """
-    at, damping = start.copy(), 1e-3
-    errors = residual(at)
-    cost = float(errors @ errors)
-    for _ in range(rounds):
-        slope = _jacobian(residual, at, errors)
-        square, pull = slope.T @ slope, slope.T @ errors
-        while True:
-            step = np.linalg.solve(square + damping * np.diag(np.diag(square) + 1e-12), -pull)
-            tried = residual(at + step)
-            lower = float(tried @ tried)
-            if lower < cost or damping > 1e8:
-                break
-            damping *= 10.0
-        if not lower < cost:
-            break
-        settled = cost - lower < 1e-12 * cost
-        at, errors, cost, damping = at + step, tried, lower, max(damping * 0.1, 1e-12)
-        if settled:
-            break
-    return at
+    """The 3 x 3 homography from places to points, both (n, 2), n >= 4. Raises NoGround where there is none."""
+    matrix, _ = opencv().findHomography(places, points)
+    if matrix is None:
+        raise NoGround(OperatorMessage("wrong_board"))
+    return np.asarray(matrix, np.float64)
 
 
 def _fit(places: Points, points: Points, size: tuple[int, int]) -> Vector:
@@ -140,7 +104,7 @@ def _fit(places: Points, points: Points, size: tuple[int, int]) -> Vector:
         errors = (_model(found, places, size) - points).reshape(-1) / size[0]
         return np.concatenate([errors, weak * found[10:]])
 
-    return least_squares(residual, start)
+    return least_squares(residual, start).at
 
 
 def _model(found: Vector, places: Points, size: tuple[int, int]) -> Points:
@@ -179,19 +143,3 @@ def _stacked(corners: Mapping[int, Points], numbers: list[int]) -> Points:
 
 def _limit(errors: Vector) -> float:
     return max(0.5, FAR * float(np.median(errors)))
-
-
-def _normalised(points: Points) -> Vector:
-    """Hartley's: what brings points round the origin, at about the distance 1."""
-    middle = points.mean(axis=0)
-    scale = 1.0 / max(float(np.abs(points - middle).mean()), 1e-9)
-    return np.array([[scale, 0.0, -scale * middle[0]], [0.0, scale, -scale * middle[1]], [0.0, 0.0, 1.0]])
-
-
-def _jacobian(residual: Callable[[Vector], Vector], at: Vector, errors: Vector) -> Vector:
-    columns = []
-    for i in range(len(at)):
-        nudged = at.copy()
-        nudged[i] += 1e-6
-        columns.append((residual(nudged) - errors) / 1e-6)
-    return np.stack(columns, axis=1)

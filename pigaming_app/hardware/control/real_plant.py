@@ -9,7 +9,7 @@ from math import exp
 from typing import Any
 
 from pigaming_app.hardware.control.homing import Homing, Place
-from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.control.rig import Rig, Snapshot
 from pigaming_app.hardware.control.safety import Does, Fault, Safety
 from pigaming_app.hardware.control.start_pattern import Greeting
 from pigaming_app.hardware.control.virtual_walls import clipped, coasting, limits
@@ -19,6 +19,7 @@ from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
 
 FORGOTTEN = 1.0  # s after which a robot that nobody sees is nobody's obstacle
 PUSH = 2000.0  # px/s^2 at which real robots gather speed: one that drives the wrong way is noticed before it is fast
+FRESH = 0.5 * DT  # s: a game that thinks for longer is driven by a new prediction
 REST: Twist = (0.0, 0.0)
 
 
@@ -34,6 +35,7 @@ class RealPlant:
         self._pushed = [0.0] * ROBOTS  # px/s, what was asked of each robot last
         self._homing: Homing | None = None
         self._greeting = Greeting()
+        self._snapshot: Snapshot | None = None  # of this tick, until it is driven by
         self._left_at: list[float | None] = [None] * ROBOTS  # s, when a robot left the arena
 
     @property
@@ -52,15 +54,17 @@ class RealPlant:
         return dict(self._homing.goals) if self._homing else {}
 
     def sense(self) -> list[Sighting]:
-        self.rig.pump()
-        seen = self.rig.sense()
+        seen = self._look().now
         return [seen[i] if i in self.real else _recorded(robot) for i, robot in enumerate(self.world.robots)]
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Ask the real robots among these to drive; walls and safety have the last word."""
-        seen = self.rig.sense()
-        held = self._judge(seen)
-        ahead = self._ahead()
+        snapshot, self._snapshot = self._snapshot, None
+        if snapshot is None or self.rig.clock() - snapshot.time > FRESH:
+            snapshot = self.rig.snapshot()
+        seen = snapshot.now
+        held = self._judge(snapshot)
+        ahead = self._ahead(snapshot)
         solid = [i for i in range(ROBOTS) if self._is_solid(i, seen[i])]
         wheels = [self._wheels(i, twists[i], held[i], ahead, solid) for i in range(ROBOTS)]
         for i, robot in enumerate(self.world.robots):
@@ -111,9 +115,14 @@ class RealPlant:
 
     def sense_all(self) -> dict[int, Pose]:
         """The robots that are seen on the mat, in a match or not."""
-        self.rig.pump()
-        found = enumerate(self.rig.sense())
+        found = enumerate(self._look().now)
         return {i: (one.x, one.y, one.heading) for i, one in found if one.age < FORGOTTEN}
+
+    def _look(self) -> Snapshot:
+        """The robots at the beginning of a tick."""
+        self.rig.pump()
+        self._snapshot = self.rig.snapshot()
+        return self._snapshot
 
     def _projected(self, calling: Collection[int]) -> dict[int, Pose]:
         """The simulated robots among which the real ones take their places, counted from ROBOTS on."""
@@ -127,25 +136,24 @@ class RealPlant:
         """Stop the robots and let go of the hardware."""
         self.rig.close()
 
-    def _judge(self, seen: Sequence[Sighting]) -> list[Does]:
+    def _judge(self, seen: Snapshot) -> list[Does]:
         """What safety says of every robot."""
         now, outside = self.rig.clock(), dict[int, float]()
-        for i, sighting in enumerate(seen):
+        for i, sighting in enumerate(seen.now):
             inside = 0.0 <= sighting.x <= WIDTH and 0.0 <= sighting.y <= HEIGHT
             left_at = self._left_at[i]
             self._left_at[i] = None if inside or sighting.age > FORGOTTEN else now if left_at is None else left_at
             if i in self.real and self.world.robots[i].present:
                 outside[i] = max(now - left_at, 1e-3) if (left_at := self._left_at[i]) is not None else 0.0
-        signs = self.rig.signs(outside)
+        signs = self.rig.signs(outside, seen)
         return self.safety.judge([signs.get(i) for i in range(ROBOTS)], now)
 
-    def _ahead(self) -> list[Pose]:
+    def _ahead(self, snapshot: Snapshot) -> list[Pose]:
         """Where every robot, real or not, comes to rest if it is told to stop now."""
         trains = [one.drivetrain for one in self.rig.kinematics]
-        later = {dead: self.rig.sense(dead) for dead in {train.dead_time for train in trains}}
         poses = []
         for i, (robot, train) in enumerate(zip(self.world.robots, trains, strict=True)):
-            seen = later[train.dead_time][i]
+            seen = snapshot.later[i]
             simulated = robot.present and i not in self.real
             pose = (robot.x, robot.y, robot.heading) if simulated else (seen.x, seen.y, seen.heading)
             poses.append(coasting(pose, self.motion[i], train.lag) if i in self.real else pose)

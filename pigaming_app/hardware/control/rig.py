@@ -9,7 +9,7 @@ import logging
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from pigaming_app.hardware.control.kinematics import Kinematics
 from pigaming_app.hardware.control.motion_check import Obedience
 from pigaming_app.hardware.control.motion_model import Wear
 from pigaming_app.hardware.control.safety import Signs
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
 from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Image, Telemetry, Wheels
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
@@ -51,6 +52,8 @@ class Follows(Protocol):
 
     def sense(self, now: float) -> list[Sighting]: ...
 
+    def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]: ...
+
     def doubled(self) -> set[int]: ...
 
     def wear(self, robot: int) -> Wear: ...
@@ -63,7 +66,7 @@ class Talks(Protocol):
     def telemetry(self) -> Mapping[int, Telemetry]: ...
 
     @property
-    def trouble(self) -> Any: ...
+    def trouble(self) -> OperatorMessage | None: ...
 
     def send(self, wheels: Sequence[Wheels | None]) -> None: ...
 
@@ -72,6 +75,15 @@ class Talks(Protocol):
     def start(self) -> object: ...
 
     def close(self) -> None: ...
+
+
+class Snapshot(NamedTuple):
+    """All robots at one time, and each when a command that is sent then begins to act."""
+
+    time: float  # s
+    looked: float  # s, when the newest picture was taken that they are predicted from
+    now: list[Sighting]
+    later: list[Sighting]
 
 
 class Notes(Protocol):
@@ -99,6 +111,7 @@ class Rig:
         self.eye, self.tracker, self.link, self.clock = eye, tracker, link, clock
         self.kinematics = [Kinematics(one) for one in drivetrains]
         self.obedience = Obedience(drivetrains)
+        self._dead_times = [one.dead_time for one in drivetrains]
         self._channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # mm by which the corner markers have moved
         self.recorder: Notes | None = None
@@ -125,6 +138,12 @@ class Rig:
         if self._thread is None:
             self._look()
             self.link.pump()
+
+    def snapshot(self) -> Snapshot:
+        """One prediction of all robots for one tick: whoever drives judges, clips and steers by it."""
+        with self._lock:
+            now = self.clock()
+            return Snapshot(now, self.tracker.looked, *self.tracker.predict(now, self._dead_times))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
         """Where the robots are now, or will be so many seconds ahead if nothing else is said to them."""
@@ -165,22 +184,21 @@ class Rig:
         """What a robot said last."""
         return self.link.telemetry.get(self.channels[robot])
 
-    def signs(self, outside: Mapping[int, float]) -> dict[int, Signs]:
-        """How things stand with these robots, which have been outside the arena for so many seconds.
+    def signs(self, outside: Mapping[int, float], seen: Snapshot) -> dict[int, Signs]:
+        """The signs of these robots, which have been outside the arena for so many seconds.
 
-        What is said now holds for a tick, so what was seen counts as old as it will be then.
+        A verdict lasts one tick, so ages are extrapolated by one tick.
         """
         now, gone, drift = self.clock(), self.link.trouble is not None, self.drift()
         with self._lock:
             looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
-            ages = [sighting.age for sighting in self.tracker.sense(now)]  # by `now`, which is past by now
             contradictions = [self.obedience.contradiction(robot) for robot in range(ROBOTS)]
         found = {}
         for robot, seconds in outside.items():
-            report = self.telemetry(robot)
+            report, age = self.telemetry(robot), seen.now[robot].age
             found[robot] = Signs(
                 picture=now - max(looked, self._begun) + DT,
-                unseen=ages[robot] + DT if looked > now - ages[robot] + 1e-6 else 0.0,
+                unseen=age + DT if seen.looked > seen.time - age + 1e-6 else 0.0,
                 refused=refused.get(robot, ""),
                 doubled=robot in doubled,
                 outside=seconds,

@@ -6,14 +6,10 @@ sign has been good for CALM seconds. Two deadmen stand behind it: the link sends
 the firmware stops robots that hear nothing at all.
 """
 
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import cache
 from typing import NamedTuple
-
-from pigaming_app import ASSETS
 
 IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker is not believed to be on a robot on the mat
 CALM = 0.5  # s for which a sign must be good before its fault is gone
@@ -97,17 +93,6 @@ class Fault(NamedTuple):
     does: Does
     pauses: bool
     since: float  # s
-
-    def __str__(self) -> str:
-        """The plain reason, in English."""
-        robot = "" if self.robot is None else self.robot + 1
-        return _texts()[self.name].format(robot=robot, button="the button")
-
-
-@cache
-def _texts() -> dict[str, str]:
-    texts = tomllib.loads((ASSETS / "text" / "en.toml").read_text(encoding="utf-8"))
-    return dict(texts["faults"])
 
 
 class Safety:

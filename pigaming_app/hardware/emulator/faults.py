@@ -5,8 +5,10 @@ Some of them strike the camera or the radio, others one robot.
 
 from dataclasses import replace
 from math import atan2, cos, hypot, sin
-from typing import TYPE_CHECKING
+from typing import Protocol
 
+from pigaming_app.hardware.emulator.camera import EmulatedCamera
+from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.objects import (
     BODY_HEIGHT,
     LID_HEIGHT,
@@ -19,9 +21,8 @@ from pigaming_app.hardware.emulator.objects import (
     underside,
 )
 from pigaming_app.hardware.emulator.optics import Optics
-
-if TYPE_CHECKING:
-    from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.radio import EmulatedRadio
+from pigaming_app.hardware.emulator.robots import Robot
 
 FAULTS = {
     "camera_frozen": "no picture arrives any more, though the camera is there",
@@ -60,10 +61,23 @@ EMPTY_CELLS = 3.9  # V
 Taken = tuple[float, Placing]  # s, mm, mm, rad: when the fault began, and where the robot was then
 
 
+class FaultyArena(Protocol):
+    """The parts of an arena that can fail."""
+
+    robots: list[Robot]
+    firmwares: list[Firmware]
+    radio: EmulatedRadio
+    camera: EmulatedCamera
+    optics: Optics
+    gain: float  # of the exposure
+
+    def clock(self) -> float: ...
+
+
 class Faults:
     """The faults that are on: `switch` changes that, `tick` and `things` let them do what they do."""
 
-    def __init__(self, arena: "EmulatedArena") -> None:
+    def __init__(self, arena: FaultyArena) -> None:
         self._arena = arena
         self._robots: dict[str, dict[int, Taken]] = {name: {} for name in FAULTS}
 

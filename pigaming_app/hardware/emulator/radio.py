@@ -36,6 +36,9 @@ class Air:
     garbage: float = 0.0  # bytes of rubbish a second on the computer's line and on each robot's
 
 
+MODERATE = Air(loss=0.005, doubled=0.005, broken=0.002)
+
+
 class EmulatedRadio:
     """The computer's end of the radio, a Port. `dead`: nothing goes through; `unplugged`: the port is gone."""
 

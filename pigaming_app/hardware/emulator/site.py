@@ -24,7 +24,7 @@ HEADING = -1.2  # rad, as somebody happens to put a robot down
 class EmulatedEye:
     """The camera over the emulated mat, as one that can be let go of and used again."""
 
-    trouble: str | None = None
+    trouble: None = None
 
     def __init__(self, arena: EmulatedArena) -> None:
         self.arena = arena

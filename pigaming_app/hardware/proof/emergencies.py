@@ -48,7 +48,7 @@ def _twice(on: bool) -> Callable[[Trail, int], None]:
     """Where a game shows hard edges, a second marker cannot always be read, and does no harm: so without them."""
 
     def double(trail: Trail, robot: int) -> None:
-        trail.bed.show(busy=not on)
+        trail.bed.lighting.show(busy=not on)
         trail.bed.arena.faults.switch("marker_twice", on, robot)
 
     return double

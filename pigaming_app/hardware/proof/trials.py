@@ -34,7 +34,7 @@ class Trail:
     """Four robots that drive figures of eight, each in its quarter, steered by what the rig says."""
 
     def __init__(self, bed: Bed) -> None:
-        bed.find()
+        bed.session.find()
         self.bed, self.world = bed, World()
         for robot in self.world.robots:
             robot.present = 1
@@ -142,7 +142,7 @@ def play(bed: Bed, match: Playable, seconds: float) -> Played:
         bed.tick()
         if ready > 90 * HZ:
             raise RuntimeError(f"not all took their places: {plant.places}, {plant.faults}")
-    bed.show(busy=True)
+    bed.lighting.show(busy=True)
     deepest, ticks, paused = 0.0, 0, 0
     while not match.over:
         if plant.safety.pauses:

@@ -11,9 +11,10 @@ import threading
 from collections.abc import Sequence
 from typing import Self
 
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.radio.protocol import Dialect, Quality
-from pigaming_app.hardware.radio.serial_line import Line, OpenPort, Trouble
+from pigaming_app.hardware.radio.serial_line import Line, OpenPort, radio_message
 from pigaming_app.hardware.radio.xbee_protocol import Air
 from pigaming_app.hardware.signals import Clock, Telemetry, Wheels
 
@@ -44,10 +45,6 @@ class Link:
             raise ValueError(f"{len(wheels)} robots; there are at most {ROBOTS}")
         self._mail = self._clock(), (*wheels, *NOBODY[len(wheels) :])
 
-    def stop(self) -> None:
-        """Stop all robots until the next command."""
-        self._mail = float("-inf"), NOBODY
-
     @property
     def telemetry(self) -> dict[int, Telemetry]:
         """What every robot that was ever heard said last, by robot."""
@@ -58,14 +55,14 @@ class Link:
         return self._dialect.quality(robot, self._clock())
 
     @property
-    def trouble(self) -> Trouble | None:
+    def trouble(self) -> OperatorMessage | None:
         """What is wrong with the link; None if nothing is."""
         if self._thread is not None and not self._thread.is_alive() and not self._closing.is_set():
-            return Trouble("failed", self._line.name, "the program has a fault; its log has more")
+            return radio_message("program", self._line.name)
         if self._line.trouble is not None or not self._line.is_open:
             return self._line.trouble
         told = self._dialect.trouble(self._listened)
-        return Trouble(told[0], self._line.name, told[1]) if told else None
+        return radio_message(told[0], self._line.name, told[1]) if told else None
 
     def pump(self) -> None:
         """Open the line if need be, take in what came, and send if the time has come. Never waits, never raises."""

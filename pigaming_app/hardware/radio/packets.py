@@ -25,13 +25,6 @@ ESCAPES = re.compile(rb"\x7d(.?)", re.DOTALL)  # at the end of what has come, th
 LONGEST = 128  # bytes of a frame's data; the longest that comes holds 100 bytes from the air and 11 before them
 
 
-class Drive(NamedTuple):
-    """What all robots are told at once. A robot whose place is None has its motors off."""
-
-    seq: int
-    wheels: tuple[Wheels | None, ...]
-
-
 class Report(NamedTuple):
     """What a robot says of itself."""
 
@@ -110,19 +103,6 @@ def drive_packet(seq: int, wheels: Sequence[Wheels | None]) -> bytes:
     enabled = sum(1 << robot for robot, one in enumerate(everyone) if one is not None)
     speeds = [_speed(share) for one in everyone for share in one or (0.0, 0.0)]
     return _checked(bytes((DRIVE, seq % SEQUENCE, enabled, *speeds)))
-
-
-def drive_from(packet: bytes) -> Drive:
-    """What a drive packet says that a PacketDecoder found good. The speed 127, which nobody sends, is a stop."""
-    speeds = [0.0 if byte > 2 * STOP else (byte - STOP) / STOP for byte in packet[3 : 3 + 2 * ROBOTS]]
-    wheels = (Wheels(*speeds[2 * robot : 2 * robot + 2]) for robot in range(ROBOTS))
-    return Drive(packet[1], tuple(one if packet[2] >> robot & 1 else None for robot, one in enumerate(wheels)))
-
-
-def report_packet(report: Report) -> bytes:
-    """A robot's report as it goes over the air; the battery is cut to 14 bits."""
-    low, high = report.millivolts & 0x7F, report.millivolts >> 7 & 0x7F
-    return _checked(bytes((REPORT, report.address & 0x7F, report.seq & 0x7F, report.flags & 0x7F, low, high)))
 
 
 def report_from(packet: bytes) -> Report:

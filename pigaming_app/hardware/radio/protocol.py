@@ -34,4 +34,4 @@ class Dialect(Protocol):
         """How well a robot is heard."""
 
     def trouble(self, now: float) -> tuple[str, str] | None:
-        """Reason and detail, as in line.SENTENCES, if the line is open but something is wrong."""
+        """Reason and detail, see `serial_line.radio_message`, if the line is open but something is wrong."""

@@ -1,6 +1,6 @@
 """A serial line to a radio, which may be absent, in use, forbidden or pulled out at any moment.
 
-Opening says in one sentence what is wrong. A `Line` never raises: it reads and writes what it can, and when the port
+Opening reports what is wrong. A `Line` never raises: it reads and writes what it can, and when the port
 is gone it tries again, at longer and longer intervals. A write that times out, because this computer or the radio is
 busy, leaves the port open; only a port that has taken nothing for STUCK seconds is reported. pyserial is imported when
 a port is opened, not before.
@@ -12,6 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import NamedTuple, Protocol, runtime_checkable
 
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import Clock, Port
 
 try:
@@ -41,21 +42,6 @@ class Buffered(Protocol):
     def reset_output_buffer(self) -> None: ...
 
 
-SENTENCES = {  # by reason; {port} and {detail} are filled in
-    "missing": "The package pyserial is missing, so no radio can be used.",
-    "absent": "There is no port {port}; is the radio plugged in, and is this its port?",
-    "denied": "This account may not use {port}; on Linux, add it to the group dialout and log in again.",
-    "busy": "{port} is in use by another program; close that first.",
-    "wrong": "{port} is not a serial port; choose the one the radio is plugged into.",
-    "dead": "Nothing is connected to the serial port {port}; choose the one the radio is plugged into.",
-    "unplugged": "The radio at {port} is gone; plug it in again.",
-    "stuck": "{port} takes no more bytes; unplug the radio and plug it in again.",
-    "mute": "{port} opens, but what should be there does not answer; is it the right port and the right baud rate?",
-    "garbled": "What comes from {port} makes no sense; check the baud rate and the API mode of the radio.",
-    "mode": "The radio at {port} is set to AP={detail}, but the link is not; set both to the same.",
-    "stranger": "What answers at {port} is no 3pi with the stock program, but says {detail}.",
-    "failed": "{port} failed: {detail}.",
-}
 ERRORS = {
     errno.ENOENT: "absent",
     errno.ENODEV: "absent",
@@ -71,16 +57,9 @@ ERRORS = {
 }
 
 
-class Trouble(NamedTuple):
-    """Why there is no radio: a reason of SENTENCES for the program, and one sentence, `str()`, for people."""
-
-    reason: str
-    port: str
-    detail: str = ""
-
-    def __str__(self) -> str:
-        sentence = SENTENCES[self.reason].format(port=self.port, detail=self.detail)
-        return sentence[0].upper() + sentence[1:]
+def radio_message(reason: str, port: str, detail: str = "") -> OperatorMessage:
+    """Why there is no radio at a port; `reason` is a key of `hardware.radio_REASON`."""
+    return OperatorMessage(f"radio_{reason}", port=port, detail=detail)
 
 
 class Found(NamedTuple):
@@ -114,24 +93,24 @@ def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
     return open_it
 
 
-def trouble_of(error: Exception, port: str) -> Trouble:
+def trouble_of(error: Exception, port: str) -> OperatorMessage:
     """Why a port could not be opened."""
     if isinstance(error, ImportError):
-        return Trouble("missing", port)
+        return radio_message("missing", port)
     number = next((word for word in error.args if isinstance(word, int)), None)
     if number is None and (told := re.search(r"\((\d+),", str(error))):  # pyserial tucks it into its text
         number = int(told[1])
     reason = ERRORS.get(number or 0, "failed")
     if reason == "denied" and "PermissionError(13" in str(error):  # Windows says so of a port that is in use
         reason = "busy"
-    return Trouble(reason, port, " ".join(str(error).split()).rstrip("."))
+    return radio_message(reason, port, " ".join(str(error).split()).rstrip("."))
 
 
 class Line:
     """A port that is opened when it can be, and again when it was lost."""
 
     def __init__(self, open_port: OpenPort, clock: Clock, name: str) -> None:
-        self.trouble: Trouble | None = None
+        self.trouble: OperatorMessage | None = None
         self.name = name
         self._open_port, self._clock = open_port, clock
         self._port: Port | None = None
@@ -151,9 +130,9 @@ class Line:
         try:
             self._port = self._open_port()
         except CANNOT_OPEN as error:
-            trouble = trouble_of(error, self.name)
-            gone = self._lost and trouble.reason in ("absent", "dead")
-            self.trouble = Trouble("unplugged", self.name) if gone else trouble
+            reason = trouble_of(error, self.name)
+            gone = self._lost and reason.key in ("radio_absent", "radio_dead")
+            self.trouble = radio_message("unplugged", self.name) if gone else reason
             self._wait()
             return False
         self.trouble, self._lost, self._pause, self._held_up = None, True, FIRST, None
@@ -196,7 +175,7 @@ class Line:
         if self._held_up is None:
             self._held_up = now
         if now - self._held_up >= STUCK:
-            self.trouble = Trouble("stuck", self.name)
+            self.trouble = radio_message("stuck", self.name)
         if isinstance(port, Buffered):
             try:
                 port.reset_output_buffer()
@@ -205,7 +184,7 @@ class Line:
 
     def _lose(self) -> None:
         self.close()
-        self.trouble = Trouble("unplugged", self.name)
+        self.trouble = radio_message("unplugged", self.name)
         self._wait()
 
     def _wait(self) -> None:

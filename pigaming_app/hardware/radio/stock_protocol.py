@@ -7,7 +7,7 @@ Put the robot on blocks; in a match use our own firmware (hardware/firmware/).
 
 from collections.abc import Mapping, Sequence
 
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.protocol import Quality
 from pigaming_app.hardware.signals import Telemetry, Wheels
 
@@ -17,11 +17,7 @@ FORWARD, BACK = (0xC1, 0xC5), (0xC2, 0xC6)  # commands of the left motor, M1, an
 FULL = 127  # means 255 of 255; every other n means 2n
 ASK_EVERY = 0.2  # s between two questions for the battery
 PATIENCE = 0.5  # s for an answer
-NO_DEADMAN = Said(
-    "A robot on a cable (radio mode stock) cannot play matches: its own program has no deadman, so its motors would "
-    "run on if this computer stopped.",
-    "radio_stock",
-)
+NO_DEADMAN = OperatorMessage("radio_stock")
 NAME = b"3pi"  # what the signature begins with: 3pi1.1 and the like
 NAME_LENGTH, BATTERY_LENGTH = 6, 2  # bytes of the answers
 

@@ -1,76 +1,101 @@
-"""The emulated arena as a mat: for people its time passes by itself, for tests and pictures it is made up."""
+"""Emulated robots: a calibrated emulated arena, in real time for people, in simulated time for tests and jobs."""
 
+from collections.abc import Callable
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-import pygame
-
-from pigaming_app.hardware.session.real import kept_ground, refused, trouble_of
-from pigaming_app.sim.world import DT
-from pigaming_app.ui.window import Canvas
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.robot_session import new_rig, refused, trouble_of
+from pigaming_app.sim.world import DT, HZ
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import Ground
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.emulator.arena import EmulatedArena
+    from pigaming_app.hardware.emulator.camera import Pace
     from pigaming_app.hardware.emulator.paced import Paced
+    from pigaming_app.hardware.emulator.radio import Air
     from pigaming_app.hardware.emulator.site import EmulatedSite
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import Frame
+    from pigaming_app.hardware.tracking.tracker import Tracker
 
 AHEAD = 0.03  # s by which the arena's time may run ahead of the pictures of the window
 DIM = 0.015  # s between two pictures that fall on the emulated mat
-SLICE = 0.5 * DT  # s of made-up time in which the parts of an emulated mat take turns
+SLICE = 0.5 * DT  # s of simulated time in which arena and rig take turns
 DARK = (1080, 1920)  # px of a picture of nothing
 FPS = 30.0  # of the emulated camera
-WHOLE, QUICK = 3, 30  # every which picture of it is painted whole, in real and in made-up time
+WHOLE, QUICK = 3, 30  # every which picture of it is painted whole, in real and in simulated time
+SEARCH = 10.0  # s in which all robots must be found
 
 
-class EmulatedMat:
-    """The emulated arena. `live`: its time passes like the real one; else in `advance` alone."""
+class EmulatedSession:
+    """The emulated arena of a seed. `live`: its time passes like the real one; else in `advance` alone.
+
+    `projection` is `Canvas.projection`, and chooses the calibration that the wizard has kept; None: the one that is
+    made with the arena, or `ground`. `lighting` lights the mat where there is no window to `show`. `pace`, `air` and
+    `unrest` (share of an exposure step) are how well the arena delivers.
+    """
 
     emulated = True
 
-    def __init__(self, canvas: Canvas | None = None, seed: int = 1, live: bool = True) -> None:
-        self.canvas, self.seed, self.live = canvas, seed, live
+    def __init__(
+        self,
+        seed: int = 1,
+        live: bool = True,
+        projection: Callable[[], str | None] = lambda: None,
+        lighting: "Lighting | None" = None,
+        pace: "Pace | None" = None,
+        air: "Air | None" = None,
+        unrest: float = 0.0,
+        ground: "Ground | None" = None,
+        tracker: "type[Tracker] | None" = None,
+    ) -> None:
+        self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
+        self.mm = 0.0
+        self._pace, self._air, self._unrest, self._tracker = pace, air, unrest, tracker
         self._arena: EmulatedArena | None = None
-        self._made: Ground | None = None  # found without showing it
+        self._made = ground
         self._rig: Rig | None = None
         self._time: Paced | None = None
         self._lit = self._now = -1.0  # s of the arena's clock: when it was last lit, and asked for the time
-        if canvas is not None:
-            canvas.watchers.append(self.see)
 
     @property
-    def trouble(self) -> str | None:
-        """What is wrong with the radio; the emulated camera never tells."""
+    def trouble(self) -> OperatorMessage | None:
         return trouble_of(self._rig) if self._rig else None
 
     @property
     def arena(self) -> "EmulatedArena":
-        """The arena, made and calibrated when it is first needed; then its time passes. Raises NoMat without OpenCV."""
+        """The arena, made and calibrated when it is first needed; then its time passes. Raises NoRobots."""
         if self._arena is None:
             from pigaming_app.hardware.vision.markers import NoVision, opencv
 
             try:
                 opencv()
             except NoVision as trouble:
-                raise refused(trouble) from trouble
-            import numpy as np
-
-            from pigaming_app.hardware.emulator.arena import EmulatedArena
-            from pigaming_app.hardware.emulator.camera import Pace
-            from pigaming_app.hardware.proof.testbed import MODERATE, calibrated
-
-            arena = EmulatedArena(self.seed, Pace(FPS), MODERATE, refresh=WHOLE if self.live else QUICK)
-            self._made = calibrated(arena)
-            arena.project(np.zeros(DARK, np.uint8))  # until the window shows something
-            self._arena = arena
+                raise refused(trouble.message) from trouble
+            self._arena = self._new_arena()
         if self.live and self._time is None:
             from pigaming_app.hardware.emulator.paced import Paced
 
             self._time = Paced(self._arena).start()
         return self._arena
+
+    @property
+    def ground(self) -> "Ground":
+        """The calibration of the wizard, or else the one that was made with the arena. Raises NoRobots."""
+        from pigaming_app.hardware.calibration.ground_plane import NoGround
+        from pigaming_app.hardware.session import store
+
+        _, projection = self.arena, self.projection()
+        assert self._made is not None
+        if projection is None:
+            return self._made
+        try:
+            return store.load(store.calibration_file("emulated"), projection)
+        except NoGround:
+            return self._made
 
     @property
     def newest(self) -> "Frame | None":
@@ -79,34 +104,72 @@ class EmulatedMat:
 
     @property
     def site(self) -> "EmulatedSite":
-        """The arena for the calibration: its robots are off the mat until they are asked for."""
         from pigaming_app.hardware.emulator.site import EmulatedSite
 
         return EmulatedSite(self.seed, self.live, self.arena)
 
     def open(self) -> "Rig":
-        """Start the arena, its camera, a tracker and a link. Raises NoMat."""
         if self._rig is None:
-            from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+            from pigaming_app.hardware.control.rig import UNMEASURED
             from pigaming_app.hardware.emulator.site import EmulatedEye
             from pigaming_app.hardware.radio.link import Link
-            from pigaming_app.hardware.tracking.tracker import Tracker
             from pigaming_app.sim.world import ROBOTS
 
-            arena, trains = self.arena, [UNMEASURED] * ROBOTS
+            arena, ground = self.arena, self.ground
             arena.cleared = False
-            self._now = arena.clock()
+            self._now, self.mm = arena.clock(), ground.mm
             link = Link(arena.radio.open, arena.clock, name="EMU0")
-            tracker = Tracker(self._ground(), arena.clock, trains)
-            self._rig = Rig(EmulatedEye(arena), tracker, link, arena.clock, trains)
+            self._rig = new_rig(EmulatedEye(arena), link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)
             if self._time is not None:
                 self._rig.start()
                 self._time.watched, self._time.limit = True, self._now + AHEAD
         return self._rig
 
+    def find(self) -> None:
+        """Let the tracker find the robots on a dark floor, then show a busy one.
+
+        Needs `lighting`. Raises RuntimeError if that takes more than SEARCH s.
+        """
+        assert self.lighting is not None
+        rig = self.open()
+        for _ in range(round(SEARCH * HZ)):
+            self.tick()
+            if all(seen.age < 0.2 for seen in rig.sense()):
+                self.lighting.show(busy=True)
+                return
+        raise RuntimeError("the tracker does not find all robots")
+
     def listen(self) -> "Link | None":
-        """There is no radio where there is no arena."""
+        """None: where there is no arena, there is no radio."""
         return None
+
+    def tick(self) -> None:
+        self.advance(DT)
+
+    def advance(self, seconds: float) -> float:
+        """Let time pass in the arena; less passes than asked for where this computer is too slow."""
+        if self._rig is None:
+            return seconds
+        if self._time is None:
+            self._light(self._rig)
+            for _ in range(max(1, round(seconds / SLICE))):
+                self.arena.advance(SLICE)
+                self._rig.pump()
+            return seconds
+        before, self._now = self._now, self.arena.clock()
+        self._time.limit = self._now + seconds + AHEAD
+        return self._now - before
+
+    def show(self, pixels: Callable[[], Any]) -> None:
+        """The window's picture falls on the mat, once there is one: (height, width, 4), blue first.
+
+        `pixels` is called only when the projector is due.
+        """
+        if self._arena is not None and self._arena.clock() - self._lit > DIM:
+            self._lit = self._arena.clock()
+            from pigaming_app.hardware.emulator.projector import Projector
+
+            Projector(self._arena).see(pixels())
 
     def close(self) -> None:
         """Stop the robots and let go of camera and radio; the arena's time goes on."""
@@ -117,41 +180,51 @@ class EmulatedMat:
             self._time.watched, self._time.limit = False, inf
 
     def end(self) -> None:
-        """Close, and stop the arena's time too."""
         self.close()
         passing, self._time = self._time, None
         if passing is not None:
             passing.close()
 
-    def advance(self, seconds: float) -> float:
-        """Let time pass in the arena; how much has passed: less than asked for where this computer is too slow."""
-        if self._rig is None:
-            return seconds
-        if self._time is None:
-            for _ in range(max(1, round(seconds / SLICE))):
-                self._rig.pump()
-                self.arena.advance(SLICE)
-            return seconds
-        before, self._now = self._now, self.arena.clock()
-        self._time.limit = self._now + seconds + AHEAD
-        return self._now - before
+    def _new_arena(self) -> "EmulatedArena":
+        import numpy as np
 
-    def see(self, window: pygame.Surface) -> None:
-        """What the window shows falls on the mat, once there is one."""
-        if self._arena is not None and self._arena.clock() - self._lit > DIM:
-            self._lit = self._arena.clock()
-            from pigaming_app.hardware.emulator.projector import Projector
-            from pigaming_app.ui.draw.pixels import pixels_of
+        from pigaming_app.hardware.emulator.arena import EmulatedArena
+        from pigaming_app.hardware.emulator.camera import Pace
+        from pigaming_app.hardware.emulator.radio import MODERATE
 
-            picture = self.canvas.screen if self.canvas and not self.canvas.corners else window  # bars are no picture
-            Projector(self._arena).see(pixels_of(picture))
+        refresh = WHOLE if self.live else QUICK
+        arena = EmulatedArena(self.seed, self._pace or Pace(FPS), self._air or MODERATE, refresh, self._unrest)
+        self._made = self._made or calibrated(arena)
+        arena.project(np.zeros(DARK, np.uint8))  # until the window shows something
+        return arena
 
-    def _ground(self) -> "Ground":
-        """The calibration of the wizard, or else the one that was made when the arena was."""
-        from pigaming_app.hardware.calibration.ground_plane import NoGround
+    def _light(self, rig: "Rig") -> None:
+        """Project the floor, and a disc where each robot will be when the light lands."""
+        if self.lighting is not None:
+            from pigaming_app.hardware.emulator.arena import SHOWS_AFTER
 
-        try:
-            return kept_ground("calibration-emulated.toml", self.canvas.projection if self.canvas else "")
-        except NoGround:
-            assert self._made is not None
-            return self._made
+            self.arena.project(self.lighting.picture(rig.sense(SHOWS_AFTER)))
+
+
+def calibrated(arena: "EmulatedArena") -> "Ground":
+    """The calibration of an arena, found and verified as the wizard does it. Raises NoGround."""
+    from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
+    from pigaming_app.hardware.calibration.ground_plane import NoGround
+    from pigaming_app.hardware.calibration.procedure import Calibration
+    from pigaming_app.hardware.calibration.solver import verified
+    from pigaming_app.hardware.emulator.site import EmulatedSite
+
+    site = EmulatedSite(arena=arena)
+    work = Calibration(site, 0, site.measures, "emulated")
+    pictures = {board: board.picture() for board in (BOARD, HELD_OUT)}
+    while not work.over:
+        if work.board is not None:
+            arena.project(pictures[work.board])
+            work.shown(work.board)
+        site.advance(DT)
+        work.pump()
+    work.close()
+    if work.ground is None or work.residuals is None:
+        assert work.trouble is not None
+        raise NoGround(work.trouble)
+    return verified(work.ground, work.residuals)

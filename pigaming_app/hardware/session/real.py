@@ -1,99 +1,88 @@
-"""The mat: everything outside the computer that real robots need, real or emulated, and its parts while they are used.
+"""Real robots: the camera and the radio of the settings, with the calibration and the measured robots of the user.
 
-`open` starts camera, tracker and radio for a match or a page, `close` stops the robots and ends every thread. What is
-wrong is one sentence, `trouble`; the arcade plays on with simulated robots.
+A camera or radio that is missing or broken at first may be plugged in later: both report their fault and try again.
 """
 
-import logging
-from typing import TYPE_CHECKING, Protocol
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from pigaming_app.storage.settings import Settings, folders
-from pigaming_app.ui.window import Canvas
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+from pigaming_app.hardware.session.robot_session import new_rig, refused, trouble_of
+from pigaming_app.sim.world import DT
+from pigaming_app.storage.settings import Settings
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import Ground
-    from pigaming_app.hardware.control.rig import Rig, Talks
-    from pigaming_app.hardware.messages import Said
+    from pigaming_app.hardware.calibration.site import Site
+    from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
-    from pigaming_app.hardware.session.assembly import Wiring
+    from pigaming_app.hardware.signals import Eye, Frame
 
-LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
-
-log = logging.getLogger("pigaming")
-
-
-class NoMat(Exception):
-    """The robots cannot be used; its argument is one sentence, mostly a `said.Said`."""
+STOCK = "stock"  # one robot as it is sold, on a cable
+NO_PORT = "no serial port"
 
 
-class Mat(Protocol):
-    """A mat with robots, or what stands in for it."""
-
-    emulated: bool
-
-    @property
-    def trouble(self) -> str | None:
-        """What is wrong with camera or radio, in one sentence; None: nothing, or they are not in use."""
-
-    def open(self) -> "Rig":
-        """Start, or go on with, what real robots need. Raises NoMat."""
-
-    def listen(self) -> "Link | None":
-        """The radio alone, where `open` raises; None where there is none either."""
-
-    def close(self) -> None:
-        """Stop the robots and end all threads. May be called again."""
-
-    def end(self) -> None:
-        """Close for good."""
-
-    def advance(self, seconds: float) -> float:
-        """Let time pass, where it does not pass by itself; how much has passed."""
-
-
-class RealMat:
-    """The camera and the radio of the settings."""
+class RealSession:
+    """The robots of these settings. `projection` is `Canvas.projection`; None: of whichever display was calibrated."""
 
     emulated = False
 
-    def __init__(self, settings: Settings, canvas: Canvas) -> None:
-        self.settings, self.canvas = settings, canvas
+    def __init__(self, settings: Settings, projection: Callable[[], str | None] = lambda: None) -> None:
+        self.settings, self.projection = settings, projection
+        self.mm = 0.0
         self._rig: Rig | None = None
         self._link: Link | None = None
+        self._next = time.monotonic()  # s, when the next tick is due
 
     @property
-    def trouble(self) -> str | None:
-        """What is wrong with camera or radio."""
+    def trouble(self) -> OperatorMessage | None:
         if self._rig is not None:
             return trouble_of(self._rig)
-        return told(self._link) if self._link else None
+        return self._link.trouble if self._link else None
+
+    @property
+    def site(self) -> "Site":
+        from pigaming_app.hardware.calibration.site import RealSite
+
+        return RealSite()
 
     def open(self) -> "Rig":
-        """Start camera, tracker and radio in their threads. Raises NoMat."""
         if self._rig is None:
-            from pigaming_app.hardware.calibration.ground_plane import NoGround
-            from pigaming_app.hardware.session.assembly import connect, measured
-            from pigaming_app.hardware.vision.markers import NoVision
+            from pigaming_app.hardware.session import store
+            from pigaming_app.hardware.vision.camera import Camera
             from pigaming_app.sim.drivetrain import DrivetrainError
 
             try:
-                ground = kept_ground("calibration.toml", self.canvas.projection)
-                self._rig = connect(self._wiring, ground, measured(folders().config / "robots.toml"))
-            except (NoGround, NoVision, DrivetrainError, ImportError) as trouble:
-                raise refused(trouble) from trouble
-            self._rig.channels = tuple(one - 1 for one in self.settings.radios)
+                ground = store.load(store.calibration_file("real"), self.projection())
+                drivetrains = store.load_robots(store.robots_file(emulated=False))
+                camera = SizedCamera(Camera(self.settings.camera), ground)
+                try:
+                    rig = new_rig(camera, self._new_link(), ground, time.monotonic, drivetrains)
+                except BaseException:
+                    camera.close()
+                    raise
+            except OperatorError as trouble:
+                raise refused(trouble.message) from trouble
+            except (DrivetrainError, ImportError) as trouble:
+                raise refused(OperatorMessage("robots_file", detail=trouble)) from trouble
+            rig.channels = tuple(one - 1 for one in self.settings.radios)
+            self.mm, self._rig = ground.mm, rig.start()
         return self._rig
 
     def listen(self) -> "Link | None":
-        """The radio of the settings."""
         if self._link is None:
-            from pigaming_app.hardware.session.assembly import linked
-
-            self._link = linked(self._wiring).start()
+            self._link = self._new_link().start()
         return self._link
 
+    def tick(self) -> None:
+        self._next = max(self._next + DT, time.monotonic() - DT)
+        time.sleep(max(0.0, self._next - time.monotonic()))
+
+    def advance(self, seconds: float) -> float:
+        return seconds
+
     def close(self) -> None:
-        """Stop the robots and end all threads."""
         rig, self._rig, link, self._link = self._rig, None, self._link, None
         if rig is not None:
             rig.close()
@@ -101,65 +90,45 @@ class RealMat:
             link.close()
 
     def end(self) -> None:
-        """Close for good."""
         self.close()
 
-    def advance(self, seconds: float) -> float:
-        """Real time passes by itself."""
-        return seconds
-
-    @property
-    def _wiring(self) -> "Wiring":
-        from pigaming_app.hardware.session.assembly import Wiring
+    def _new_link(self) -> "Link":
+        """The link of the settings, not yet started. A port that does not open is its `trouble`."""
+        from pigaming_app.hardware.radio.link import Link
+        from pigaming_app.hardware.radio.serial_line import ports, serial_port
+        from pigaming_app.hardware.radio.stock_protocol import BAUD, Stock
+        from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
 
         chosen = self.settings
-        return Wiring(chosen.camera, chosen.port, chosen.baud, chosen.radio)
+        name = chosen.port or next((port.device for port in ports()), NO_PORT)
+        if chosen.radio == STOCK:
+            return Link(serial_port(name, BAUD), time.monotonic, Stock(0), name)
+        return Link(serial_port(name, chosen.baud), time.monotonic, Air(Mode(chosen.radio)), name)
 
 
-def unfit(settings: Settings) -> "Said | None":
-    """Why no match may begin with real robots on the radio of these settings, emulated ones included; None: it may."""
-    if settings.radio != "stock":
-        return None
-    from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
+class SizedCamera:
+    """A camera whose pictures must be as large as those it was calibrated with: others would misplace every robot."""
 
-    return NO_DEADMAN
+    def __init__(self, camera: "Eye", ground: "Ground") -> None:
+        self.camera, self.ground = camera, ground
+        self._misfit: OperatorMessage | None = None
 
+    @property
+    def trouble(self) -> OperatorMessage | None:
+        """The fault of the camera, or of its pictures' size."""
+        return self.camera.trouble or self._misfit
 
-def kept_ground(file: str, projection: str) -> "Ground":
-    """The calibration kept for this projection. Raises NoGround."""
-    from pigaming_app.hardware.calibration.ground_plane import read, written
-    from pigaming_app.hardware.session.assembly import ground_of
+    def newest(self) -> "Frame | None":
+        """The newest frame that was not given out before, or None."""
+        from pigaming_app.hardware.calibration.ground_plane import misfit
 
-    ground = ground_of(folders().config / file)
-    return read(written(ground), projection, ground.lens.size)
+        frame = self.camera.newest()
+        if frame is None:
+            return None
+        size = (frame.image.shape[1], frame.image.shape[0])
+        self._misfit = None if size == self.ground.lens.size else misfit(self.ground, size)
+        return frame if self._misfit is None else None
 
-
-def trouble_of(rig: "Rig") -> str | None:
-    """What a camera or a link says is wrong with it."""
-    return exact(rig, "camera") or exact(rig, "radio")
-
-
-def exact(rig: "Rig", fault: str) -> str | None:
-    """What the part that a fault is about says itself."""
-    if fault == "camera":
-        return getattr(rig.eye, "trouble", None)
-    return told(rig.link) if fault == "radio" else None
-
-
-def told(link: "Talks") -> str | None:
-    """What a link says is wrong with it, with a key for other languages."""
-    from pigaming_app.hardware.messages import Said
-
-    trouble = link.trouble
-    if trouble is None:
-        return None
-    return Said(str(trouble), f"radio_{trouble.reason}", port=trouble.port, detail=trouble.detail)
-
-
-def refused(trouble: BaseException) -> NoMat:
-    """The same trouble as NoMat; the log has it too."""
-    from pigaming_app.hardware.messages import said
-
-    sentence = said(trouble)
-    log.warning("%s", sentence)
-    return NoMat(sentence)
+    def close(self) -> None:
+        """Let go of the camera."""
+        self.camera.close()

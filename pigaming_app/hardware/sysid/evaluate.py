@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.recordings import Course, Floats, Run
 from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist
@@ -26,8 +27,8 @@ WAY, TURN = 1500.0, 3.0  # px and rad that a robot must have driven and turned
 ODD = 2.0  # times a number may differ from the nominal one
 
 
-class TooShort(ValueError):
-    """A run that says too little; the text is one sentence."""
+class TooShort(OperatorError):
+    """A run from which no robot can be identified."""
 
 
 class Errors(NamedTuple):
@@ -63,7 +64,8 @@ def measure(run: Run, nominal: Drivetrain = NOMINAL) -> list[Verdict]:
     for robot, course in run.courses.items():
         begin, end = course.seen_at[0], course.seen_at[-1]
         if end - begin < SHORTEST:
-            raise TooShort(f"Robot {robot + 1} was watched for {end - begin:.0f} s; {SHORTEST:.0f} s are needed.")
+            watched = {"seconds": f"{end - begin:.0f}", "needed": f"{SHORTEST:.0f}"}
+            raise TooShort(OperatorMessage("run_short", robot=robot + 1, **watched))
         cut = end - HELD_OUT * (end - begin)
         found = identify(course.between(begin, cut), nominal) if drove(course) else None
         if found is None or not sensible(found, nominal):
@@ -71,7 +73,7 @@ def measure(run: Run, nominal: Drivetrain = NOMINAL) -> list[Verdict]:
         rest = course.between(cut, end + 1.0)
         verdicts.append(Verdict(robot, found, errors(rest, nominal, run.mm), errors(rest, found, run.mm)))
     if not verdicts:
-        raise TooShort("No robot of this run drove about enough to tell anything about it.")
+        raise TooShort(OperatorMessage("run_still"))
     return verdicts
 
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pigaming_app.hardware.calibration.least_squares import least_squares
 from pigaming_app.hardware.recordings import Course, Floats
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel
 
@@ -24,7 +25,8 @@ FEWEST = 8  # fixes in a window that counts
 HUBER = 3.0  # standard deviations beyond which a fix counts less
 LATEST, COARSE = 0.20, 0.02  # s: the longest dead time that is tried, and from one to the next
 EARLY = 2.0  # s before which what was told does not matter any more
-ROUNDS, TRIES = 25, 6
+ROUNDS = 25
+SETTLED = 1e-5  # share of the cost that a round must gain
 LATE = 6  # the place of the dead time among the numbers: left, right, their deadbands, lag, base, dead time
 NUDGES = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1, 1e-3])  # of these, to see what they do
 LEAST = np.array([100.0, 100.0, 0.0, 0.0, 0.01, 20.0, 0.0])
@@ -98,29 +100,16 @@ def identify(course: Course, start: Drivetrain) -> Drivetrain:
 
 
 def _fitted(course: Course, start: Drivetrain, free: int) -> tuple[float, Drivetrain]:
-    """Levenberg-Marquardt in the first `free` numbers of the drivetrain: the cost, and the drivetrain."""
-    vector, damping = _vector(start), 1e-3
-    rest = _residual(course, start)
-    cost = _cost(rest)
-    for _ in range(ROUNDS):
-        weights = np.minimum(1.0, HUBER / np.maximum(np.abs(rest), 1e-9)) ** 0.5
-        jacobian = _jacobian(course, vector[:free], vector, rest) * weights[:, None]
-        normal, slope = jacobian.T @ jacobian, jacobian.T @ (rest * weights)
-        for _ in range(TRIES):
-            change = np.zeros(len(vector))
-            change[:free] = np.linalg.solve(normal + damping * np.diag(np.diag(normal) + 1e-9), slope)
-            candidate = _drivetrain(vector - change)
-            new_rest = _residual(course, candidate)
-            if _cost(new_rest) < cost:
-                break
-            damping *= 8.0
-        else:
-            break
-        gain, vector, rest, damping = cost - _cost(new_rest), _vector(candidate), new_rest, damping / 4.0
-        cost -= gain
-        if gain < 1e-5 * cost:
-            break
-    return cost, _drivetrain(vector)
+    """Fit the first `free` numbers of the drivetrain: the cost, and the drivetrain."""
+    fixed = _vector(start)[free:]
+
+    def residual(numbers: Floats) -> Floats:
+        """The start poses are fitted anew for each drivetrain, which projects them out."""
+        return _residual(course, _drivetrain(np.concatenate([numbers, fixed])))
+
+    bounds = LEAST[:free], MOST[:free]
+    found = least_squares(residual, _vector(start)[:free], ROUNDS, NUDGES[:free], bounds, HUBER, SETTLED)
+    return found.cost, _drivetrain(np.concatenate([found.at, fixed]))
 
 
 def _residual(course: Course, drivetrain: Drivetrain) -> Floats:
@@ -136,16 +125,6 @@ def _residual(course: Course, drivetrain: Drivetrain) -> Floats:
     return np.asarray(((seen - fitted) / NOISE).ravel())
 
 
-def _jacobian(course: Course, free: Floats, vector: Floats, rest: Floats) -> Floats:
-    """By differences. The start poses are fitted anew for each, which projects them out."""
-    columns = []
-    for i in range(len(free)):
-        nudged = vector.copy()
-        nudged[i] += NUDGES[i]
-        columns.append((_residual(course, _drivetrain(nudged)) - rest) / NUDGES[i])
-    return np.column_stack(columns)
-
-
 def _vector(drivetrain: Drivetrain) -> Floats:
     left, right = drivetrain.left, drivetrain.right
     numbers = (left.speed, right.speed, left.deadband, right.deadband, drivetrain.lag, drivetrain.base)
@@ -156,12 +135,6 @@ def _drivetrain(vector: Floats) -> Drivetrain:
     """The drivetrain of these numbers, each kept to what is possible."""
     left, right, left_band, right_band, lag, base, dead = np.clip(vector, LEAST, MOST).tolist()
     return Drivetrain(Wheel(left, left_band), Wheel(right, right_band), base, lag, dead)
-
-
-def _cost(rest: Floats) -> float:
-    """Huber's, summed."""
-    size = np.abs(rest)
-    return float(np.sum(np.where(size <= HUBER, 0.5 * size**2, HUBER * (size - 0.5 * HUBER))))
 
 
 def _speed(shares: Floats, wheel: Wheel) -> Floats:

@@ -5,6 +5,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.recordings import Run
 from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Verdict, predictions
 from pigaming_app.sim.drivetrain import NOMINAL
@@ -13,8 +14,8 @@ from pigaming_app.storage.safe_files import write
 SHOWN = 6  # predictions drawn for each robot
 
 
-class NoPlots(Exception):
-    """Pictures cannot be made; the text is one sentence."""
+class NoPlots(OperatorError):
+    """Pictures cannot be made."""
 
 
 def draw(run: Run, verdicts: Sequence[Verdict], folder: Path) -> list[Path]:
@@ -22,7 +23,7 @@ def draw(run: Run, verdicts: Sequence[Verdict], folder: Path) -> list[Path]:
     try:
         from matplotlib.figure import Figure
     except ImportError:
-        raise NoPlots("The package matplotlib is missing, so there are no plots; everything else works.") from None
+        raise NoPlots(OperatorMessage("no_plots")) from None
     made = []
     for name, paint in (("horizon.png", _horizons), ("paths.png", _paths)):
         figure = Figure(figsize=(10, 6), layout="constrained")

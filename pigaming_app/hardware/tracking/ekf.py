@@ -5,7 +5,7 @@ batteries, and a prediction over 80 ms of dead time needs to know by how much.
 """
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import cos, hypot, inf, pi, sin, tau
 
 import numpy as np
@@ -67,11 +67,19 @@ class Follower:
 
     def at(self, now: float) -> Sighting:
         """Where it is at a time, by the commands sent since it was seen."""
-        rolling = self._rolling.copy()
-        if self._seen > -inf:
-            for left, right, dt in self._acting(self._seen, min(now, self._seen + COAST)):
-                rolling.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
-        return Sighting(rolling.x, rolling.y, wrap(rolling.heading % tau), self.unseen(now))
+        return self.along((now,))[0]
+
+    def along(self, times: Sequence[float]) -> list[Sighting]:
+        """Where it is at these times (s, in rising order): one prediction that goes on from each to the next."""
+        rolling, at, found = self._rolling.copy(), self._seen, []
+        for time in times:
+            if self._seen > -inf:
+                until = min(time, self._seen + COAST)
+                for left, right, dt in self._acting(at, until):
+                    rolling.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
+                at = max(at, until)
+            found.append(Sighting(rolling.x, rolling.y, wrap(rolling.heading % tau), self.unseen(time)))
+        return found
 
     def correct(self, fix: Fix) -> bool:
         """Take in where the camera saw it; false if that is not believed."""

@@ -1,7 +1,7 @@
 """Where every robot is now: seen a while ago by the camera, predicted from there by the commands sent since.
 
 Every picture corrects the robots' filters at the time when it was taken; `sense` then replays what was sent since.
-Nothing here moves a robot or stops one: `safety` judges `lost`, `doubled` and `looked`.
+Nothing here moves a robot or stops one: `safety` judges ages, `doubled` and `looked`.
 """
 
 from collections.abc import Sequence
@@ -31,11 +31,17 @@ MARGIN, ASTRAY = 6.0, 200.0  # how far from its prediction a marker is looked fo
 class Tracker:
     """The robots 0 to 3. Times are of `clock`; poses in arena px and rad. Raises NoVision where OpenCV is missing."""
 
-    def __init__(self, ground: Ground, clock: Clock, drivetrains: Sequence[Drivetrain] | None = None) -> None:
+    def __init__(
+        self,
+        ground: Ground,
+        clock: Clock,
+        drivetrains: Sequence[Drivetrain] | None = None,
+        drift: Drift | None = None,
+    ) -> None:
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # which robots are worth searching for; others are taken if they are seen
         self.looked = -inf  # s, when the newest picture was taken that was looked at
-        self.drift: Drift | None = None  # watches the same pictures, where the corner markers are projected
+        self.drift = drift  # watches the same pictures for the corner markers
         self._markers = Markers(ROBOT_IDS)
         self._followers = [Follower(one, ground.mm) for one in drivetrains or [NOMINAL] * ROBOTS]
         self._refused: dict[tuple[int, str], float] = {}
@@ -72,9 +78,10 @@ class Tracker:
         """Where every robot is at a time, and how old its newest sight is then."""
         return _apart([follower.at(now) for follower in self._followers])
 
-    def lost(self, robot: int) -> float:
-        """Seconds since a robot was seen and believed; 1e9 if it never was."""
-        return self._followers[robot].unseen(self.clock())
+    def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]:
+        """Where every robot is at a time, and where robot i is `ahead[i]` s later."""
+        both = [one.along((now, now + more)) for one, more in zip(self._followers, ahead, strict=True)]
+        return _apart([at for at, _ in both]), _apart([later for _, later in both])
 
     def wear(self, robot: int) -> Wear:
         """What has been learnt of a robot's wheels."""

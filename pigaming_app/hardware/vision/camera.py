@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Self
 
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import Clock, Frame
 from pigaming_app.hardware.vision.discovery import why_not
 from pigaming_app.hardware.vision.markers import opencv
@@ -50,11 +50,10 @@ class Camera:
         self._cv = opencv()
         self.number, self.wanted, self.clock, self.settle = number, wanted or Wanted(), clock, settle
         self.fresh = fresh  # whether exposure and the like are found anew; else they stay as a calibration locked them
-        self.trouble: str | None = Said(f"Camera {number} has not shown a picture yet.", "yet", number=number)
+        self.trouble: OperatorMessage | None = OperatorMessage("yet", number=number)
         self.loose: Sequence[str] = ()  # what it goes on correcting by itself
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: Frame | None = None
-        self._arrived = float("-inf")
         self._count = 0
         self._lock = threading.Lock()
         self._closing = threading.Event()
@@ -72,11 +71,6 @@ class Camera:
         with self._lock:
             frame, self._newest = self._newest, None
             return frame
-
-    @property
-    def age(self) -> float:
-        """Seconds since a picture came; infinite before the first."""
-        return self.clock() - self._arrived
 
     def close(self) -> None:
         """Let go of the camera, within a second."""
@@ -129,11 +123,7 @@ class Camera:
                 last = now
                 self._keep(capture, picture)
             elif now - last > STALE:
-                self.trouble = Said(
-                    f"Camera {self.number} has stopped sending pictures: is it unplugged?",
-                    "stopped",
-                    number=self.number,
-                )
+                self.trouble = OperatorMessage("stopped", number=self.number)
                 return
             else:
                 self._closing.wait(0.005)
@@ -147,7 +137,7 @@ class Camera:
         captured = told if 0.0 < now - told < PLAUSIBLE else now - ASSUMED
         with self._lock:
             self._count += 1
-            self._newest, self._arrived, self.trouble = Frame(grey, captured, self._count), now, None
+            self._newest, self.trouble = Frame(grey, captured, self._count), None
 
 
 def free(cv: Any, capture: Any) -> None:

@@ -1,4 +1,4 @@
-"""Which cameras there are, and why one cannot be used, in one sentence."""
+"""Which cameras there are, and why one cannot be used."""
 
 import os
 import re
@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 
 DEVICES = Path("/sys/class/video4linux")
 NODES = Path("/dev")
@@ -31,21 +31,17 @@ def cameras() -> list[Known]:
     return sorted(found)
 
 
-def why_not(number: int) -> Said:
+def why_not(number: int) -> OperatorMessage:
     """Why the camera with this number could not be opened."""
     if not sys.platform.startswith("linux"):
-        sentence = f"Camera {number} cannot be used: it is not plugged in, or another program uses it."
-        return Said(sentence, "unusable", number=number)
+        return OperatorMessage("unusable", number=number)
     node = NODES / f"video{number}"
     if not node.exists():
         there = ", ".join(f"{known.number} ({known.name})" for known in cameras())
-        sentence = f"There is no camera {number}" + (f"; there are {there}." if there else ": plug one in.")
-        return Said(sentence, "other_cameras" if there else "no_camera", number=number, there=there)
+        return OperatorMessage("other_cameras" if there else "no_camera", number=number, there=there)
     if not os.access(node, os.R_OK | os.W_OK):
-        sentence = f"The camera {node} may not be used by this user: add the user to the group video and log in again."
-        return Said(sentence, "not_allowed", node=node)
-    sentence = f"The camera {node} does not open: another program uses it, or it sends no pictures."
-    return Said(sentence, "busy", node=node)
+        return OperatorMessage("not_allowed", node=node)
+    return OperatorMessage("busy", node=node)
 
 
 def _text(path: Path) -> str:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import Image, Mark
 from pigaming_app.hardware.vision.subpixel import refined
 
@@ -31,8 +31,8 @@ QUIETLY = {
 }
 
 
-class NoVision(Exception):
-    """There is no OpenCV; the text is one sentence for the operator."""
+class NoVision(OperatorError):
+    """There is no OpenCV."""
 
 
 class Spot(NamedTuple):
@@ -169,8 +169,7 @@ def opencv() -> Any:
     try:
         import cv2
     except ImportError as error:
-        sentence = f"OpenCV is not installed ({error}), so no camera can be used: install opencv-python-headless."
-        raise NoVision(Said(sentence, "no_opencv")) from error
+        raise NoVision(OperatorMessage("no_opencv")) from error
     return cv2
 
 

@@ -25,6 +25,7 @@ from pigaming_app.hardware.proof.emergencies import EMERGENCIES, Stopped
 from pigaming_app.hardware.proof.testbed import Bed, one_core
 from pigaming_app.hardware.proof.trials import Followed, Masher, Played, Trail
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.ui.i18n import english
 
 Found = TypeVar("Found")
 Run = tuple[float, int]  # frames/s, seed
@@ -195,5 +196,7 @@ def _of(future: Future[Found], what: str) -> Found:
     """The result of a process. Raises Unproven."""
     try:
         return future.result()
-    except (RuntimeError, NoGround) as reason:
+    except NoGround as reason:
+        raise Unproven(f"{what}: {english().explained(reason.message)}") from reason
+    except RuntimeError as reason:
         raise Unproven(f"{what}: {reason}") from reason

@@ -8,7 +8,6 @@ import pygame
 from pigaming_app.hardware.calibration.boards import LIGHT, Board
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import Measures, Site
-from pigaming_app.hardware.messages import said
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
@@ -70,7 +69,7 @@ class BoardsPage:
         try:
             screen.blit(picture(board), (0, 0))
         except NoVision as missing:
-            self.work.give_up(said(missing))
+            self.work.give_up(missing.message)
             screen.fill((0, 0, 0))
             return
         self._draw_progress(screen)

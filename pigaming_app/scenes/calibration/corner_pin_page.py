@@ -7,9 +7,8 @@ import logging
 
 import pygame
 
-from pigaming_app.hardware.calibration.corner_pin import STRAIGHT
-from pigaming_app.hardware.messages import said
-from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin
+from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.play.runner import LEFT, TOP
@@ -36,12 +35,12 @@ from pigaming_app.ui.draw.ink import (
 )
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.focus import WAYS
 from pigaming_app.ui.widgets.labels import text
-from pigaming_app.ui.window import NoPin
 
 STEPS = (10, 1)  # px
 CORNERS = ((0, 0), (1920, 0), (1920, 1080), (0, 1080))
@@ -156,18 +155,18 @@ class PinPage:
         """Show the picture in these corners; false: it cannot be, and a sentence says why."""
         straight = self.corners == [round(value) for value in STRAIGHT]
         try:
-            self.house.canvas.pin([] if straight else self.corners)
+            self.house.canvas.pin(None if straight else CornerPin(self.corners))
             return True
-        except NoPin as trouble:
-            log.warning("%s", trouble)
-            self._say(tell(self.house.words, said(trouble)))
+        except OperatorError as trouble:
+            log.warning("%s", english().explained(trouble.message))
+            self._say(self.house.words.sentence(trouble.message))
             return False
 
     def _restore(self) -> None:
         try:
-            self.house.canvas.pin(self.before)
-        except NoPin as trouble:
-            log.warning("%s", trouble)
+            self.house.canvas.pin(CornerPin(self.before) if self.before else None)
+        except OperatorError as trouble:
+            log.warning("%s", english().explained(trouble.message))
 
     def _save(self) -> Turn:
         """Keep it for good, or say that it cannot be kept."""

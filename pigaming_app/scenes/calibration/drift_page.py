@@ -7,12 +7,11 @@ import pygame
 from pigaming_app.hardware.calibration.camera_task import SPOT, Checking
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.calibration.site import Site
-from pigaming_app.hardware.messages import said
-from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.calibration.result_page import OFF
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import House
@@ -37,7 +36,9 @@ class CheckPage:
     def __init__(self, house: House, site: Site | None = None) -> None:
         self.house, self.site = house, site or site_of(house)
         number = house.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
-        self.work = Checking(self.site, number, partial(kept.load, house.canvas.projection, self.site))
+        self.work = Checking(
+            self.site, number, partial(store.load, store.calibration_file(self.site.name), house.canvas.projection)
+        )
         self.clock = 0.0
         self.prompts = Prompts(house, [(Act.BACK, "calibrate.hint_back")])
 
@@ -72,7 +73,7 @@ class CheckPage:
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
         if work.trouble is not None:
-            for i, line in enumerate(paragraph(tell(words, work.trouble), ROOM, 4, ALARM, "c")):
+            for i, line in enumerate(paragraph(words.sentence(work.trouble), ROOM, 4, ALARM, "c")):
                 line.draw(screen, 960, 480 + 60 * i)
         elif work.mm is None:
             text(words("calibrate.looking_for"), LABEL, MIST, "body", room=ROOM).draw(screen, 960, 480)
@@ -81,7 +82,7 @@ class CheckPage:
         try:
             draw_corners(screen)
         except NoVision as missing:
-            work.trouble = said(missing)
+            work.trouble = missing.message
         self._draw_spot(screen)
         self.prompts.draw(screen)
 

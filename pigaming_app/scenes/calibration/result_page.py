@@ -11,9 +11,10 @@ import pygame
 from pigaming_app.hardware.calibration.ground_plane import Ground
 from pigaming_app.hardware.calibration.site import Measures, Site
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
-from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import Image
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
@@ -21,6 +22,7 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, MIST, STEEL
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
@@ -44,7 +46,7 @@ class Finding:
     measures: Measures
     ground: Ground | None
     residuals: Residuals | None
-    trouble: str | None = None
+    trouble: OperatorMessage | None = None
     picture: Image | None = None  # what the camera saw last
     marker_mm: float = 0.0
 
@@ -70,7 +72,7 @@ class ResultPage:
     def entered(self) -> None:
         """It is what it is."""
         if self.finding.residuals and not self.finding.trouble:
-            log.info("calibration: %s", self.finding.residuals.verdict)
+            log.info("calibration: %s", english().explained(self.finding.residuals.verdict))
 
     def on(self, press: Press) -> Turn:
         """Left and right choose, FIRE does it."""
@@ -131,7 +133,7 @@ class ResultPage:
             figure(words(f"calibrate.{key}"), told, value / limit, need).draw(screen, SIDE.x, y)
             y += 214
         if not finding.good:
-            lines = paragraph(tell(words, residuals.verdict), SIDE.w, 5)
+            lines = paragraph(words.sentence(residuals.verdict), SIDE.w, 5)
         else:
             ground = finding.ground
             lines = paragraph(
@@ -153,8 +155,9 @@ class ResultPage:
         return [*paragraph(said, SIDE.w, 3, ALARM if off else ICE)]
 
     def _draw_failure(self, screen: pygame.Surface) -> None:
-        words = self.house.words
-        for i, line in enumerate(paragraph(tell(words, self.finding.trouble or ""), SIDE.w, 9)):
+        words, trouble = self.house.words, self.finding.trouble
+        sentence = words.sentence(trouble) if trouble else ""
+        for i, line in enumerate(paragraph(sentence, SIDE.w, 9)):
             line.draw(screen, SIDE.x, SIDE.y + 40 + 52 * i)
         key = "unseen" if self.picture is None else "sees"
         text(words(f"calibrate.{key}"), BODY, MIST, "body", "l").draw(screen, AREA.x + 24, AREA.bottom - 36)
@@ -180,12 +183,12 @@ class ResultPage:
             return Swap(BoardsPage(self.house, finding.site, finding.number, finding.measures))
         if finding.ground is None:
             return None
+        path = store.calibration_file(finding.site.name)
         try:
-            kept.save(finding.ground, finding.site)
+            store.save(finding.ground, path)
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.house.sounds.play("back")
-            path = kept.path(finding.site)
             self.sentence, self.said = self.house.words("calibrate.unsaved", path=path), SAID
             return None
         self.house.sounds.play("accept")

@@ -7,10 +7,10 @@ import pygame
 from pigaming_app.hardware.calibration.camera_task import SMALL, Preview
 from pigaming_app.hardware.calibration.ground_plane import NoGround
 from pigaming_app.hardware.calibration.site import Measures, RealSite, Site
-from pigaming_app.hardware.messages import Said, said
-from pigaming_app.hardware.session import store as kept
-from pigaming_app.hardware.session.real import NoMat
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session import store
+from pigaming_app.hardware.session.robot_session import NoRobots
+from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.options.page import Value
@@ -19,6 +19,7 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw.ink import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
@@ -41,10 +42,9 @@ log = logging.getLogger("pigaming")
 def site_of(house: House) -> Site:
     """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
     try:
-        site: Site | None = getattr(house.mat, "site", None)
-    except NoMat:
-        site = None  # without OpenCV there is nothing; the page says so
-    return site or RealSite()
+        return house.mat.site if house.mat is not None else RealSite()
+    except NoRobots:
+        return RealSite()  # without OpenCV there is nothing; the page says so
 
 
 class CalibrationPage:
@@ -144,8 +144,8 @@ class CalibrationPage:
             return
         room, below = dials.PANEL.w - 40, PICTURE.bottom + 40
         if preview.trouble is not None or preview.small is None:
-            sentence = preview.trouble or Said("", "yet")
-            lines = paragraph(tell(words, sentence), room - 40, 5, align="c")
+            sentence = preview.trouble or OperatorMessage("yet")
+            lines = paragraph(words.sentence(sentence), room - 40, 5, align="c")
             for i, line in enumerate(lines):
                 line.draw(screen, PICTURE.centerx, PICTURE.centery + 52 * i - 26 * (len(lines) - 1))
             pygame.draw.rect(screen, (58, 76, 112), PICTURE, 2)
@@ -162,11 +162,12 @@ class CalibrationPage:
         """Whether there is a calibration for this camera and display."""
         self._state_of, words = size, self.house.words
         try:
-            ground = kept.load(self.house.canvas.projection, self.site, size)
+            file = store.calibration_file(self.site.name)
+            ground = store.load(file, self.house.canvas.projection, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
         except NoGround as trouble:
-            log.warning("%s", trouble)
-            self.state = tell(words, said(trouble))
+            log.warning("%s", english().explained(trouble.message))
+            self.state = words.sentence(trouble.message)
 
     # ---- what the rows are
 

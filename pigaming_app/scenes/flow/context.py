@@ -15,7 +15,7 @@ from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 
 if TYPE_CHECKING:
-    from pigaming_app.hardware.session.real import Mat
+    from pigaming_app.hardware.session.robot_session import RobotSession
 
 
 @dataclass
@@ -30,7 +30,7 @@ class House:
     canvas: Canvas
     kiosk: bool = False
     idle: float = 0.0  # seconds since anyone pressed anything
-    mat: "Mat | None" = None  # where real robots drive
+    mat: "RobotSession | None" = None  # where real robots drive
     compiler: Compiler = field(default_factory=Compiler)  # of the Lab's training
     backstage: Backstage = field(default_factory=Backstage)
     stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once

@@ -13,8 +13,7 @@ from pigaming_app.ai import RIVALS, STRENGTHS
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.session.real import unfit
-from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.hardware.session.robot_session import unfit
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
@@ -224,7 +223,7 @@ class Lobby:
     def _swap(self, seat: int) -> None:
         """A real robot for a simulated one, or the other way round; the next lobby begins like this."""
         if reason := unfit(self.house.settings):
-            self._say(tell(self.house.words, reason), "error")
+            self._say(self.house.words.sentence(reason), "error")
             return
         self.seats.swap(seat)
         self.house.settings.real = [i + 1 for i, place in enumerate(self.seats.places) if place.real]

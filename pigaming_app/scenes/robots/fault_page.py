@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from pigaming_app.hardware.control.safety import Fault
-from pigaming_app.hardware.session.real import exact
-from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Swap, Turn
 from pigaming_app.scenes.play.pause import Pause, title
 from pigaming_app.scenes.robots.fault_icons import sign
@@ -142,9 +141,9 @@ class Trouble:
             pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
         fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
         y = write(pane, named(first, words, fire), HEAD + 56, ICE)
-        detail = exact(self.match.plant.rig, first.name)
-        if detail:
-            y = write(pane, tell(words, detail), y + 8, MIST)
+        cause = cause_of(self.match.plant.rig, first.name)
+        if cause:
+            y = write(pane, words.sentence(cause), y + 8, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
         if others and y < FOOT - 130:
             write(pane, words("mat.also", other=named(others[0], words, "")), y + 8, MIST)

@@ -6,9 +6,9 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.radio.serial_line import ports
-from pigaming_app.hardware.session.real import unfit
+from pigaming_app.hardware.session.robot_session import unfit
 from pigaming_app.hardware.vision.discovery import cameras
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.lobby.match_setup_view import frame
@@ -179,19 +179,19 @@ class RobotsPage:
     def _line(self) -> str:
         """A sentence about the row in focus, or why its value is refused for matches."""
         reason = unfit(self.house.settings) if self.focus.name == "radio" else None
-        return tell(self.house.words, reason) if reason else self.house.words(f"fleet.{self.focus.name}_line")
+        return self.house.words.sentence(reason) if reason else self.house.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
         """What the camera does."""
         words, check = self.house.words, self.check
         if check.rig is None:
-            return tell(words, check.refusal or words("fleet.no_camera"))
+            return words.sentence(check.refusal) if check.refusal else words("fleet.no_camera")
         return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
 
     def _trouble(self) -> str | None:
         """What camera or radio say is wrong."""
         told = self.check.mat.trouble
-        return tell(self.house.words, told) if told else None
+        return self.house.words.sentence(told) if told else None
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.house.words, self.check.health(robot)

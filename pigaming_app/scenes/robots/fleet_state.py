@@ -7,7 +7,8 @@ from typing import Any
 from pigaming_app.hardware.commissioning.latency import Shake
 from pigaming_app.hardware.commissioning.pairing import Case, Finding, Pairing
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.session.real import Mat, NoMat
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession
 from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import Settings
@@ -32,11 +33,11 @@ class Health:
 class Checkup:
     """A look at the robots. `sentence`: why they cannot be used, or what has come of something."""
 
-    mat: Mat
+    mat: RobotSession
     settings: Settings
     rig: Rig | None = None
     link: Any = None
-    refusal: str | None = None
+    refusal: OperatorMessage | None = None
     rate: float = 0.0  # pictures a second
     findings: list[Finding] = field(default_factory=list)
     late: dict[int, float | None] = field(default_factory=dict)  # s, by robot; None: it could not be measured
@@ -56,8 +57,8 @@ class Checkup:
         try:
             self.rig = self.mat.open()
             self.link = self.rig.link
-        except NoMat as trouble:
-            self.refusal = trouble.args[0]
+        except NoRobots as trouble:
+            self.refusal = trouble.message
             self.rig, self.link = None, self.mat.listen()
 
     def end(self) -> None:

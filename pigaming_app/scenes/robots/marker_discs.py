@@ -10,7 +10,7 @@ import math
 import pygame
 
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.session.real import LIGHT_AFTER
+from pigaming_app.hardware.session.robot_session import LIGHT_AFTER
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import HEIGHT, WIDTH

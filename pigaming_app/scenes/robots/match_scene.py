@@ -10,8 +10,8 @@ import pygame
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Does, Fault
-from pigaming_app.hardware.session.real import Mat, NoMat, exact, refused, unfit
-from pigaming_app.scenes.calibration.corner_markers import DriftWatch
+from pigaming_app.hardware.session.robot_session import RobotSession, cause_of, refused, unfit
+from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, Turn
@@ -24,7 +24,7 @@ from pigaming_app.scenes.robots.marker_discs import Discs
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.take_places import Gathering
 from pigaming_app.ui.draw.ink import ALARM
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.caption import plate
 
@@ -35,13 +35,13 @@ log = logging.getLogger("pigaming")
 
 
 class RealMatch(MatchScene):
-    """A match in which the robots of the seats `real` are real ones. Raises NoMat where they cannot be used."""
+    """A match in which the robots of the seats `real` are real ones. Raises NoRobots where they cannot be used."""
 
     def __init__(
-        self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: Mat
+        self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: RobotSession
     ) -> None:
         if reason := unfit(house.settings):
-            raise refused(NoMat(reason))
+            raise refused(reason)
         rig = mat.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         self.mat = mat
@@ -50,7 +50,6 @@ class RealMatch(MatchScene):
         assert isinstance(plant, MixedPlant)
         self.plant = plant
         self.discs = Discs(rig)
-        self.watch = DriftWatch(rig)
         self.gathering: Gathering | None = Gathering(house, plant, lambda: self.access.voice)
         self.gone = False  # it has let go of the mat
         self.waiting = Pace()  # ticks in which all wait
@@ -124,7 +123,7 @@ class RealMatch(MatchScene):
         else:
             self.gathering.draw(screen)
             if self.gathering.flood.whole:
-                self.watch.draw(screen)
+                draw_corners(screen)
                 return
         self.shine(screen)
 
@@ -147,7 +146,7 @@ class RealMatch(MatchScene):
     def shine(self, screen: pygame.Surface) -> None:
         """The corner markers and the discs, over everything."""
         if self.real:
-            self.watch.draw(screen)
+            draw_corners(screen)
         self.discs.draw(screen, self.real)
 
     def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
@@ -223,8 +222,9 @@ class RealMatch(MatchScene):
         """Write what is newly wrong into the log; what is only said, over the match."""
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
         for key in now.keys() - self.logged:
-            detail = exact(self.plant.rig, now[key].name)
-            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), detail))))
+            cause = cause_of(self.plant.rig, now[key].name)
+            told = [named(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
+            log.warning("%s", " ".join(told))
             if now[key].name in TOLD:
                 said = named(now[key], self.house.words, "")
                 self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE
@@ -233,6 +233,3 @@ class RealMatch(MatchScene):
     def _worth(self, fault: Fault) -> bool:
         """A robot that is hard to see for a moment is not worth a line."""
         return fault.does is not Does.HALF and (fault.pauses or fault.name in TOLD)
-
-
-ENGLISH = Words("en")

@@ -4,7 +4,7 @@ import logging
 
 import pygame
 
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.options.page import Value
@@ -13,6 +13,7 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
@@ -101,7 +102,6 @@ class RobotsMenu:
     def _write(self) -> None:
         """Write the page with the markers where the user's files are, and say where."""
         from pigaming_app.hardware.calibration.marker_sheet import sheet
-        from pigaming_app.hardware.messages import said
         from pigaming_app.hardware.vision.markers import NoVision
 
         path, words = folders().data / SHEET, self.house.words
@@ -109,8 +109,8 @@ class RobotsMenu:
             write(path, sheet())
             self.sentence = words("robots.written", path=path)
         except NoVision as missing:
-            log.warning("%s", missing)
-            self.sentence = tell(words, said(missing))
+            log.warning("%s", english().explained(missing.message))
+            self.sentence = words.sentence(missing.message)
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.sentence = words("app.unsaved")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.flow.timestep import Pace
@@ -75,7 +76,7 @@ class PairAgain:
         words = self.house.words
         if self.flood.whole:
             self.flood.draw(screen, looking(words, self.missing), words("mat.pairing"))
-            self.match.watch.draw(screen)
+            draw_corners(screen)
             return
         screen.fill((0, 0, 0))
         text(words("mat.pairing"), BODY, ICE, "body", "c", 1728).draw(screen, 960, TITLE_Y)

@@ -1,9 +1,9 @@
-"""How a match begins: with simulated robots, with real ones, or with one sentence about why not with real ones."""
+"""How a match begins: with simulated robots, with real ones, or with a page that tells why there are no real ones."""
 
 from collections.abc import Collection, Sequence
 
 from pigaming_app.games.game import Setup
-from pigaming_app.hardware.session.real import NoMat
+from pigaming_app.hardware.session.robot_session import NoRobots
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.scene import MatchScene
@@ -25,5 +25,5 @@ def match_of(
 
     try:
         return RealMatch(house, setup, devices, real, house.mat)
-    except NoMat as trouble:
-        return Refused(house, setup, devices, real, trouble.args[0])
+    except NoRobots as trouble:
+        return Refused(house, setup, devices, real, trouble.message)

@@ -11,8 +11,7 @@ import pygame
 from pigaming_app.hardware.control.homing import Place
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault
-from pigaming_app.hardware.session.real import exact
-from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.robots.fault_page import named, shown
 from pigaming_app.scenes.robots.flood_light import UNSEEN as UNSEEN_AFTER
@@ -87,8 +86,8 @@ class Gathering:
         self.prompts.draw(screen)
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         for i, fault in enumerate(self._faults()[:2]):
-            detail = exact(self.plant.rig, fault.name)
-            sentence = tell(words, detail) if detail else named(fault, words, "")
+            cause = cause_of(self.plant.rig, fault.name)
+            sentence = words.sentence(cause) if cause else named(fault, words, "")
             shown(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
         self.flood.draw(screen, "")
 

@@ -5,7 +5,7 @@ from collections.abc import Collection, Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
-from pigaming_app.scenes.calibration.messages import tell
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
@@ -19,12 +19,12 @@ from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
 
-UNCALIBRATED = ("none", "damaged", "version", "other_display")  # sentences after which one must calibrate
+UNCALIBRATED = ("none", "damaged", "changed", "version", "other_display")  # messages after which one must calibrate
 IDLE = 90.0  # seconds without a press until the title
 
 
 class Refused:
-    """The page. `sentence`: why."""
+    """The page. `message`: the reason."""
 
     def __init__(
         self,
@@ -32,9 +32,9 @@ class Refused:
         setup: Setup,
         devices: Sequence[Device | None],
         real: Collection[int],
-        sentence: str,
+        message: OperatorMessage,
     ) -> None:
-        self.house, self.setup, self.devices, self.real, self.sentence = house, setup, devices, real, sentence
+        self.house, self.setup, self.devices, self.real, self.message = house, setup, devices, real, message
         self.picture: pygame.Surface | None = None
         self.access = Access(house, lambda: self.devices)
         hints = [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")]
@@ -80,6 +80,6 @@ class Refused:
         words = self.house.words
         title(pane, None, words("mat.refused"), ICE)
         sign(pane.hot, "robot", *ICON, 76, ALARM)
-        y = write(pane, tell(words, self.sentence), HEAD + 56, ICE)
-        lost = getattr(self.sentence, "key", "") in UNCALIBRATED
+        y = write(pane, words.sentence(self.message), HEAD + 56, ICE)
+        lost = self.message.key in UNCALIBRATED
         write(pane, words("mat.calibrate" if lost else "mat.anyway"), y + 16, MIST)

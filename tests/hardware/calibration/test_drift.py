@@ -5,10 +5,10 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.calibration.drift import Drift, corner_markers  # noqa: E402
-from pigaming_app.hardware.calibration.ground_plane import nominal  # noqa: E402
+from pigaming_app.hardware.calibration.drift import PAUSE, WARN, Drift, corner_markers  # noqa: E402
 from pigaming_app.hardware.signals import Frame  # noqa: E402
 from pigaming_app.hardware.vision.markers import CORNER_IDS  # noqa: E402
+from tests.hardware.grounds import nominal  # noqa: E402
 from tests.hardware.pictures import SIZE, speckled  # noqa: E402
 
 GROUND = nominal(SIZE)
@@ -42,7 +42,7 @@ def test_the_corner_markers_lie_in_the_margins():
 def test_nothing_moved_is_no_drift():
     drift = watched([projected()] * 10)
     assert drift.mm < 1.0
-    assert not drift.warns
+    assert drift.mm <= WARN
 
 
 def test_a_camera_that_was_nudged_is_noticed_after_ten_pictures():
@@ -50,13 +50,13 @@ def test_a_camera_that_was_nudged_is_noticed_after_ten_pictures():
     assert watched([projected((4.0, 0.0))] * 9).mm == 0.0
     nudged = watched([projected((4.0, 0.0))] * 10)
     assert nudged.mm == pytest.approx(4.0 * 1.5 * GROUND.mm, abs=0.8)
-    assert nudged.warns
-    assert not nudged.pauses
-    assert watched([projected((0.0, 9.0))] * 10).pauses
+    assert nudged.mm > WARN
+    assert nudged.mm <= PAUSE
+    assert watched([projected((0.0, 9.0))] * 10).mm > PAUSE
 
 
 def test_a_camera_that_was_knocked_far_is_noticed_too():
-    assert watched([projected((90.0, 40.0))] * 110).pauses
+    assert watched([projected((90.0, 40.0))] * 110).mm > PAUSE
 
 
 def test_a_hand_over_three_corners_is_no_drift():
@@ -70,7 +70,7 @@ def test_pictures_come_more_often_than_they_are_needed():
 
 def test_a_knock_is_noticed_within_half_a_second():
     """The median of ten turns with the sixth."""
-    assert watched([projected()] * 30 + [projected((3.0, 8.0))] * 15, every=1 / 30).pauses
+    assert watched([projected()] * 30 + [projected((3.0, 8.0))] * 15, every=1 / 30).mm > PAUSE
 
 
 def test_what_was_knocked_and_put_back_is_well_again():

@@ -6,9 +6,11 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, measured, nominal, read, written
+from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, read, written
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.signals import Mark
+from tests.hardware.grounds import nominal
+from tests.hardware.sentences import refused, sentence
 
 SIZE = (1920, 1080)
 BENT = Lens(SIZE, -0.45, 0.2, (970.0, 530.0))
@@ -34,7 +36,7 @@ def test_a_lens_that_bends_inwards_shows_straight_points_nearer_to_its_centre():
 
 def test_a_lid_is_seen_beside_its_place_by_the_height_rule():
     """Similar triangles: 70 mm up under a camera at 2500 mm, 1000 px away, appears 1000 * 70 / 2430 px further out."""
-    ground = measured(nominal(), (0.0, 0.0), 2500.0)
+    ground = replace(nominal(), foot=(0.0, 0.0), height=2500.0)
     apparent = ground.on_mat(ground.seen_at(np.array([[1000.0, 0.0]]), 70.0))[0]
     assert apparent == pytest.approx([1000.0 + 1000.0 * 70.0 / 2430.0, 0.0])
 
@@ -97,7 +99,7 @@ def test_a_calibration_survives_its_file():
         ("version = 1", "version = 7", "version 7"),
         ("height = 2500.0", "height = 2400.0", "changed by hand"),
         ("k1 = -0.45", "k1 = -0.4", "changed by hand"),
-        ("[lens]", "[lens", "cannot be read"),
+        ("[lens]", "[lens", "cannot be used"),
         ("check =", "cheque =", "changed by hand"),
         ("version = 1\n", "", "version None"),
     ],
@@ -105,19 +107,19 @@ def test_a_calibration_survives_its_file():
 def test_a_file_that_is_not_as_it_was_written_is_refused_in_one_sentence(old, new, reason):
     text = written(calibrated())
     assert old in text
-    with pytest.raises(NoGround, match=reason) as refused:
+    with refused(NoGround, reason) as caught:
         read(text.replace(old, new), "2: 1920 × 1080", SIZE)
-    assert "\n" not in str(refused.value)
-    assert str(refused.value).endswith("calibrate again.")
+    assert "\n" not in sentence(caught.value)
+    assert sentence(caught.value).endswith("calibrate again.")
 
 
 def test_a_calibration_of_another_display_is_refused():
-    with pytest.raises(NoGround, match="made on display 2: 1920 × 1080, not 1: 1280 × 720"):
+    with refused(NoGround, "made on display 2: 1920 × 1080, not 1: 1280 × 720"):
         read(written(calibrated()), "1: 1280 × 720", SIZE)
 
 
 def test_a_calibration_of_another_camera_size_is_refused():
-    with pytest.raises(NoGround, match="1920 x 1080 px, not 1280 x 720"):
+    with refused(NoGround, "1920 x 1080 px, not 1280 x 720"):
         read(written(calibrated()), "2: 1920 × 1080", (1280, 720))
 
 
@@ -130,7 +132,7 @@ def test_a_calibration_of_another_camera_size_is_refused():
     ],
 )
 def test_numbers_that_cannot_be_are_refused_even_if_the_check_fits(wrong):
-    with pytest.raises(NoGround, match="cannot be used"):
+    with refused(NoGround, "cannot be used"):
         read(written(wrong), "2: 1920 × 1080", SIZE)
 
 
@@ -139,7 +141,7 @@ def test_a_plane_that_maps_everything_to_a_line_is_refused():
     flat = replace(calibrated(), foot=(1.0, 2.0))
     object.__setattr__(flat, "plane", (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))
     assert written(flat) != text
-    with pytest.raises(NoGround, match="cannot be used"):
+    with refused(NoGround, "cannot be used"):
         read(written(flat), "2: 1920 × 1080", SIZE)
 
 

@@ -7,8 +7,9 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.calibration.marker_sheet import CELLS, cells, sheet  # noqa: E402
+from pigaming_app.hardware.calibration.marker_sheet import CELLS, NoSheet, cells, sheet  # noqa: E402
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers  # noqa: E402
+from tests.hardware.sentences import refused  # noqa: E402
 
 MM = 72.0 / 25.4  # PDF points
 
@@ -67,5 +68,5 @@ def test_the_table_of_the_file_points_at_its_objects():
 
 @pytest.mark.parametrize("edge", [0.0, 500.0])
 def test_what_does_not_fit_is_refused(edge):
-    with pytest.raises(ValueError, match="20 to 60 mm"):
+    with refused(NoSheet, "20 to 60 mm"):
         sheet(edge)

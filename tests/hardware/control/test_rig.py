@@ -78,13 +78,15 @@ def test_a_robot_that_was_never_seen_is_unseen_and_one_that_is_just_late_is_not(
     mat = Mat()
     mat.pass_time(0.5)
     mat.robots[1].seen = -1e9
-    signs = mat.rig.signs({0: 0.0, 1: 0.0})
+    signs = mat.rig.signs({0: 0.0, 1: 0.0}, mat.rig.snapshot())
     assert signs[0].unseen == 0.0
     assert signs[1].unseen > 1.0
     mat.blind = True
     mat.pass_time(0.1)
-    assert mat.rig.signs({0: 0.0})[0].unseen == 0.0  # there was no newer picture that could have shown it
-    assert mat.rig.signs({0: 0.0})[0].picture == pytest.approx(0.12)
+    assert (
+        mat.rig.signs({0: 0.0}, mat.rig.snapshot())[0].unseen == 0.0
+    )  # there was no newer picture that could have shown it
+    assert mat.rig.signs({0: 0.0}, mat.rig.snapshot())[0].picture == pytest.approx(0.12)
 
 
 def test_threads_look_and_talk_and_end_when_it_is_closed():
@@ -133,4 +135,6 @@ def test_time_that_passes_while_signs_are_read_makes_nobody_unseen():
     for robot in mat.robots:
         robot.seen = mat.looked = mat.now - 0.12
     for _ in range(20):
-        assert [sign.unseen for sign in mat.rig.signs(dict.fromkeys(range(4), 0.0)).values()] == [0.0] * 4
+        assert [sign.unseen for sign in mat.rig.signs(dict.fromkeys(range(4), 0.0), mat.rig.snapshot()).values()] == [
+            0.0
+        ] * 4

@@ -118,7 +118,8 @@ def test_every_fault_has_a_plain_reason(language):
 def test_a_fault_is_a_plain_sentence():
     safety = Safety()
     safety.judge([GOOD, GOOD._replace(battery=3.9)], 1.0)
-    assert [str(fault) for fault in safety.faults] == [
+    told = [Words("en")(f"faults.{fault.name}", robot=fault.robot + 1) for fault in safety.faults]
+    assert told == [
         "The battery of robot 2 is empty: the motors stay off below 4.4 V. Please change it.",
         "The battery of robot 2 will soon be empty.",
     ]

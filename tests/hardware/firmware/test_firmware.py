@@ -13,6 +13,7 @@ from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, RESTARTED, 
 from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
 from pigaming_app.hardware.signals import Wheels
 from tests.hardware.firmware.board import AHEAD, BYTE, Board, build, missing
+from tests.hardware.robot_packets import drive_from, report_packet
 
 pytest.importorskip("serial")
 pytestmark = pytest.mark.skipif(
@@ -127,7 +128,7 @@ def scraps(chance):
     packet = bytearray(drive_packet(chance.randrange(128), [AHEAD]))
     wrong = bytearray(packet)
     wrong[chance.randrange(12)] ^= 1 << chance.randrange(8)
-    report = packets.report_packet(packets.Report(2, 1, 0, 5000))
+    report = report_packet(packets.Report(2, 1, 0, 5000))
     return chance.choice((chance.randbytes(9), packet[: chance.randrange(12)], wrong, report, b""))
 
 
@@ -142,7 +143,7 @@ def test_of_a_torn_stream_robot_and_computer_understand_the_same(board, seed):
         board.run(len(stream) * BYTE / 1000 + 3)
         for packet in decoder.feed(stream):
             if packet[0] == packets.DRIVE:
-                first = packets.drive_from(packet).wheels[0] or Wheels(0.0, 0.0)
+                first = drive_from(packet).wheels[0] or Wheels(0.0, 0.0)
                 expected = tuple(duty(round(63 * share)) for share in first)
         assert board.motors == expected
 

@@ -14,6 +14,8 @@ from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import Received, Report
 from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
 from pigaming_app.hardware.signals import Telemetry, Wheels
+from tests.hardware.robot_packets import drive_from, report_packet
+from tests.hardware.sentences import sentence
 from tests.hardware.wire import Radio, Time, Wire, run
 
 ROOT = Path(__file__).parents[3]
@@ -71,14 +73,6 @@ def test_without_a_new_command_for_a_tenth_of_a_second_it_says_stop(link, radio,
     assert crews(radio)[-5:] == [STOPPED] * 5
 
 
-def test_stop_is_the_next_thing_said(link, radio, time):
-    run(link, time, 0.1, lambda: link.send([AHEAD] * 4))
-    link.stop()
-    said = len(radio.drives)
-    run(link, time, 0.03)
-    assert set(crews(radio)[said:]) == {STOPPED}
-
-
 def test_closing_says_stop_five_times_and_once_only(link, radio, time):
     run(link, time, 0.1, lambda: link.send([AHEAD] * 4))
     said = len(radio.drives)
@@ -109,7 +103,7 @@ def test_robots_are_heard_in_every_mode(mode, time):
     wire = Wire(time) if mode is Mode.TRANSPARENT else Radio(time, escaped=mode is Mode.API2)
     link = Link(lambda: wire, time, Air(mode))
     link.pump()
-    said = packets.report_packet(Report(2, 1, packets.LOW, 4321)) + packets.report_packet(Report(2, 1, 0, 4300))
+    said = report_packet(Report(2, 1, packets.LOW, 4321)) + report_packet(Report(2, 1, 0, 4300))
     for part in (said[:9], said[9:]):
         if mode is Mode.TRANSPARENT:
             wire.coming += part
@@ -135,7 +129,7 @@ def test_transparent_packets_are_bare(time):
 def test_the_share_of_reports_heard_sinks_when_a_robot_falls_silent(link, radio, time):
     def report():
         if round(time.now * 100) % 20 == 0:
-            radio.say(Received(1, -50, 0, packets.report_packet(Report(1, 0, 0, 5000))))
+            radio.say(Received(1, -50, 0, report_packet(Report(1, 0, 0, 5000))))
 
     run(link, time, 2.0, report)
     assert link.quality(0).share >= 0.9
@@ -159,7 +153,7 @@ def test_a_radio_that_never_answers_is_named(time):
     run(link, time, 0.9)
     assert link.trouble is None
     run(link, time, 0.2)
-    assert str(link.trouble) == (
+    assert sentence(link.trouble) == (
         "COM3 opens, but what should be there does not answer; is it the right port and the right baud rate?"
     )
 
@@ -173,8 +167,8 @@ def test_garbage_on_the_line_is_named_and_forgotten(mode, time):
         wire.coming += b"\x00\xff\x7e\x12\xd4\xff"
 
     run(link, time, 1.2, noise)
-    assert link.trouble.reason == "garbled"
-    report = packets.report_packet(Report(1, 0, 0, 5000))
+    assert link.trouble.key == "radio_garbled"
+    report = report_packet(Report(1, 0, 0, 5000))
     escaped = mode is Mode.API2
     good = packets.frame(packets.encode(Received(1, -30, 0, report)), escaped)
     wire.coming += bytes(200) + (report if mode is Mode.TRANSPARENT else good)
@@ -187,7 +181,7 @@ def test_a_radio_of_the_other_api_mode_is_named(time):
     radio = Radio(time, escaped=True, ap=1)
     link = Link(lambda: radio, time, name="COM3")
     run(link, time, 0.1)
-    assert str(link.trouble) == "The radio at COM3 is set to AP=1, but the link is not; set both to the same."
+    assert sentence(link.trouble) == "The radio at COM3 is set to AP=1, but the link is not; set both to the same."
 
 
 def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
@@ -195,10 +189,10 @@ def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
     radio = Radio(time)
     link = Link(lambda: radio, time, Air(Mode.TRANSPARENT), name="COM3")
     link.pump()
-    radio.say(Received(1, -40, 0, packets.report_packet(Report(1, 0, packets.DEADMAN, 5000))))
+    radio.say(Received(1, -40, 0, report_packet(Report(1, 0, packets.DEADMAN, 5000))))
     link.pump()
     assert 0 in link.telemetry
-    assert str(link.trouble) == "The radio at COM3 is set to AP=1 or 2, but the link is not; set both to the same."
+    assert sentence(link.trouble) == "The radio at COM3 is set to AP=1 or 2, but the link is not; set both to the same."
 
 
 def test_a_quiet_transparent_line_is_no_trouble(time):
@@ -232,7 +226,7 @@ def test_a_fault_of_the_program_stops_the_robots_and_is_told():
     link.start()
     link._thread.join(timeout=5.0)
     assert crews(radio) == [STOPPED] * 5
-    assert str(link.trouble) == "COM3 failed: the program has a fault; its log has more."
+    assert sentence(link.trouble) == "COM3 failed: the program has a fault; its log has more."
     link.close()
 
 
@@ -246,6 +240,9 @@ from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
 from pigaming_app.hardware.radio.serial_line import serial_port
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.signals import Wheels
+from tests.hardware.robot_packets import drive_from, report_packet
+from tests.hardware.sentences import sentence
+from tests.hardware import robot_packets
 
 link = Link(serial_port(sys.argv[1]), time.monotonic, Air(Mode.TRANSPARENT)).start()
 while link._dialect.broadcasts < 3:
@@ -260,6 +257,6 @@ link.send([Wheels(1.0, 1.0)])
     said = packets.PacketDecoder().feed(os.read(far, 10_000))
     os.close(near)
     os.close(far)
-    crews = [packets.drive_from(packet).wheels for packet in said]
+    crews = [drive_from(packet).wheels for packet in said]
     assert crews[-5:] == [STOPPED] * 5
     assert (AHEAD, None, None, None) in crews

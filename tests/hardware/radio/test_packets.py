@@ -20,6 +20,7 @@ from pigaming_app.hardware.radio.packets import (
     frame,
 )
 from pigaming_app.hardware.signals import Wheels
+from tests.hardware.robot_packets import Drive, drive_from, report_packet
 
 SENT = Send(1, 0x0001, bytes.fromhex("5007117E"))
 GOLDEN = {  # the frames of HARDWARE.md
@@ -78,12 +79,12 @@ def test_a_drive_packet_by_hand():
 
 def test_a_report_by_hand():
     """4.8 V is 4800 mV, which is 37 * 128 + 64."""
-    assert packets.report_packet(Report(3, 9, packets.LOW, 4800))[:-1].hex(" ") == "d4 03 09 02 40 25"
+    assert report_packet(Report(3, 9, packets.LOW, 4800))[:-1].hex(" ") == "d4 03 09 02 40 25"
 
 
 def test_speeds_beyond_full_are_cut_and_what_is_no_number_stops():
     (packet,) = PacketDecoder().feed(packets.drive_packet(0, [Wheels(7.0, -7.0), Wheels(float("nan"), 1.0)]))
-    assert packets.drive_from(packet).wheels == (Wheels(1.0, -1.0), Wheels(0.0, 1.0), None, None)
+    assert drive_from(packet).wheels == (Wheels(1.0, -1.0), Wheels(0.0, 1.0), None, None)
 
 
 def test_there_is_no_room_for_a_fifth_robot():
@@ -96,12 +97,12 @@ def test_what_robots_are_told_comes_back(seq, crew):
     packet = packets.drive_packet(seq, crew)
     assert all(byte < 0x80 for byte in packet[1:])
     (found,) = PacketDecoder().feed(packet)
-    assert packets.drive_from(found) == packets.Drive(seq, tuple(crew))
+    assert drive_from(found) == Drive(seq, tuple(crew))
 
 
 @given(reports)
 def test_what_a_robot_says_comes_back(report):
-    (found,) = PacketDecoder().feed(packets.report_packet(report))
+    (found,) = PacketDecoder().feed(report_packet(report))
     assert packets.report_from(found) == report
 
 
@@ -155,7 +156,7 @@ def test_a_flipped_bit_is_noticed():
 def test_after_any_noise_our_packets_are_found(noise, crew, report, sizes):
     """One packet may be lost to noise that promised one; the byte from 80 on of the next begins anew."""
     decoder = PacketDecoder()
-    good = [packets.drive_packet(3, crew), packets.report_packet(report)]
+    good = [packets.drive_packet(3, crew), report_packet(report)]
     assert heard(decoder, noise + b"".join(good), sizes)[-2:] == good
     assert decoder.garbage <= len(noise)
 

@@ -8,7 +8,8 @@ from contextlib import suppress
 
 import pytest
 
-from pigaming_app.hardware.radio.serial_line import FAILURES, Line, Trouble, ports, serial_port, trouble_of
+from pigaming_app.hardware.radio.serial_line import FAILURES, Line, ports, radio_message, serial_port, trouble_of
+from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time, Wire
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
@@ -33,27 +34,27 @@ REFUSALS = {  # what opening raises on Linux, macOS and Windows: the reason
 @pytest.mark.parametrize(("error", "reason"), REFUSALS.values(), ids=REFUSALS)
 def test_why_a_port_does_not_open_is_one_sentence(error, reason):
     trouble = trouble_of(error, "COM3")
-    assert trouble.reason == reason
-    sentence = str(trouble)
-    assert "\n" not in sentence
-    assert sentence.endswith((".", "?"))
-    assert "COM3" in sentence or reason == "missing"
+    assert trouble.key == f"radio_{reason}"
+    told = sentence(trouble)
+    assert "\n" not in told
+    assert told.endswith((".", "?"))
+    assert "COM3" in told or reason == "missing"
 
 
 @POSIX
 @pytest.mark.parametrize(
-    ("device", "sentence"),
+    ("device", "told"),
     [
         ("/dev/pigaming", "There is no port /dev/pigaming; is the radio plugged in, and is this its port?"),
         ("/dev/null", "/dev/null is not a serial port; choose the one the radio is plugged into."),
         ("/", "/ is not a serial port; choose the one the radio is plugged into."),
     ],
 )
-def test_ports_that_are_none(device, sentence):
+def test_ports_that_are_none(device, told):
     pytest.importorskip("serial")
     line = Line(serial_port(device), Time(), device)
     assert not line.open()
-    assert str(line.trouble) == sentence
+    assert sentence(line.trouble) == told
 
 
 @POSIX
@@ -78,7 +79,7 @@ def test_bytes_go_both_ways_over_a_terminal_and_its_end_is_noticed(stop_bits):
         line.read()
         if not line.is_open:
             break
-    assert str(line.trouble) == f"The radio at {device} is gone; plug it in again."
+    assert sentence(line.trouble) == f"The radio at {device} is gone; plug it in again."
 
 
 @POSIX
@@ -89,7 +90,7 @@ def test_a_port_that_another_program_holds_is_busy():
     first, second = (Line(serial_port(device), Time(), device) for _ in range(2))
     assert first.open()
     assert not second.open()
-    assert str(second.trouble) == f"{device} is in use by another program; close that first."
+    assert sentence(second.trouble) == f"{device} is in use by another program; close that first."
     first.close()
     os.close(near)
     os.close(far)
@@ -100,7 +101,7 @@ def test_without_pyserial_the_sentence_says_so(monkeypatch):
     monkeypatch.setitem(sys.modules, "serial.tools", None)
     line = Line(serial_port("COM3"), Time(), "COM3")
     assert not line.open()
-    assert str(line.trouble) == "The package pyserial is missing, so no radio can be used."
+    assert sentence(line.trouble) == "The package pyserial is missing, so no radio can be used."
     assert ports() == []
 
 
@@ -126,7 +127,7 @@ def test_a_lost_port_is_opened_again_at_longer_and_longer_intervals(kind):
     assert line.read() == b""
     assert wires[0].is_closed
     for _ in range(1000):
-        assert line.trouble == (None if line.is_open else Trouble("unplugged", "COM3"))
+        assert line.trouble == (None if line.is_open else radio_message("unplugged", "COM3"))
         line.write(b"nobody hears this")
         line.open()
         time.now += 0.01
@@ -143,7 +144,7 @@ def test_a_write_that_fails_loses_the_port(kind):
     wire.cut = kind(errno.EIO, "Input/output error")
     line.write(b"x")
     assert not line.is_open
-    assert line.trouble.reason == "unplugged"
+    assert line.trouble.key == "radio_unplugged"
 
 
 def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stays_open():
@@ -158,7 +159,7 @@ def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stay
         wire.time.now += 0.02
     wire.time.now += 0.03
     line.write(b"x")
-    assert str(line.trouble) == "COM3 takes no more bytes; unplug the radio and plug it in again."
+    assert sentence(line.trouble) == "COM3 takes no more bytes; unplug the radio and plug it in again."
     assert line.is_open
     wire.cut = None
     line.write(b"x")

@@ -5,6 +5,7 @@ import pytest
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.stock_protocol import Stock, motors
 from pigaming_app.hardware.signals import Telemetry, Wheels
+from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time, Wire, run
 
 
@@ -89,13 +90,13 @@ def test_something_else_at_the_line_is_named(time):
     robot = Robot(time, b"v2.041")
     link = Link(lambda: robot, time, Stock(), name="COM3")
     run(link, time, 0.1)
-    assert str(link.trouble) == "What answers at COM3 is no 3pi with the stock program, but says 'v2.041'."
+    assert sentence(link.trouble) == "What answers at COM3 is no 3pi with the stock program: it sends 'v2.041'."
 
 
 def test_nobody_at_the_line_is_named(time):
     link = Link(lambda: Wire(time), time, Stock(), name="COM3")
     run(link, time, 1.2)
-    assert link.trouble.reason == "mute"
+    assert link.trouble.key == "radio_mute"
 
 
 def test_noise_that_nobody_asked_for_is_no_battery(time):

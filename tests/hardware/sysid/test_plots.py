@@ -8,6 +8,7 @@ from pigaming_app.hardware.recordings import Run
 from pigaming_app.hardware.sysid.evaluate import measure
 from pigaming_app.hardware.sysid.plots import NoPlots, draw
 from pigaming_app.sim.drivetrain import MM
+from tests.hardware.sentences import refused
 from tests.hardware.sysid.test_evaluate import danced
 
 
@@ -25,5 +26,5 @@ def test_two_pictures_are_drawn(run, tmp_path):
 
 def test_without_matplotlib_there_is_one_sentence(run, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(NoPlots, match="matplotlib"):
+    with refused(NoPlots, "matplotlib"):
         draw(run, [], tmp_path)

@@ -7,9 +7,9 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.calibration.ground_plane import nominal  # noqa: E402
 from pigaming_app.hardware.signals import Frame, Mark  # noqa: E402
 from pigaming_app.hardware.tracking.tracker import Tracker  # noqa: E402
+from tests.hardware.grounds import nominal  # noqa: E402
 from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
 
 GROUND = nominal(SIZE)
@@ -89,8 +89,8 @@ def test_a_covered_marker_makes_its_robot_older_and_lost():
     mat = Mat()
     mat.show(dict(enumerate(POSES)), times=3)
     mat.show({1: POSES[1], 2: POSES[2], 3: POSES[3]}, times=6)
-    assert mat.tracker.lost(0) == pytest.approx(0.2)
-    assert mat.tracker.lost(1) == pytest.approx(0.0)
+    assert mat.tracker.sense(mat.clock.now)[0].age == pytest.approx(0.2)
+    assert mat.tracker.sense(mat.clock.now)[1].age == pytest.approx(0.0)
     assert mat.tracker.sense(mat.clock.now)[0].age == pytest.approx(0.2)
     assert mat.show(dict(enumerate(POSES))) == {0, 1, 2, 3}
 
@@ -118,7 +118,7 @@ def test_a_marker_held_in_a_hand_is_refused_and_named():
     mat = Mat()
     mat.show({0: POSES[0]}, times=4, height=600.0)
     assert mat.tracker.refused == {0: "size"}
-    assert mat.tracker.lost(0) == 1e9
+    assert mat.tracker.sense(mat.clock.now)[0].age == 1e9
 
 
 def test_a_marker_in_a_hand_does_not_take_the_robot_along():
@@ -144,14 +144,14 @@ def test_a_marker_beside_the_mat_is_refused():
 def test_a_robot_just_outside_of_the_arena_is_still_followed():
     mat = Mat()
     mat.tracker.correct(marks({2: (1650.0, 400.0, 0.0)}), 0.0)
-    assert mat.tracker.lost(2) == 0.0
+    assert mat.tracker.sense(mat.clock.now)[2].age == 0.0
 
 
 def test_the_mirror_image_of_a_marker_is_nobody():
     mat = Mat()
     picture = np.ascontiguousarray(photo({0: POSES[0]})[:, ::-1])
     mat.tracker.see(Frame(picture, 0.0, 1))
-    assert mat.tracker.lost(0) == 1e9
+    assert mat.tracker.sense(mat.clock.now)[0].age == 1e9
 
 
 def test_an_old_picture_is_not_looked_at_twice():

@@ -14,14 +14,15 @@ from pigaming_app import hardware
 from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration import height_procedure as standing
 from pigaming_app.hardware.calibration import procedure as calibrating
+from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.hardware.calibration.ground_plane import NoGround
 from pigaming_app.hardware.emulator.site import EmulatedSite
-from pigaming_app.hardware.messages import Said, said
-from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.serial_line import ERRORS
+from pigaming_app.hardware.session import store
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.calibration.drift_page import CheckPage
 from pigaming_app.scenes.calibration.height_page import OutlinesPage
-from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.safe_files import NotSaved
@@ -48,7 +49,7 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
     first = arcade.shown(CalibrationPage)
     assert first.preview is not None
     assert first.preview.size == (1920, 1080)
-    assert first.state == arcade.house.words("vision.none")
+    assert first.state == arcade.house.words("hardware.none")
     arcade.begin()
     result = arcade.pictures(ResultPage)
     assert result.finding.good
@@ -57,7 +58,7 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
     arcade.shown(ResultPage)
     arcade.press(Act.FIRE)
     assert arcade.stack.top is first
-    ground = kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+    ground = store.load(store.calibration_file(arcade.site.name), arcade.house.canvas.projection, (1920, 1080))
     assert ground.width_mm == arcade.site.measures.width
     for _ in range(5):
         arcade.picture()
@@ -92,7 +93,7 @@ def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operat
     arcade.begin()
     result = arcade.pictures(ResultPage, covered=True)
     assert not result.finding.good
-    assert isinstance(result.finding.trouble, Said)
+    assert isinstance(result.finding.trouble, OperatorMessage)
     assert result.finding.trouble.key == "few"
     assert result.picture is not None, "what the camera saw is shown"
     assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
@@ -112,7 +113,7 @@ def test_a_calibration_that_is_too_bad_cannot_be_saved(arcade: Operated, monkeyp
     arcade.press(Act.FIRE)
     arcade.shown(CalibrationPage)
     with pytest.raises(NoGround):
-        kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+        store.load(store.calibration_file(arcade.site.name), arcade.house.canvas.projection, (1920, 1080))
 
 
 @pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root may write anywhere")
@@ -122,7 +123,7 @@ def test_a_folder_that_cannot_be_written(arcade: Operated, tmp_path: Path) -> No
     arcade.begin()
     arcade.pictures(ResultPage)
     arcade.press(Act.FIRE)
-    assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).sentence
+    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).sentence
 
 
 def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -131,9 +132,9 @@ def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monk
 
     arcade.begin()
     arcade.pictures(ResultPage)
-    monkeypatch.setattr(kept, "keep", full)
+    monkeypatch.setattr(store, "keep", full)
     arcade.press(Act.FIRE)
-    assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).sentence
+    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).sentence
     monkeypatch.undo()
 
 
@@ -187,11 +188,11 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
         arcade.picture()
     assert checking.marker_mm == pytest.approx(50.0, rel=0.04), "the width of the mat was measured well"
     canvas = arcade.house.canvas
-    canvas.pin([8, 0, 1928, 0, 1928, 1080, 8, 1080])  # somebody pushes the projector
+    canvas.pin(CornerPin([8, 0, 1928, 0, 1928, 1080, 8, 1080]))  # somebody pushes the projector
     for _ in range(24):
         arcade.picture()
     assert checking.mm == pytest.approx(8 * checking.drift.ground.mm, abs=2.0)  # type: ignore[union-attr]
-    canvas.pin([])
+    canvas.pin(None)
     arcade.press(Act.BACK)
     assert arcade.stack.top is arcade.setup
 
@@ -238,25 +239,25 @@ def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Oper
     arcade.begin()
     finding: Finding = arcade.pictures(ResultPage).finding
     assert finding.ground is not None
-    kept.save(finding.ground, arcade.site)
+    store.save(finding.ground, store.calibration_file(arcade.site.name))
     here = arcade.house.canvas.projection
     for key, where, size in (("other_display", "2: 640 × 480", (1920, 1080)), ("other_camera", here, (1280, 720))):
         with pytest.raises(NoGround) as refused:
-            kept.load(where, arcade.site, size)
-        assert said(refused.value).key == key  # type: ignore[attr-defined]
-    file = kept.path(arcade.site)
+            store.load(store.calibration_file(arcade.site.name), where, size)
+        assert refused.value.message.key == key
+    file = store.calibration_file(arcade.site.name)
     file.write_text(file.read_text().replace("height = ", "height = 1"))
     with pytest.raises(NoGround) as refused:
-        kept.load(here, arcade.site, (1920, 1080))
-    assert said(refused.value).key == "damaged"  # type: ignore[attr-defined]
+        store.load(store.calibration_file(arcade.site.name), here, (1920, 1080))
+    assert refused.value.message.key == "changed"
 
 
 def test_the_corner_pin_is_part_of_what_was_calibrated(arcade: Operated) -> None:
     canvas = arcade.house.canvas
     straight = canvas.projection
-    canvas.pin([0, 0, 1920, 9, 1920, 1080, 0, 1080])
+    canvas.pin(CornerPin([0, 0, 1920, 9, 1920, 1080, 0, 1080]))
     assert canvas.projection != straight
-    canvas.pin([])
+    canvas.pin(None)
     assert canvas.projection == straight
 
 
@@ -264,11 +265,13 @@ def test_every_sentence_with_a_key_is_said_in_both_languages() -> None:
     keys = set()
     for file in Path(hardware.__file__).parent.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Said" and len(node.args) > 1:
-                inside = [one.value for one in ast.walk(node.args[1]) if isinstance(one, ast.Constant)]
-                keys |= {key for key in inside if isinstance(key, str) and key[:1].isalpha()}
-    assert {"few", "busy", "no_camera", "other_display"} <= keys
+            named = getattr(node.func, "id", "") if isinstance(node, ast.Call) and node.args else ""
+            if named in ("OperatorMessage", "radio_message"):
+                prefix = "radio_" if named == "radio_message" else ""
+                inside = [one.value for one in ast.walk(node.args[0]) if isinstance(one, ast.Constant)]
+                keys |= {prefix + key for key in inside if isinstance(key, str) and key[:1].isalpha()}
+    keys = keys - {"radio_"} | {f"radio_{reason}" for reason in ERRORS.values()}
+    assert {"few", "busy", "no_camera", "other_display", "radio_program", "radio_denied"} <= keys
     for language in ("en", "pt"):
-        assert {f"vision.{key}" for key in keys} <= set(texts(language))
-        assert "35" in tell(Words(language), Said("", "few", seen=1, all=35, needed=26))
-    assert tell(Words("pt"), "No key, no translation.") == "No key, no translation."
+        assert {f"hardware.{key}" for key in keys} <= set(texts(language))
+        assert "35" in Words(language).sentence(OperatorMessage("few", seen=1, all=35, needed=26))

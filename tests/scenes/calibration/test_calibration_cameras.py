@@ -12,15 +12,14 @@ pytest.importorskip("cv2")
 from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration.site import Measures, RealSite
 from pigaming_app.hardware.emulator.site import EmulatedSite
-from pigaming_app.hardware.messages import Said, said
-from pigaming_app.hardware.session import store as kept
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision import camera
 from pigaming_app.hardware.vision import discovery as cameras
 from pigaming_app.hardware.vision.discovery import Known
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.calibration import boards_page as boards
 from pigaming_app.scenes.calibration import setup_page as page
-from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.calibration.result_page import ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.settings import Settings
@@ -103,10 +102,11 @@ def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
     arcade.house.words.switch(language)
     first = arcade.shown(CalibrationPage)
     assert first.preview is not None
-    until(arcade, lambda: isinstance(first.preview.trouble, Said) and first.preview.trouble.key != "yet")
-    assert "3" in tell(arcade.house.words, first.preview.trouble or "")
+    until(arcade, lambda: first.preview.trouble is not None and first.preview.trouble.key != "yet")
+    assert first.preview.trouble is not None
+    assert "3" in arcade.house.words.explained(first.preview.trouble)
     (line,) = [record.getMessage() for record in caplog.records if "camera 3" in record.getMessage()]
-    assert str(first.preview.trouble) in line, "the log says it too, once, in English"
+    assert str(first.preview.trouble) in line, "the log has it too, once"
     driver.opens = True
     until(arcade, lambda: first.preview.trouble is None and first.preview.small is not None)
     driver.sends = False
@@ -128,7 +128,7 @@ def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
     driver.sends = False
     arcade.press(Act.FIRE)
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
-    assert isinstance(arcade.shown(ResultPage).finding.trouble, Said)
+    assert isinstance(arcade.shown(ResultPage).finding.trouble, OperatorMessage)
     arcade.press(Act.BACK)
     arcade.press(Act.BACK)
 
@@ -137,7 +137,7 @@ def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
 def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
     controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    missing = NoVision(Said("OpenCV is not installed.", "no_opencv"))
+    missing = NoVision(OperatorMessage("no_opencv"))
 
     def none(*_: object, **__: object) -> object:
         raise missing
@@ -149,7 +149,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
     until(arcade, lambda: first.preview is not None and first.preview.trouble is not None)
     arcade.begin()
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
-    assert arcade.shown(ResultPage).finding.trouble == said(missing)
+    assert arcade.shown(ResultPage).finding.trouble == missing.message
     arcade.press(Act.BACK)
     arcade.press(Act.BACK)
 
@@ -219,7 +219,7 @@ def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
     result = arcade.shown(ResultPage)
     assert result.finding.good, result.finding.trouble
     arcade.press(Act.FIRE)
-    ground = kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+    ground = store.load(store.calibration_file(arcade.site.name), arcade.house.canvas.projection, (1920, 1080))
     assert (tmp_path / "config" / "calibration.toml").exists()
     assert ground.max_mm < 3.0
     arcade.press(Act.BACK)

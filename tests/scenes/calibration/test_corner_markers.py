@@ -8,10 +8,11 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
-from pigaming_app.hardware.session.emulated import EmulatedMat
-from pigaming_app.scenes.calibration.corner_markers import DriftWatch, tiles
+from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.scenes.calibration.corner_markers import draw_corners, tiles
 from pigaming_app.scenes.play.runner import LEFT
 from pigaming_app.sim.world import WIDTH
+from pigaming_app.ui.draw.pixels import pixels_of
 
 
 def test_the_markers_stand_beside_the_arena_and_on_the_canvas() -> None:
@@ -24,15 +25,15 @@ def test_the_markers_stand_beside_the_arena_and_on_the_canvas() -> None:
 
 @pytest.mark.usefixtures("controls")
 def test_who_runs_into_the_camera_is_noticed_and_who_does_not_is_left_alone(home: Path) -> None:
-    mat = EmulatedMat(live=False)
+    mat = EmulatedSession(live=False)
     rig = mat.open()
-    watch, screen = DriftWatch(rig), pygame.Surface((1920, 1080), depth=32)
+    screen = pygame.Surface((1920, 1080), depth=32)
 
     def pictures(count: int) -> None:
         for _ in range(count):
             screen.fill("black")
-            watch.draw(screen)
-            mat.see(screen)
+            draw_corners(screen)
+            mat.show(lambda: pixels_of(screen))
             mat.advance(1 / 30)
 
     mat.arena.camera.painter.refresh = 1

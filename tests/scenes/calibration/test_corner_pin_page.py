@@ -7,6 +7,8 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app.hardware.calibration.corner_pin import CornerPin
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision import markers
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.app import App, Options
@@ -16,7 +18,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.ink import FOCUS
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
-from pigaming_app.ui.window import Canvas, NoPin
+from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
 ASKEW = [40, 20, 1880, 60, 1900, 1060, 10, 1000]
@@ -87,14 +89,14 @@ def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None
     assert not wrong
     assert settings.corners == [10, 10, 1910, 0, 1920, 1080, 0, 1080]
     arcade.house.settings.corners = settings.corners
-    arcade.house.canvas.pin([])
+    arcade.house.canvas.pin(None)
     App(Options(headless=True), arcade.house, [])
     assert list(arcade.house.canvas.corners) == settings.corners
 
 
 def test_who_leaves_without_saving_leaves_it_as_it_was(arcade: Arcade) -> None:
     arcade.press(Act.BACK)
-    arcade.house.canvas.pin(ASKEW)
+    arcade.house.canvas.pin(CornerPin(ASKEW))
     arcade.open(PinPage(arcade.house))
     for act in (Act.RIGHT, Act.DOWN, Act.ALT, Act.BACK):
         arcade.press(act)
@@ -102,7 +104,7 @@ def test_who_leaves_without_saving_leaves_it_as_it_was(arcade: Arcade) -> None:
 
 
 def test_reset_is_straight_and_costs_nothing(arcade: Arcade, tmp_path: Path) -> None:
-    arcade.house.canvas.pin(ASKEW)
+    arcade.house.canvas.pin(CornerPin(ASKEW))
     arcade.press(Act.ALT)
     assert arcade.house.canvas.corners == ()
     arcade.press(Act.START)
@@ -135,16 +137,16 @@ def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def none() -> object:
-        raise NoVision("OpenCV is not installed.")
+        raise NoVision(OperatorMessage("no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.corner_pin.opencv", none)
     assert markers.opencv is not none
     arcade.press(Act.RIGHT)
     page = arcade.shown(PinPage)
-    assert page.sentence == "OpenCV is not installed."
+    assert page.sentence == arcade.house.words("hardware.no_opencv")
     assert page.corners == [0, 0, 1920, 0, 1920, 1080, 0, 1080]
-    with pytest.raises(NoPin):
-        arcade.house.canvas.pin(ASKEW)
+    with pytest.raises(NoVision):
+        arcade.house.canvas.pin(CornerPin(ASKEW))
     arcade.house.settings.corners = ASKEW
     app = App(Options(headless=True), arcade.house, [])
     assert arcade.house.words("app.pin") in app.notices.waiting
@@ -155,7 +157,7 @@ def test_a_window_of_another_size_is_pinned_too_and_watchers_see_it(arcade: Arca
     canvas = arcade.house.canvas
     seen: list[tuple[int, int]] = []
     canvas.watchers.append(lambda window: seen.append(window.get_size()))
-    canvas.pin(ASKEW)
+    canvas.pin(CornerPin(ASKEW))
     pygame.display.set_mode((1280, 800), pygame.RESIZABLE)
     window = shown(canvas)
     assert seen[-1] == (1280, 800)

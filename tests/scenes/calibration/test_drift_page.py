@@ -1,5 +1,6 @@
 """The page that checks the calibration: no sentence of it runs into the spot for a robot, in either language."""
 
+import re
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,6 +11,7 @@ pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration.camera_task import SPOT
 from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.calibration.drift_page import CheckPage
 from pigaming_app.scenes.calibration.height_page import DISC
 from pigaming_app.scenes.play.runner import LEFT, TOP
@@ -19,8 +21,16 @@ from tests.scenes.measuring import faults, measuring
 from tests.scenes.operated import Operated
 
 SPOT_BOX = pygame.Rect(LEFT + SPOT[0] - DISC, TOP + SPOT[1] - DISC, 2 * DISC, 2 * DISC)
-LONGEST = {language: max((text for key, text in texts(language).items() if key.startswith("vision.")), key=len)
-           for language in LANGUAGES}  # fmt: skip
+
+
+def longest(language: str) -> OperatorMessage:
+    """The message with the longest sentence, every value as long as its name in braces."""
+    sentences = {key: text for key, text in texts(language).items() if key.startswith("hardware.")}
+    key = max(sentences, key=lambda key: len(sentences[key]))
+    holes = re.findall(r"{(\w+)}", sentences[key])
+    return OperatorMessage(key.removeprefix("hardware."), **{name: f"{{{name}}}" for name in holes})
+
+
 OFF = SimpleNamespace(ground=SimpleNamespace(marker=45.0))
 STATES: dict[str, dict[str, Any]] = {
     "looking": {"mm": None, "trouble": None},
@@ -42,7 +52,7 @@ def test_no_sentence_runs_into_the_spot(
     with measuring(monkeypatch) as screen:
         page = CheckPage(arcade.house, arcade.site)
         for name, value in STATES[state].items():
-            setattr(page.work, name, LONGEST[language] if value == "longest" else value)
+            setattr(page.work, name, longest(language) if value == "longest" else value)
         page.draw(screen)
         assert len(screen.texts) >= 4
         assert faults(screen) == []

@@ -6,7 +6,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.robots.flood_light import FADE, LIGHT, UNSEEN
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
@@ -20,7 +20,7 @@ ALL = (0, 1, 2, 3)
 
 
 @pytest.fixture(autouse=True)
-def _as_it_was(mat: EmulatedMat) -> Iterator[None]:
+def _as_it_was(mat: EmulatedSession) -> Iterator[None]:
     yield
     mat.arena.camera.painter.ambient = 1.0
 
@@ -33,7 +33,7 @@ def gathering(arcade: Arcade) -> tuple[RealMatch, Gathering]:
     return match, match.gathering
 
 
-def scattered(mat: EmulatedMat, trial: int) -> None:
+def scattered(mat: EmulatedSession, trial: int) -> None:
     """Robots near the rim of a mat on which nothing has been projected for a while."""
     mat.arena.project(np.zeros((1080, 1920), np.uint8))
     random = Random(trial)
@@ -44,7 +44,7 @@ def scattered(mat: EmulatedMat, trial: int) -> None:
 
 
 @pytest.mark.parametrize(("ambient", "trial"), [(0.02, 0), (0.02, 1), (0.02, 2), (0.02, 3), (0.05, 0), (1.0, 0)])
-def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedMat, ambient: float, trial: int) -> None:
+def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedSession, ambient: float, trial: int) -> None:
     mat.arena.camera.painter.ambient = ambient
     scattered(mat, trial)
     _, page = gathering(arcade)
@@ -61,7 +61,7 @@ def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedMat, ambient: fl
     assert page.missing == [], "the discs are enough from now on"
 
 
-def test_the_light_comes_back_when_a_robot_disappears(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_the_light_comes_back_when_a_robot_disappears(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.camera.painter.ambient = 0.02
     scattered(mat, 1)
     _, page = gathering(arcade)

@@ -5,7 +5,7 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.hardware.session.emulated import EmulatedMat
+from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.robots.fault_page import Trouble
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
@@ -20,7 +20,7 @@ WIRING = ("lids_swapped", "motors_reversed", "motors_swapped", "motor_reversed",
 
 
 @pytest.fixture(autouse=True)
-def _as_it_was(mat: EmulatedMat) -> Iterator[None]:
+def _as_it_was(mat: EmulatedSession) -> Iterator[None]:
     yield
     mat.open().channels = (0, 1, 2, 3)
 
@@ -39,7 +39,7 @@ def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
 
 @pytest.mark.parametrize("fault", WIRING)
 def test_a_fault_present_from_the_start_is_named_within_three_seconds(
-    arcade: Arcade, mat: EmulatedMat, fault: str
+    arcade: Arcade, mat: EmulatedSession, fault: str
 ) -> None:
     mat.arena.faults.switch(fault, True, 0)
     gathering(arcade)
@@ -54,7 +54,7 @@ def test_a_fault_present_from_the_start_is_named_within_three_seconds(
 
 @pytest.mark.parametrize("fault", ["motors_reversed", "pinned"])
 def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
-    arcade: Arcade, mat: EmulatedMat, fault: str
+    arcade: Arcade, mat: EmulatedSession, fault: str
 ) -> None:
     match = begun(arcade)
     mat.arena.faults.switch(fault, True, 0)
@@ -70,7 +70,9 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
     assert match.match.state.tick > before
 
 
-def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(
+    arcade: Arcade, mat: EmulatedSession
+) -> None:
     match = gathering(arcade)
     mat.arena.faults.switch("lids_swapped", True, 0)
     until(arcade, Trouble, 3.0)
@@ -82,7 +84,7 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(arcad
     assert match.gathering is not None
 
 
-def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcade, mat: EmulatedSession) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)
     until(arcade, Trouble, 3.0)
@@ -101,7 +103,7 @@ def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcad
     until(arcade, RealMatch)
 
 
-def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedSession) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)
     until(arcade, Trouble, 3.0)
@@ -114,7 +116,9 @@ def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedMat
     assert max(mat.arena.ran) - stopped < 0.3
 
 
-def test_a_single_reversed_motor_drives_off_only_a_hand_wide_while_pairing(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_a_single_reversed_motor_drives_off_only_a_hand_wide_while_pairing(
+    arcade: Arcade, mat: EmulatedSession
+) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motor_reversed", True, 1)
     until(arcade, Trouble, 3.0)

@@ -2,32 +2,30 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import cast
 
 import pytest
 
-from pigaming_app.hardware.session.emulated import EmulatedMat
-from pigaming_app.hardware.session.real import RealMat
+from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.scenes.robots.avoid_discs import hit
 from pigaming_app.scenes.robots.fleet_page import RobotsPage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
 pytest.importorskip("cv2")
 
 
 @pytest.fixture(scope="module")
-def mat() -> Iterator[EmulatedMat]:
-    mat = EmulatedMat(live=False)
+def mat() -> Iterator[EmulatedSession]:
+    mat = EmulatedSession(live=False)
     yield mat
     mat.end()
 
 
 @pytest.fixture
-def arcade(controls: Controls, home: Path, mat: EmulatedMat) -> Iterator[Arcade]:
+def arcade(controls: Controls, home: Path, mat: EmulatedSession) -> Iterator[Arcade]:
     arcade = Arcade(controls)
     arcade.house.mat = mat
     arcade.open(RobotsPage(arcade.house))
@@ -45,7 +43,7 @@ def idle(arcade: Arcade, page: RobotsPage) -> None:
     raise AssertionError("still busy")
 
 
-def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedSession) -> None:
     arcade.house.settings.radio = "stock"
     page = RobotsPage(arcade.house)
     arcade.open(page)
@@ -56,7 +54,7 @@ def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: 
     assert "no deadman" not in page._line()
 
 
-def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
     arcade.wait(4.0, fps=50)
@@ -71,7 +69,7 @@ def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) ->
     mat.arena.faults.switch("marker_covered", False, 3)
 
 
-def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSession) -> None:
     page = arcade.shown(RobotsPage)
     arcade.wait(1.0, fps=20, draw=True)
     assert page.discs is not None
@@ -87,7 +85,7 @@ def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedMat) -
     assert page.focus.name == "pair", "the row is where it is shown"
 
 
-def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedSession) -> None:
     page = arcade.shown(RobotsPage)
     rig = page.check.rig
     assert rig is not None
@@ -108,7 +106,7 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedM
         mat.arena.place(1, two)
 
 
-def test_any_press_stops_what_moves(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_any_press_stops_what_moves(arcade: Arcade, mat: EmulatedSession) -> None:
     page = arcade.shown(RobotsPage)
     arcade.press(Act.FIRE)
     arcade.wait(1.2, fps=50)
@@ -134,13 +132,10 @@ def test_the_delay_of_the_whole_loop_is_measured(arcade: Arcade) -> None:
 def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_changed(
     controls: Controls, home: Path
 ) -> None:
-    class Window:
-        projection = "1"
-
     arcade = Arcade(controls, "pt")
     settings = arcade.house.settings
     settings.port = "/dev/nowhere"
-    arcade.house.mat = mat = RealMat(settings, cast(Canvas, Window()))
+    arcade.house.mat = mat = RealSession(settings, lambda: "1")
     arcade.open(RobotsPage(arcade.house))
     try:
         page = arcade.shown(RobotsPage)

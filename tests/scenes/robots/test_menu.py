@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware.messages import Said
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.calibration.corner_pin_page import PinPage
 from pigaming_app.scenes.calibration.drift_page import CheckPage
@@ -68,11 +68,11 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     assert arcade.shown(RobotsMenu).sentence == arcade.house.words("app.unsaved")
 
     def none() -> bytes:
-        raise NoVision(Said("OpenCV is not installed.", "no_opencv"))
+        raise NoVision(OperatorMessage("no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
     arcade.press(Act.FIRE)
-    assert arcade.shown(RobotsMenu).sentence == arcade.house.words("vision.no_opencv")
+    assert arcade.shown(RobotsMenu).sentence == arcade.house.words("hardware.no_opencv")
 
 
 def test_children_in_a_kiosk_do_not_find_it(arcade: Arcade) -> None:

@@ -10,8 +10,9 @@ import pytest
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.session.emulated import EmulatedMat
-from pigaming_app.hardware.session.real import NoMat
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.hardware.session.robot_session import NoRobots
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
@@ -21,8 +22,10 @@ from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.unavailable import Refused
 from pigaming_app.ui.draw.ink import GREY
+from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
+from tests.hardware.sentences import sentence
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -31,13 +34,13 @@ FPS = 50
 
 
 @pytest.fixture(scope="module")
-def kept() -> EmulatedMat:
+def kept() -> EmulatedSession:
     """One arena for all, because making and calibrating it takes a while."""
-    return EmulatedMat(live=False)
+    return EmulatedSession(live=False)
 
 
 @pytest.fixture
-def mat(kept: EmulatedMat) -> Iterator[EmulatedMat]:
+def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
     arena = kept.arena
     arena.project(np.zeros((1080, 1920), np.uint8))  # not what the test before showed last
     for robot, pose in enumerate(((180, 260, 0.4), (1300, 700, 2.9), (1300, 200, 3.9), (300, 700, 5.5))):
@@ -49,7 +52,7 @@ def mat(kept: EmulatedMat) -> Iterator[EmulatedMat]:
 
 
 @pytest.fixture
-def arcade(controls: Controls, mat: EmulatedMat) -> Arcade:
+def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
     arcade = Arcade(controls)
     arcade.house.mat = mat
     return arcade
@@ -68,8 +71,8 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
         arcade.frame(1 / FPS, draw=lit)
         if lit:
             mat = arcade.house.mat
-            assert isinstance(mat, EmulatedMat)
-            mat.see(arcade.screen)
+            assert isinstance(mat, EmulatedSession)
+            mat.show(lambda: pixels_of(arcade.screen))
 
 
 def until(arcade: Arcade, kind: type, most: float = 8.0) -> float:
@@ -93,7 +96,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
     return match
 
 
-def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedSession) -> None:
     match = match_of(arcade.house, match_for("pitanks", "easy easy off off", 0.05), [], (0, 1))
     assert isinstance(match, RealMatch)
     starts = [(robot.x, robot.y) for robot in match.match.state.robots[:2]]
@@ -139,7 +142,7 @@ def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: 
     ],
 )
 def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
-    arcade: Arcade, mat: EmulatedMat, fault: str, says: str
+    arcade: Arcade, mat: EmulatedSession, fault: str, says: str
 ) -> None:
     match = begun(arcade)
     mat.arena.faults.switch(fault, True, 1)
@@ -158,7 +161,7 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
     assert match.match.state.tick > before
 
 
-def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     arcade.press(Act.STOP)
     arcade.shown(Trouble)
@@ -186,7 +189,7 @@ def test_both_shoulders_of_a_pad_are_the_all_stop(controls: Controls) -> None:
     assert heard == [[], [Act.STOP]]
 
 
-def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     mat.arena.faults.switch("robot_off", True, 1)
     until(arcade, Trouble, 3.0)
@@ -221,7 +224,7 @@ def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(ar
 
 
 def test_a_battery_that_runs_low_is_only_said(
-    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture
+    arcade: Arcade, mat: EmulatedSession, caplog: pytest.LogCaptureFixture
 ) -> None:
     match = begun(arcade)
     before, mat.arena.robots[1].battery = mat.arena.robots[1].battery, 4.2
@@ -234,7 +237,7 @@ def test_a_battery_that_runs_low_is_only_said(
 
 
 def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
-    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture
+    arcade: Arcade, mat: EmulatedSession, caplog: pytest.LogCaptureFixture
 ) -> None:
     begun(arcade)
     body = mat.arena.robots[1]
@@ -250,7 +253,7 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
 
 
 def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
-    arcade: Arcade, mat: EmulatedMat, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+    arcade: Arcade, mat: EmulatedSession, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It still reports, but hears nothing: as with a receiver whose antenna is loose."""
     match = begun(arcade)
@@ -265,7 +268,7 @@ def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     until(arcade, RealMatch, 2.0)
 
 
-def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     match.restart()
     play(arcade, 0.1)
@@ -279,7 +282,7 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> No
     assert mat.open() is again.plant.rig
 
 
-def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.faults.switch("marker_covered", True, 1)
     mat.arena.faults.switch("robot_off", True, 2)
     match = match_of(arcade.house, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
@@ -299,7 +302,7 @@ def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat:
     assert hypot(x - match.match.state.robots[0].x, y - match.match.state.robots[0].y) < 30.0
 
 
-def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedMat) -> None:
+def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     match.stop()
     until(arcade, Results)
@@ -309,7 +312,7 @@ def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedMat)
 
 
 @pytest.mark.parametrize("again", [False, True])
-def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedMat, again: bool) -> None:
+def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedSession, again: bool) -> None:
     """Nor is one begun again, where the radio was changed meanwhile."""
     if again:
         match = begun(arcade)
@@ -320,25 +323,25 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedMat
         arcade.house.settings.radio = "stock"
         arcade.open(match_of(arcade.house, match_for("race", "normal easy off off", 0.1), [], (0,)))
     page = arcade.shown(Refused)
-    assert "no deadman" in page.sentence
+    assert "no deadman" in sentence(page.message)
     arcade.frame(draw=True)
     arcade.press(Act.EXTRA)
-    assert "no deadman" in arcade.shown(Refused).sentence
+    assert "no deadman" in sentence(arcade.shown(Refused).message)
     assert mat._rig is None
     mat.arena.advance(0.3)
     assert mat.arena.clock() - max(mat.arena.ran) > 0.2
 
 
 def test_what_cannot_be_used_is_said_and_simulated_robots_play(
-    arcade: Arcade, mat: EmulatedMat, monkeypatch: pytest.MonkeyPatch
+    arcade: Arcade, mat: EmulatedSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def missing() -> None:
-        raise NoMat("There is no camera 3: plug one in.")
+        raise NoRobots(OperatorMessage("no_camera", number=3))
 
     monkeypatch.setattr(mat, "open", missing)
     page = match_of(arcade.house, match_for("pitanks", "normal easy off off", 0.1), [], (0,))
     assert isinstance(page, Refused)
     arcade.open(page)
-    assert arcade.shown(Refused).sentence == "There is no camera 3: plug one in."
+    assert sentence(arcade.shown(Refused).message) == "There is no camera 3: plug one in."
     arcade.press(Act.FIRE)
     assert type(arcade.shown(MatchScene)) is MatchScene

@@ -10,9 +10,10 @@ from typing import cast
 import pytest
 
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.hardware.calibration.ground_plane import nominal, written
-from pigaming_app.hardware.session.emulated import EmulatedMat
-from pigaming_app.hardware.session.real import NoMat, RealMat
+from pigaming_app.hardware.calibration.ground_plane import written
+from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.hardware.session.robot_session import NoRobots
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Turn
@@ -21,21 +22,16 @@ from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.window import Canvas
+from tests.hardware.grounds import nominal
+from tests.hardware.sentences import sentence
 from tests.scenes.arcade import Arcade
 
 pytest.importorskip("cv2")
 HERE = "1: 1920 × 1080"
 
 
-class Window:
-    """The part of a canvas that a mat looks at."""
-
-    projection = HERE
-
-
-def real_mat(settings: Settings | None = None) -> RealMat:
-    return RealMat(settings or Settings(), cast(Canvas, Window()))
+def real_mat(settings: Settings | None = None) -> RealSession:
+    return RealSession(settings or Settings(), lambda: HERE)
 
 
 def calibrate(projection: str) -> None:
@@ -63,7 +59,7 @@ def threads() -> set[str]:
 
 
 def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
-    mat = EmulatedMat()
+    mat = EmulatedSession()
     try:
         rig = mat.open()
 
@@ -81,35 +77,35 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
 
 
 def test_without_a_calibration_there_are_no_real_robots(home: Path) -> None:
-    with pytest.raises(NoMat) as refused:
+    with pytest.raises(NoRobots) as refused:
         real_mat().open()
-    assert "no calibration" in str(refused.value)
+    assert "no calibration" in sentence(refused.value)
 
 
 def test_a_calibration_of_another_display_is_refused(home: Path) -> None:
     calibrate("2: 1280 × 720")
-    with pytest.raises(NoMat) as refused:
+    with pytest.raises(NoRobots) as refused:
         real_mat().open()
-    assert "2: 1280 × 720" in str(refused.value)
-    assert HERE in str(refused.value)
+    assert "2: 1280 × 720" in sentence(refused.value)
+    assert HERE in sentence(refused.value)
 
 
 def test_a_broken_calibration_is_refused_in_one_line(home: Path) -> None:
     calibrate(HERE)
     file = folders().config / "calibration.toml"
     file.write_text(file.read_text(encoding="utf-8").replace("width_mm = 2", "width_mm = 3"), encoding="utf-8")
-    with pytest.raises(NoMat) as refused:
+    with pytest.raises(NoRobots) as refused:
         real_mat().open()
-    assert "\n" not in str(refused.value)
+    assert "\n" not in sentence(refused.value)
 
 
 def test_a_computer_without_opencv_says_so(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     calibrate(HERE)
     monkeypatch.setitem(sys.modules, "cv2", None)
-    for mat in (real_mat(), EmulatedMat(live=False)):
-        with pytest.raises(NoMat) as refused:
+    for mat in (real_mat(), EmulatedSession(live=False)):
+        with pytest.raises(NoRobots) as refused:
             mat.open()
-        assert "opencv" in str(refused.value).lower()
+        assert "opencv" in sentence(refused.value).lower()
 
 
 def test_a_computer_without_pyserial_says_so_and_without_a_camera_too(
@@ -122,10 +118,10 @@ def test_a_computer_without_pyserial_says_so_and_without_a_camera_too(
         link = mat.listen()
         assert link is not None
         assert soon(lambda: link.trouble is not None)
-        assert str(mat.trouble) == "The package pyserial is missing, so no radio can be used."
+        assert sentence(mat.trouble) == "The package pyserial is missing, so no radio can be used."
         mat.close()
         mat.open()
-        assert soon(lambda: "camera 63" in str(mat.trouble))
+        assert soon(lambda: mat.trouble is not None and "camera 63" in sentence(mat.trouble))
     finally:
         mat.end()
     assert soon(lambda: not threads(), 3.0)
@@ -162,7 +158,7 @@ class Failing(RealMatch):
 
     def update(self, seconds: float) -> Turn:
         turn = super().update(seconds)
-        if any(robot.left or robot.right for robot in cast(EmulatedMat, self.mat).arena.robots):
+        if any(robot.left or robot.right for robot in cast(EmulatedSession, self.mat).arena.robots):
             raise RuntimeError("on purpose")
         return turn
 
@@ -176,14 +172,14 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
 
     def first(house: House) -> RealMatch:
         houses.append(house)
-        assert isinstance(house.mat, EmulatedMat)
+        assert isinstance(house.mat, EmulatedSession)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
         return Failing(house, Setup("pitanks", "classic", seats, 0.1, 3, "plain"), [], (0, 1), house.mat)
 
     code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
     assert code == int(alone)
     mat = houses[0].mat
-    assert isinstance(mat, EmulatedMat)
+    assert isinstance(mat, EmulatedSession)
     mat.arena.advance(0.1)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)
     assert not threads()

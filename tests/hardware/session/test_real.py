@@ -2,15 +2,17 @@
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.ground_plane import nominal
-from pigaming_app.hardware.session.fitting import Fitting
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.real import SizedCamera
 from pigaming_app.hardware.signals import Frame
+from tests.hardware.grounds import nominal
+from tests.hardware.sentences import sentence
 
 
 class Eye:
     """A camera that has one picture of each of these sizes."""
 
-    trouble: str | None = None
+    trouble: OperatorMessage | None = None
 
     def __init__(self, *sizes: tuple[int, int]) -> None:
         self.frames = [Frame(np.zeros((h, w), np.uint8), 0.1 * i, i) for i, (w, h) in enumerate(sizes)]
@@ -23,22 +25,24 @@ class Eye:
 
 
 def test_pictures_of_another_size_are_withheld_with_a_sentence_until_the_right_ones_come():
-    eye = Fitting(Eye((640, 480), (1280, 720), (640, 480)), nominal((1280, 720)))
+    eye = SizedCamera(Eye((640, 480), (1280, 720), (640, 480)), nominal((1280, 720)))
     assert eye.newest() is None
-    assert eye.trouble == "The calibration was made with a camera of 1280 x 720 px, not 640 x 480: calibrate again."
+    assert sentence(eye.trouble) == (
+        "The calibration was made with a camera of 1280 x 720 px, not 640 x 480: calibrate again."
+    )
     frame = eye.newest()
     assert frame is not None
     assert frame.number == 1
     assert eye.trouble is None
     eye.newest()
-    assert "640 x 480" in str(eye.trouble)
+    assert "640 x 480" in sentence(eye.trouble)
 
 
 def test_what_the_camera_itself_says_comes_first():
     camera = Eye((640, 480))
-    eye = Fitting(camera, nominal((1280, 720)))
+    eye = SizedCamera(camera, nominal((1280, 720)))
     eye.newest()
-    camera.trouble = "Camera 0 has stopped sending pictures: is it unplugged?"
+    camera.trouble = OperatorMessage("stopped", number=0)
     assert eye.trouble == camera.trouble
     eye.close()
     assert not camera.frames

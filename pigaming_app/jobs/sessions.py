@@ -1,0 +1,34 @@
+"""The robots of a job: the real ones of the settings, or the emulated arena in simulated time."""
+
+from pigaming_app.hardware.session.robot_session import RobotSession
+from pigaming_app.storage.settings import Settings, folders
+
+UNREST = 0.15  # size of the exposure steps of the emulated camera, as a share
+
+
+def emulated_session(seed: int) -> RobotSession:
+    """The emulated arena of a seed, with all robots in sight. Raises NoRobots."""
+    from pigaming_app.hardware.session.emulated import EmulatedSession
+
+    session = EmulatedSession(seed, live=False, unrest=UNREST)
+    session.open()  # raises where OpenCV is missing, before that is needed for the light
+    from pigaming_app.hardware.session.lighting import Lighting
+
+    session.lighting = Lighting(seed)
+    session.find()
+    return session
+
+
+def real_session(camera: int | None = None, port: str | None = None) -> RobotSession:
+    """The robots of the settings, not yet in use; `camera` and `port` stand in for those of the settings."""
+    from pigaming_app.hardware.session.real import RealSession
+
+    settings, _ = Settings.load(folders().config)
+    settings.camera = settings.camera if camera is None else camera
+    settings.port = port or settings.port
+    return RealSession(settings)
+
+
+def new_session(emulate: int | None, camera: int | None, port: str | None) -> RobotSession:
+    """The emulated session of a seed, or the real one. Raises NoRobots."""
+    return emulated_session(emulate) if emulate is not None else real_session(camera, port)
