@@ -9,7 +9,6 @@ from pigaming_app.jobs.refusal import refused
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     parser.add_argument("file", type=path, metavar="FILE", help="replay")
     parser.add_argument("--verify", action="store_true", help="no window; exit code 1 if it plays out differently")
 

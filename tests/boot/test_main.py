@@ -245,6 +245,21 @@ def test_a_lock_that_a_dead_start_left_behind_holds_nobody(furnished):
     assert "waiting" not in started(furnished).stderr
 
 
+def test_a_disk_that_fills_up_under_the_stamp_leaves_the_groups_uninstalled(furnished, monkeypatch):
+    place = furnished / ".venv"
+    monkeypatch.setattr(start, "PROJECT", furnished / "pyproject.toml")
+    install.install(place, {start.ARCADE})
+    assert start.ready(place) == {start.ARCADE}
+
+    def full(descriptor):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(install.os, "fsync", full)
+    with pytest.raises(start.Trouble, match="the disk is full"):
+        install.install(place, {start.ARCADE, "train"})
+    assert start.ready(place) == set()
+
+
 def test_an_environment_whose_python_has_gone_does_not_work(furnished):
     place = furnished / ".venv"
     started(furnished)
