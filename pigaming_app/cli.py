@@ -80,7 +80,7 @@ def _run(name: str, words: list[str]) -> int:
         description=textwrap.fill((job.__doc__ or "").partition("\n\n")[0], 80),
         epilog=LISTING if name == "arcade" else None,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=name != "test",  # whose unknown options are those of pytest
+        allow_abbrev=False,  # boot looks for whole words, and unknown options of `test` are those of pytest
     )
     job.options(parser)
     arguments, unknown = parser.parse_known_args(words)
