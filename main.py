@@ -28,7 +28,7 @@ def main() -> int:
     if folder not in sys.path:
         sys.path.insert(0, folder)
     if "pigaming" not in sys._xoptions:  # which marks the Python that boot has chosen
-        from pigaming_app.boot.interpreter import start
+        from pigaming_app.boot.start import start
 
         code = start(sys.argv[1:])
         if code is not None:

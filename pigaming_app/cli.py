@@ -27,6 +27,7 @@ JOBS = {  # modules of `jobs`
     "doctor": "check of the installation, with advice",
     "test": "linter, types and tests",
 }
+LISTING = "\n".join(["jobs:", *(f"  {job:17} {text}" for job, text in JOBS.items())])
 LOGGED = ("robots", "calibrate", "fidelity")  # their refusals go to the arcade's log as well
 
 
@@ -77,17 +78,16 @@ def _run(name: str, words: list[str]) -> int:
     parser = Parser(
         prog=PROGRAM if name == "arcade" else f"{PROGRAM} {name}",
         description=textwrap.fill((job.__doc__ or "").partition("\n\n")[0], 80),
-        epilog="\n".join(["jobs:", *(f"  {job:21} {text}" for job, text in JOBS.items())])
-        if name == "arcade"
-        else None,
+        epilog=LISTING if name == "arcade" else None,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=name != "test",  # whose unknown options are those of pytest
+        allow_abbrev=False,  # boot looks for whole words, and unknown options of `test` are those of pytest
     )
     job.options(parser)
     arguments, unknown = parser.parse_known_args(words)
-    if unknown and "for_pytest" not in arguments:
+    if "for_pytest" in arguments:
+        arguments.for_pytest = unknown
+    elif unknown:
         raise Refusal(f"unrecognized arguments: {' '.join(unknown)}")
-    arguments.for_pytest = unknown
     if name != "doctor":  # which changes nothing
         files.sweep()
     return int(job.run(arguments))

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     parser.usage = "%(prog)s [JOB] [OPTIONS]"
     shared(parser, "--kiosk", "--display")
     mat_options(parser)

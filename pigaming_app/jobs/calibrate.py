@@ -12,7 +12,6 @@ from pigaming_app.jobs.refusal import Refusal, refused, require
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     shared(parser, "--camera", "--display", "--emulate", "--json")
     parser.add_argument("--headless", action="store_true", help="with --emulate: no window, print the errors")
     parser.add_argument("--robot", action="store_true", help="with --headless: camera height measured by a robot")

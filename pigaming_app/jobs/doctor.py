@@ -52,7 +52,6 @@ class Line:
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     shared(parser, "--json")
 
 

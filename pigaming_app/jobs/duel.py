@@ -14,7 +14,6 @@ from pigaming_app.sim.arena import ArenaError
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     game_option(parser, required=True)
     parser.add_argument("left", metavar="AI", help=AIS)
     parser.add_argument("right", metavar="AI", help="its opponent")

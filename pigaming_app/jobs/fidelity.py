@@ -22,7 +22,6 @@ LOST = 5.0  # s of robots that cannot drive after which a recording is given up
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     parser.add_argument("step", choices=list(STEPS), help="in this order, on the same run")
     parser.add_argument("file", type=path, metavar="FILE", help="run (JSONL)")
     parser.add_argument(

@@ -22,7 +22,6 @@ NOTES = (
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     game_option(parser, required=True)
     parser.add_argument("brains", nargs="*", metavar="AI", help=AIS)
     duel_options(parser)

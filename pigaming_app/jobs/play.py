@@ -44,7 +44,6 @@ WATCHED = 150  # ticks before a picture in which its shots, sparks and tread mar
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     game_option(parser)
     parser.add_argument("--game", dest="named_game", help=argparse.SUPPRESS)  # the only way up to 1.4.0
     parser.set_defaults(game=None)  # to notice a contradiction

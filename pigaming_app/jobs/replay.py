@@ -11,7 +11,6 @@ from pigaming_app.jobs.replay_files import load
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     parser.add_argument("file", type=path, metavar="FILE", help="replay")
     parser.add_argument("--verify", action="store_true", help="no window; exit code 1 if it plays out differently")
 

@@ -29,7 +29,6 @@ CASES = {
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
     parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
     shared(parser, "--emulate", "--camera", "--port", "--json")

@@ -50,7 +50,6 @@ class Point(NamedTuple):
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     parser.add_argument("learner", choices=["qlearning"], help="a table, for pitanks only")
     game_option(parser)
     parser.add_argument("--reward", type=whole(), default=1, choices=[1, 2], help="published reward; default 1")

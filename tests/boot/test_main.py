@@ -17,12 +17,12 @@ import pytest
 
 from main import too_old
 from pigaming_app.boot import environment as install
-from pigaming_app.boot import interpreter as start
+from pigaming_app.boot import interpreter, start
 
 ROOT = Path(__file__).resolve().parents[2]
 BARE = sys._base_executable
 FILES = ("main.py", "pyproject.toml", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
-FILES += ("pigaming_app/boot/interpreter.py", "pigaming_app/boot/environment.py")
+FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment"))
 JOB = """
 import sys
 
@@ -62,7 +62,7 @@ def clone(tmp_path):
 def furnished(clone):
     """The same, with an empty .venv in which pip only pretends."""
     venv.create(clone / ".venv", symlinks=os.name != "nt")
-    pip = start.site_packages(clone / ".venv") / "pip"
+    pip = interpreter.site_packages(clone / ".venv") / "pip"
     pip.mkdir()
     (pip / "__main__.py").write_text(PIP)
     return clone
@@ -84,7 +84,7 @@ def started(clone, *arguments, python=BARE, **extra):
 
 def calls(clone):
     """What pip was asked for, call by call: names only."""
-    said = (start.site_packages(clone / ".venv") / "pip" / "calls").read_text().splitlines()
+    said = (interpreter.site_packages(clone / ".venv") / "pip" / "calls").read_text().splitlines()
     return [set(re.sub(r"[<>][^ ]*", "", line).split()) for line in said]
 
 
@@ -150,7 +150,7 @@ def test_a_python_with_both_pygames_is_not_used(furnished, tmp_path):
 def test_an_environment_with_both_pygames_is_named(furnished):
     started(furnished)
     for name in ("pygame-2.6.1", "pygame_ce-2.5.9"):
-        (start.site_packages(furnished / ".venv") / f"{name}.dist-info").mkdir()
+        (interpreter.site_packages(furnished / ".venv") / f"{name}.dist-info").mkdir()
     assert f"{furnished / '.venv'} holds both pygame and pygame-ce" in started(furnished).stderr
 
 
@@ -168,6 +168,12 @@ def test_a_duel_goes_on_without_the_compiler(furnished):
     ended = started(furnished, "duel", "pitanks", MOOD="numba:No matching distribution found for numba")
     assert ended.stdout == f"{furnished / '.venv'} duel pitanks\n"
     assert "Going on without numba." in ended.stderr
+
+
+@pytest.mark.parametrize("words", [["play", "--real=1,3"], ["--emulate", "3"], ["bench", "robots"]], ids=" ".join)
+def test_words_that_mean_real_robots_fetch_opencv(furnished, words):
+    started(furnished, *words)
+    assert "opencv-python-headless" in calls(furnished)[-1]
 
 
 def test_who_only_asks_how_a_duel_works_waits_for_no_compiler(furnished):
@@ -195,7 +201,7 @@ def test_offline_one_line_says_what_to_do_and_nothing_is_lost(clone):
 
 def test_without_the_venv_module_its_package_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr(install.importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(start.Trouble, match="apt install python3-venv"):
+    with pytest.raises(interpreter.Trouble, match="apt install python3-venv"):
         install.make(tmp_path / "venv")
 
 
@@ -214,7 +220,7 @@ def test_stopped_while_installing_it_goes_on_next_time(furnished):
     running = subprocess.Popen(
         command, env=surroundings(furnished, MOOD="slow"), stderr=subprocess.PIPE, text=True, start_new_session=True
     )
-    until(lambda: (start.site_packages(furnished / ".venv") / "pip" / "calls").exists())
+    until(lambda: (interpreter.site_packages(furnished / ".venv") / "pip" / "calls").exists())
     os.killpg(running.pid, signal.SIGINT)
     said = running.communicate(timeout=30)[1]
     assert running.returncode == 130
@@ -245,14 +251,29 @@ def test_a_lock_that_a_dead_start_left_behind_holds_nobody(furnished):
     assert "waiting" not in started(furnished).stderr
 
 
+def test_a_disk_that_fills_up_under_the_stamp_leaves_the_groups_uninstalled(furnished, monkeypatch):
+    place = furnished / ".venv"
+    monkeypatch.setattr(interpreter, "PROJECT", furnished / "pyproject.toml")
+    install.install(place, {interpreter.ARCADE})
+    assert interpreter.ready(place) == {interpreter.ARCADE}
+
+    def full(descriptor):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(install.os, "fsync", full)
+    with pytest.raises(interpreter.Trouble, match="the disk is full"):
+        install.install(place, {interpreter.ARCADE, "train"})
+    assert interpreter.ready(place) == set()
+
+
 def test_an_environment_whose_python_has_gone_does_not_work(furnished):
     place = furnished / ".venv"
     started(furnished)
     assert install.works(place)
-    start.python_of(place).unlink()
-    start.python_of(place).symlink_to("/nowhere/python3.11")
+    interpreter.python_of(place).unlink()
+    interpreter.python_of(place).symlink_to("/nowhere/python3.11")
     assert not install.works(place)
-    assert start.ready(place) == set()
+    assert interpreter.ready(place) == set()
 
 
 def test_an_environment_left_half_made_does_not_work(tmp_path):
@@ -281,7 +302,7 @@ def test_in_a_read_only_folder_the_environment_goes_to_the_user(tmp_path, monkey
 def test_where_nothing_can_be_written_both_folders_are_named(tmp_path, monkeypatch):
     monkeypatch.setattr(install, "places", lambda: [tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"])
     monkeypatch.setattr(install, "open", no_writing_below(tmp_path), raising=False)
-    with pytest.raises(start.Trouble, match=r"neither .*clone nor .*home can be written"):
+    with pytest.raises(interpreter.Trouble, match=r"neither .*clone nor .*home can be written"):
         install._claimed()
 
 
@@ -306,7 +327,7 @@ def test_a_project_file_that_is_missing_is_said_in_one_line(clone):
     ],
 )
 def test_a_version_fits_or_not(requirement, version, lacking):
-    assert start.lacks({"numpy": version}, requirement) is lacking
+    assert interpreter.lacks({"numpy": version}, requirement) is lacking
 
 
 def test_the_project_file_says_only_what_the_start_understands():

@@ -12,7 +12,6 @@ ROBOTS = "robots"
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare the options."""
     game_option(parser, more=(ROBOTS,))
     shared(parser, "--json")
 
