@@ -2,7 +2,8 @@
 
 A ghost is worth something only as long as today's robots could drive its lap: one that another version of the engine
 wrote is compared with the rules and dropped if they could not. A file for each track, by its name and a hash of its
-source, in `ghosts` of the folder for data: {"engine": "…", "line": 0, "seconds": 11.32, "crossed": [0, 2.9, 5.6, 8.5], "poses": [[x, y, heading], …]}.
+source, in `ghosts` of the folder for data:
+{"engine": "…", "line": 0, "seconds": 11.32, "crossed": [0, 2.9, 5.6, 8.5], "poses": [[x, y, heading], …]}.
 """
 
 import hashlib
