@@ -18,6 +18,12 @@ def chance(owner: Any) -> float:
     return float(owner.random >> 8) / 8388608.0
 
 
+@kernel
+def bell(owner: Any) -> float:
+    """A draw from about a normal distribution, mean 0, standard deviation 0.5: three uniform ones less their mean."""
+    return float(chance(owner) + chance(owner) + chance(owner) - 1.5)
+
+
 def seeded(seed: int) -> int:
     """A state of the generator, far from those of neighbouring seeds. Any whole number will do."""
     mixed = (seed ^ 0x5DEECE66D) & ((1 << 64) - 1)

@@ -41,3 +41,16 @@ def burn(robot: Any, wanted: int, drain: float, refill: float) -> None:
         robot.turbo += refill
         if robot.turbo > 1.0:
             robot.turbo = 1.0
+
+
+@kernel
+def stop(robot: Any) -> None:
+    """Ask a robot to stand."""
+    robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+
+
+@kernel
+def stop_all(world: Any) -> None:
+    """Ask every robot to stand."""
+    for robot in world.robots:
+        stop(robot)

@@ -7,6 +7,7 @@ from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import find_way
 from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robot import LAG
 from pigaming_app.sim.world import DT
 
 
@@ -17,27 +18,30 @@ def bearing(robot: Any, x: float, y: float) -> float:
 
 
 @kernel
-def turning(match: Any, robot: Any, angle: float, period: int) -> float:
-    """The stick that turns by `angle` within `period` ticks, as far as the motors can."""
-    stick: float = 0.75 * (angle - 0.08 * robot.angular) / (match.rules.turn_rate * period * DT)
-    return stick
+def turning(angle: float, angular: float, turn_rate: float, period: int) -> float:
+    """The stick that turns by `angle` within `period` ticks, as far as the motors can; they turn by `angular` now."""
+    return float(0.75 * (angle - LAG * angular) / (turn_rate * period * DT))
+
+
+@kernel
+def approach(angle: float, distance: float) -> tuple[float, float]:
+    """How to get to a point: the angle to turn by, and the stick ahead; backwards where that saves a long turn."""
+    ahead = 1.0
+    if abs(angle) > 2.2 and distance < 200.0:
+        angle, ahead = turn_to(angle + pi), -1.0
+    if abs(angle) > 0.9:
+        return angle, 0.0
+    return angle, 0.5 * ahead if abs(angle) > 0.4 else ahead
 
 
 @kernel
 def follow(match: Any, seat: int, errand: Any, period: int) -> None:
-    """Drive on along the way for `period` ticks; backwards where that saves a long turn."""
+    """Drive on along the way for `period` ticks."""
     robot = match.robots[seat]
     find_way(match, errand, robot.x, robot.y)
-    angle, ahead = bearing(robot, errand.way_x, errand.way_y), 1.0
     dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
     gap = sqrt(dx * dx + dy * dy)
-    if abs(angle) > 2.2 and gap < 200.0:
-        angle, ahead = turn_to(angle + pi), -1.0
-    speed = ahead
-    if abs(angle) > 0.9:
-        speed = 0.0
-    elif abs(angle) > 0.4:
-        speed = 0.5 * ahead
+    angle, speed = approach(bearing(robot, errand.way_x, errand.way_y), gap)
     if errand.straight and gap < 70.0:
         speed *= 0.3 + 0.7 * gap / 70.0
-    press(match.actions[seat], speed, turning(match, robot, angle, period), 0, 0)
+    press(match.actions[seat], speed, turning(angle, robot.angular, match.rules.turn_rate, period), 0, 0)

@@ -1,9 +1,12 @@
-"""A reflex for brains that learned nothing about being stuck: whoever pushes and gets nowhere lets go for a second.
+"""Getting free: how a brain notices that it gets nowhere and backs out; and a reflex for brains that learned neither.
 
-It stands outside what was learned, and is off in training and in measuring. It drives towards the opponent, round the
-walls; if that was no help the last time, it backs out with some turn. Who only stands there and sees nobody for long is
-sent off too. By the `classic` rules (those without turbo) robots are to play on a seat as they were measured: there it
-only takes them off the wall by a hand's breadth after some seconds, and nobody who waits is sent anywhere.
+A mind that uses the first has the fields `anchor_x`, `anchor_y`, `held_up`, `escape`, `escape_turn`, and a generator.
+
+The reflex is for learned brains: a robot that pushes and gets nowhere lets go for a second. It stands outside what was
+learned, and is off in training and in measuring. It drives towards the opponent, round the walls; if that was no help
+the last time, it backs out with some turn. Who only stands there and sees nobody for long is sent off too. By the
+`classic` rules (those without turbo) robots are to play on a seat as they were measured: there it only takes them off
+the wall by a hand's breadth after some seconds, and nobody who waits is sent anywhere.
 """
 
 from typing import Any
@@ -24,6 +27,40 @@ WAITING = 5 * HZ  # ticks of standing there and seeing nobody
 LETTING_GO = HZ  # ticks
 LONG, SHORTLY = round(2.5 * HZ), 10  # the same two by the classic rules
 TOUCH = 2.0 * RADIUS + 6.0  # px between the middles of robots that push each other
+HELD_UP = 20.0  # px; less than this within some ticks is getting nowhere
+FREEING = 20  # ticks of backing out, one way or the other
+
+
+@kernel
+def held_up(mind: Any, x: float, y: float, idle: bool, near: float, period: int) -> int:
+    """Ticks since a robot at (x, y) was last idle or more than `near` px away from where it was then."""
+    dx, dy = x - mind.anchor_x, y - mind.anchor_y
+    if idle or dx * dx + dy * dy > near * near:
+        mind.held_up, mind.anchor_x, mind.anchor_y = 0, x, y
+    else:
+        mind.held_up += period
+    return int(mind.held_up)
+
+
+@kernel
+def choose_escape(mind: Any, back: float, odds: float) -> None:
+    """Choose the stick to get free with: `back` with these odds, else the other way, which is blocked less often."""
+    mind.escape = back if chance(mind) < odds else -back
+    mind.escape_turn = 2.0 * chance(mind) - 1.0
+
+
+@kernel
+def escape(mind: Any, x: float, y: float, action: Any) -> int:
+    """Back out with a turn, and the other way if that leads nowhere; `mind.since` counts the ticks. 1: it is free."""
+    press(action, mind.escape, mind.escape_turn, 0, 0)
+    if mind.since < FREEING:
+        return 0
+    dx, dy = x - mind.anchor_x, y - mind.anchor_y
+    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
+        return 0
+    mind.held_up, mind.anchor_x, mind.anchor_y = 0, x, y
+    return 1
 
 
 @record

@@ -6,13 +6,15 @@
 from math import cos, sin, sqrt
 from typing import Any
 
+from pigaming_app.ai.brain.steering import turning
+from pigaming_app.ai.brain.unstick import choose_escape, held_up
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import SLOTS, WORKERS
 from pigaming_app.sim.action import press
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import chance
-from pigaming_app.sim.world import CELL, DT, HZ
+from pigaming_app.sim.world import CELL, HZ
 
 PERIOD = 5
 AT = 24.0  # px between the fork and a slot at which it presses fire
@@ -47,7 +49,7 @@ def drive_to(view: Any, mind: Any, action: Any) -> None:
     if view.straight and view.goal_distance < view.fork + TURN_IN:
         handle(view, mind, action, slot)
     else:
-        follow(view, mind, action)
+        follow_round(view, mind, action)
 
 
 @kernel
@@ -76,18 +78,11 @@ def handle(view: Any, mind: Any, action: Any, slot: Any) -> None:
         speed = (view.goal_distance - view.fork) / 40.0
         if speed > 0.0 and room(view, 0.0, 0.0) < 20.0:
             speed = 0.0
-    press(action, speed, turning(view, view.goal_bearing), 0, 0)
+    press(action, speed, turning(view.goal_bearing, view.angular, view.turn_rate, PERIOD), 0, 0)
 
 
 @kernel
-def turning(view: Any, bearing: float) -> float:
-    """The stick that turns by `bearing` until the next decision, as far as the motors can."""
-    stick: float = 0.75 * (bearing - 0.08 * view.angular) / (view.turn_rate * PERIOD * DT)
-    return stick
-
-
-@kernel
-def follow(view: Any, mind: Any, action: Any) -> None:
+def follow_round(view: Any, mind: Any, action: Any) -> None:
     """Drive on along the way, or as near to it as whoever is about leaves room."""
     bearing = view.way_bearing
     free = False
@@ -106,7 +101,7 @@ def follow(view: Any, mind: Any, action: Any) -> None:
     if not free and ahead < 80.0:
         speed = 0.0
     dash = mind.dash and view.goal_distance > 350.0 and view.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
-    press(action, speed, turning(view, bearing), 0, 1 if dash else 0)
+    press(action, speed, turning(bearing, view.angular, view.turn_rate, PERIOD), 0, 1 if dash else 0)
 
 
 @kernel
@@ -168,21 +163,15 @@ def make_detour(view: Any, mind: Any, action: Any) -> None:
         return
     if view.goal_distance < STAND_OFF:
         mind.detour = 0
-    follow(view, mind, action)
+    follow_round(view, mind, action)
 
 
 @kernel
 def feel_held_up(view: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
-    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
-    if dx * dx + dy * dy > HELD_UP * HELD_UP:
-        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
-        return
-    mind.held_up += PERIOD
-    if mind.held_up > HELD_UP_TICKS:
+    if held_up(mind, view.x, view.y, False, HELD_UP, PERIOD) > HELD_UP_TICKS:
         mind.held_up, mind.freeing = 0, FREEING
-        mind.escape = -0.8 if chance(mind) < 0.7 else 0.8
-        mind.escape_turn = 2.0 * chance(mind) - 1.0
+        choose_escape(mind, -0.8, 0.7)
 
 
 @kernel

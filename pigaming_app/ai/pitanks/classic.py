@@ -93,8 +93,8 @@ def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
     elif dx * dx + dy * dy > mind.numbers.arrived * mind.numbers.arrived:
         follow(match, seat, errand, mind.numbers.period)
     else:
-        stick = turning(match, robot, bearing(robot, other.x, other.y), mind.numbers.period)
-        press(match.actions[seat], 0.0, stick, 0, 0)
+        angle, turn_rate = bearing(robot, other.x, other.y), match.rules.turn_rate
+        press(match.actions[seat], 0.0, turning(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
 
 
 @kernel
@@ -195,7 +195,8 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     robot = match.robots[seat]
     angle = bearing(robot, other.x, other.y)
     fire = 1 if not match.tanks[seat].cooldown and abs(angle) < mind.numbers.tolerance else 0
-    press(match.actions[seat], 0.0, turning(match, robot, angle, mind.numbers.period), fire, 0)
+    stick = turning(angle, robot.angular, match.rules.turn_rate, mind.numbers.period)
+    press(match.actions[seat], 0.0, stick, fire, 0)
 
 
 def machine(name: str, unknown: Unknown) -> Kind:

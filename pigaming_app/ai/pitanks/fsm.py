@@ -11,12 +11,14 @@ from math import pi
 from typing import Any
 
 from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.steering import approach, turning
+from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
 from pigaming_app.games.pitanks.observation import OTHERS, Eyes, View, see
 from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import bell, chance, seeded
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HZ
 
@@ -26,9 +28,7 @@ CROWD = 230.0  # px at which it backs off
 REACH = 760.0  # px from which an attacker fires
 SWERVE = 0.9  # rad to the side of the other while it reloads
 ARRIVED = 26.0  # px from the goal that count as there
-HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 30
-FREEING = 20  # ticks of backing out, one way or the other
 NEW_AIM = 25  # ticks after which the error of the aim is drawn anew
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
@@ -135,14 +135,8 @@ def attack(view: Any, mind: Any, action: Any) -> int:
 @kernel
 def break_free(view: Any, mind: Any, action: Any) -> int:
     """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
-    press(action, mind.escape, mind.escape_turn, 0, 0)
-    if mind.since < FREEING:
+    if not escape(mind, view.x, view.y, action):
         return BREAK_FREE
-    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
-    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
-        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
-        return BREAK_FREE
-    mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
     return DEFEND if view.lead >= 0 else ATTACK
 
 
@@ -179,29 +173,23 @@ def pick_target(view: Any, mind: Any) -> None:
 
 @kernel
 def err(mind: Any) -> None:
-    """Draw the error of the aim anew now and then: the sum of three even draws is near enough to a bell."""
+    """Draw the error of the aim anew now and then."""
     mind.bias_left -= PERIOD
     if mind.bias_left <= 0:
         mind.bias_left = NEW_AIM
-        mind.bias = 2.0 * mind.spread * (chance(mind) + chance(mind) + chance(mind) - 1.5)
+        mind.bias = 2.0 * mind.spread * bell(mind)
         mind.weave = 1.0 if chance(mind) < 0.5 else -1.0
 
 
 @kernel
 def feel_held_up(view: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
-    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
     if mind.state == BREAK_FREE:
         return
-    if dx * dx + dy * dy > HELD_UP * HELD_UP or action.linear == 0.0:
-        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
-        return
-    mind.held_up += PERIOD
-    if mind.held_up > HELD_UP_TICKS:
+    idle = action.linear == 0.0
+    if held_up(mind, view.x, view.y, idle, HELD_UP, PERIOD) > HELD_UP_TICKS:
         mind.state, mind.since = BREAK_FREE, 0
-        back = -1.0 if action.linear > 0.0 else 1.0
-        mind.escape = back if chance(mind) < 0.75 else -back  # the way back may be blocked too
-        mind.escape_turn = 2.0 * chance(mind) - 1.0
+        choose_escape(mind, -1.0 if action.linear > 0.0 else 1.0, 0.75)
 
 
 @kernel
@@ -212,35 +200,21 @@ def go_to(mind: Any, x: float, y: float) -> None:
 
 
 @kernel
-def turning(view: Any, bearing: float) -> float:
-    """The stick that turns by `bearing` until the next decision, as far as the motors can."""
-    stick: float = 0.75 * (bearing - 0.08 * view.angular) / (view.turn_rate * PERIOD * DT)
-    return stick
-
-
-@kernel
 def follow(view: Any, mind: Any, action: Any) -> None:
-    """Drive on along the way; backwards where that saves a long turn."""
-    bearing, ahead = view.way_bearing, 1.0
-    if abs(bearing) > 2.2 and view.way_distance < 200.0:
-        bearing, ahead = turn_to(bearing + pi), -1.0
-    speed = ahead
-    if abs(bearing) > 0.9:
-        speed = 0.0
-    elif abs(bearing) > 0.4:
-        speed = 0.5 * ahead
+    """Drive on along the way."""
+    bearing, speed = approach(view.way_bearing, view.way_distance)
     near = view.goal_distance / 70.0
     if view.straight and near < 1.0:
         speed *= 0.3 + 0.7 * near
     dash = 1 if view.goal_distance > 300.0 and view.turbo > 0.5 and abs(bearing) < 0.3 else 0
-    press(action, speed, turning(view, bearing), snap_shot(view, mind), dash)
+    press(action, speed, turning(bearing, view.angular, view.turn_rate, PERIOD), snap_shot(view, mind), dash)
 
 
 @kernel
 def shoot(view: Any, mind: Any, action: Any, speed: float) -> None:
     """Turn to the target's aim, and fire when it is on it."""
     aim = view.others[mind.target].aim + mind.bias
-    press(action, speed, turning(view, aim), snap_shot(view, mind), 0)
+    press(action, speed, turning(aim, view.angular, view.turn_rate, PERIOD), snap_shot(view, mind), 0)
 
 
 @kernel
@@ -274,7 +248,8 @@ def duel(view: Any, mind: Any, action: Any, other: Any) -> None:
     if view.loaded:
         shoot(view, mind, action, ahead)
     else:
-        press(action, ahead, turning(view, other.bearing + SWERVE * mind.weave), 0, 0)
+        aside = other.bearing + SWERVE * mind.weave
+        press(action, ahead, turning(aside, view.angular, view.turn_rate, PERIOD), 0, 0)
 
 
 @kernel

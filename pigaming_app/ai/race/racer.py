@@ -13,13 +13,14 @@ from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
 from pigaming_app.ai.race.overtaking import EDGE, choose_lane, held_to
 from pigaming_app.games.race.observation import OTHERS, Eyes, View, see
 from pigaming_app.sim.action import press
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import bell, seeded
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # px along the course to the point that it drives for
@@ -30,9 +31,7 @@ OUT = 30.0  # px from the edge for which it makes when it is off the course
 SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
 SAVE = 80.0  # px to somebody ahead, for whom it saves its turbo
 NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
-HELD_UP = 20.0  # px; less than this in HELD_UP_TICKS is getting nowhere
 HELD_UP_TICKS = 40
-FREEING = 20  # ticks of backing out, one way or the other
 
 RACE, GO_BACK, BREAK_FREE = range(3)
 
@@ -121,14 +120,8 @@ def go_back(view: Any, action: Any) -> int:
 @kernel
 def break_free(view: Any, mind: Any, action: Any) -> int:
     """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
-    press(action, mind.escape, mind.escape_turn, 0, 0)
-    if mind.since < FREEING:
+    if not escape(mind, view.x, view.y, action):
         return BREAK_FREE
-    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
-    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
-        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
-        return BREAK_FREE
-    mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
     return RACE
 
 
@@ -137,11 +130,11 @@ def break_free(view: Any, mind: Any, action: Any) -> int:
 
 @kernel
 def err(mind: Any) -> None:
-    """Draw the error of the line anew now and then: the sum of three even draws is near enough to a bell."""
+    """Draw the error of the line anew now and then."""
     mind.stray_left -= PERIOD
     if mind.stray_left <= 0:
         mind.stray_left = NEW_ERROR
-        mind.stray = 2.0 * mind.spread * (chance(mind) + chance(mind) + chance(mind) - 1.5)
+        mind.stray = 2.0 * mind.spread * bell(mind)
 
 
 @kernel
@@ -156,18 +149,12 @@ def look_ahead(view: Any) -> float:
 @kernel
 def feel_held_up(view: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
-    dx, dy = view.x - mind.anchor_x, view.y - mind.anchor_y
     if mind.state == BREAK_FREE:
         return
-    if dx * dx + dy * dy > HELD_UP * HELD_UP or (action.linear == 0.0 and action.angular == 0.0):
-        mind.held_up, mind.anchor_x, mind.anchor_y = 0, view.x, view.y
-        return
-    mind.held_up += PERIOD
-    if mind.held_up > HELD_UP_TICKS:
+    idle = action.linear == 0.0 and action.angular == 0.0
+    if held_up(mind, view.x, view.y, idle, HELD_UP, PERIOD) > HELD_UP_TICKS:
         mind.state, mind.since = BREAK_FREE, 0
-        back = -1.0 if action.linear >= 0.0 else 1.0
-        mind.escape = back if chance(mind) < 0.75 else -back  # the way back may be blocked too
-        mind.escape_turn = 2.0 * chance(mind) - 1.0
+        choose_escape(mind, -1.0 if action.linear >= 0.0 else 1.0, 0.75)
 
 
 @kernel

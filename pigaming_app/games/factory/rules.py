@@ -32,7 +32,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.factory.workers import fits, run_crew
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, burn
+from pigaming_app.sim.robot import RADIUS, burn, stop, stop_all
 from pigaming_app.sim.world import ROBOTS
 
 APART = 6.0  # px more than a touch at which a touch has ended
@@ -42,8 +42,7 @@ APART = 6.0  # px more than a touch at which a touch has ended
 def judge(match: Any) -> None:
     """One tick of the rules: forks, pallets, machines and people, then the speeds that robots ask for."""
     if match.over:
-        for robot in match.robots:
-            robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        stop_all(match)
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
@@ -199,7 +198,7 @@ def steer(match: Any, k: int) -> None:
     """Ask for the speeds that robot k's stick and turbo give; none while it is frozen."""
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     if match.loads[k].frozen:
-        robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        stop(robot)
         return
     speed = rules.speed
     burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)

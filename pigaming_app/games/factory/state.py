@@ -20,7 +20,7 @@ MACHINES = 4
 WORKERS = 3
 
 RAW, HALF, DONE, DAMAGED, DELIVERED = range(5)  # state of a pallet
-NOWHERE, IN_SLOT, ON_ROBOT, IN_MACHINE, BY_WORKER, WAITING, SHIPPED = range(7)  # its place
+IN_SLOT, ON_ROBOT, IN_MACHINE, BY_WORKER, WAITING, SHIPPED = range(1, 7)  # its place; 0: it does not exist
 ENTRY, EXIT, INPUT, OUTPUT = range(4)  # kinds of slots
 A, B = range(2)  # kinds of machines: A makes raw pallets half done, B finishes them
 RESTING, GOING, WORKING, FETCHING, CARRYING = range(5)  # what a worker does

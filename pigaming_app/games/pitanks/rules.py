@@ -10,12 +10,11 @@ walls; a mine, which your next shot lays behind you.
 from math import cos, sin
 from typing import Any
 
-from pigaming_app.games.pitanks.prizes import lay_mine, mind_mines, mind_pickups
-from pigaming_app.games.pitanks.score import score
+from pigaming_app.games.pitanks.items import lay_mine, mind_mines, mind_pickups, score
 from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
 from pigaming_app.sim.grid import ONE_NEAR, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, burn
+from pigaming_app.sim.robot import RADIUS, burn, stop_all
 from pigaming_app.sim.sweep import meets_bounds, meets_disc, meets_wall, off_wall
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
@@ -27,8 +26,7 @@ TOUCH = 1e-6  # px from an outer wall that count as touching it
 def judge(match: Any) -> None:
     """One tick of the rules: shots, bullets, mines and pick-ups, then the speeds that robots ask for."""
     if match.over:
-        for robot in match.robots:
-            robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        stop_all(match)
         return
     for k in range(ROBOTS):
         if match.robots[k].present:

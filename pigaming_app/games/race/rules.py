@@ -13,7 +13,7 @@ from typing import Any
 from pigaming_app.games.race.course import locate, way_round
 from pigaming_app.games.race.state import LINES
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import burn
+from pigaming_app.sim.robot import burn, stop, stop_all
 from pigaming_app.sim.world import ROBOTS
 
 AGAINST = 40.0  # px/s from which driving against the way counts
@@ -23,8 +23,7 @@ AGAINST = 40.0  # px/s from which driving against the way counts
 def judge(match: Any) -> None:
     """One tick of the rules: where everybody is, what they have crossed, who leads, then the speeds they ask for."""
     if match.over:
-        for robot in match.robots:
-            robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        stop_all(match)
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
@@ -198,7 +197,7 @@ def steer(match: Any, k: int) -> None:
     """Ask for the speeds that robot k's stick, its turbo and the ground give."""
     rules, robot, action, racer = match.rules, match.robots[k], match.actions[k], match.racers[k]
     if racer.finished and match.tick - racer.finish > rules.roll_on:
-        robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+        stop(robot)
         return
     speed = rules.speed
     burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)

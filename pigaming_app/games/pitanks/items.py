@@ -1,9 +1,8 @@
-"""PiTanks: what lies on the floor, pick-ups and mines."""
+"""PiTanks: pick-ups and mines; and what a hit counts, by a mine or a bullet."""
 
 from typing import Any
 
-from pigaming_app.games.pitanks.score import score
-from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS
+from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS, SHIELD
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import chance
@@ -103,4 +102,19 @@ def lonely(match: Any, x: float, y: float) -> int:
         dx, dy = pickup.x - x, pickup.y - y
         if pickup.alive and dx * dx + dy * dy < 300.0 * 300.0:
             return 0
+    return 1
+
+
+@kernel
+def score(match: Any, k: int, victim: int) -> int:
+    """Robot k has hit robot `victim`. 1 if it counts; a shield takes it and is gone."""
+    tank = match.tanks[victim]
+    tank.protected = match.rules.protection
+    if tank.powers[SHIELD]:
+        tank.powers[SHIELD] = 0
+        return 0
+    match.robots[k].score += 1
+    match.tanks[k].hits += 1
+    match.robots[victim].score -= 1
+    tank.taken += 1
     return 1
