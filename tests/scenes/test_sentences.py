@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
-from pigaming_app.scenes.flow.rule_texts import limits, numbers, tagline
+from pigaming_app.scenes.flow.match_words import limits, numbers, tagline
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.match_setup import SetupPage

@@ -14,7 +14,7 @@ from pigaming_app.ai.brain.thoughts import PETALS, Move, Thoughts
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.floor_marks import Marks
-from pigaming_app.scenes.howto.scene import FIRES
+from pigaming_app.scenes.flow.match_words import FIRES
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Picture
 from pigaming_app.sim.world import HEIGHT, WIDTH

@@ -12,7 +12,7 @@ from pigaming_app.hardware.messages import said
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.scenes.play.runner import LEFT, TOP
+from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
@@ -37,7 +37,6 @@ from pigaming_app.ui.draw.ink import (
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.focus import WAYS
 from pigaming_app.ui.widgets.labels import text
@@ -63,8 +62,7 @@ class PinPage:
         self.corners = [round(value) for value in self.before or STRAIGHT]
         self.chosen = self.step = 0
         self.sentence, self.said = "", 0.0
-        self.prompts = Prompts(
-            house,
+        self.prompts = house.prompts(
             [
                 (Act.FIRE, "pin.hint_next"),
                 (Act.EXTRA, "pin.hint_step"),

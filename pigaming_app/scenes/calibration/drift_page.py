@@ -17,12 +17,11 @@ from pigaming_app.scenes.calibration.result_page import OFF
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.scenes.play.runner import LEFT, TOP
+from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.labels import text
 
 BAR = pygame.Rect(560, 640, 800, 40)
@@ -39,7 +38,7 @@ class CheckPage:
         number = house.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
         self.work = Checking(self.site, number, partial(kept.load, house.canvas.projection, self.site))
         self.clock = 0.0
-        self.prompts = Prompts(house, [(Act.BACK, "calibrate.hint_back")])
+        self.prompts = house.prompts([(Act.BACK, "calibrate.hint_back")])
 
     def entered(self) -> None:
         """Look."""

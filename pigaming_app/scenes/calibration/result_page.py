@@ -4,6 +4,7 @@ What failed is said in one sentence, beside what the camera saw.
 """
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import pygame
@@ -16,13 +17,12 @@ from pigaming_app.hardware.signals import Image
 from pigaming_app.scenes.calibration.messages import paragraph, tell
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Swap, Turn
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, MIST, STEEL
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
 from pigaming_app.ui.widgets.labels import blacked, chip, heading, text
 
@@ -55,15 +55,15 @@ class Finding:
 
 
 class ResultPage:
-    """The page: save, again, or back."""
+    """The page: save, again, or back. `again`: makes the page that repeats the calibration."""
 
-    def __init__(self, house: House, finding: Finding) -> None:
-        self.house, self.finding = house, finding
+    def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
+        self.house, self.finding, self.again = house, finding, again
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
         self.sentence, self.said = "", 0.0
         self.arrows: tuple[Lit, int] | None = None
-        self.prompts = Prompts(house, [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")])
+        self.prompts = house.prompts([(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")])
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
@@ -169,15 +169,13 @@ class ResultPage:
     # ---- what happens
 
     def _do(self, name: str) -> Turn:
-        from pigaming_app.scenes.calibration.boards_page import BoardsPage
-
         finding = self.finding
         if name == "leave":
             self.house.sounds.play("back")
             return Pop()
         if name == "again":
             self.house.sounds.play("accept")
-            return Swap(BoardsPage(self.house, finding.site, finding.number, finding.measures))
+            return Swap(self.again())
         if finding.ground is None:
             return None
         try:

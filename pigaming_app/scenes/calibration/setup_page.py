@@ -10,21 +10,20 @@ from pigaming_app.hardware.calibration.site import Measures, RealSite, Site
 from pigaming_app.hardware.messages import Said, said
 from pigaming_app.hardware.session import store as kept
 from pigaming_app.hardware.session.real import NoMat
+from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.calibration.messages import paragraph, tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
-from pigaming_app.scenes.options.page import Value
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw.ink import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, calling, heading, text
+from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading, text
+from pigaming_app.ui.widgets.setting_row import Value
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
@@ -62,9 +61,8 @@ class CalibrationPage:
         self.held, self.sentence, self.said = 0, "", 0.0
         self._small: object = None
         self._picture: pygame.Surface | None = None
-        self.focus = Focus(rows.spots(self._rows()))
-        self.prompts = Prompts(
-            house,
+        self.focus = Focus(dials.spots(self._rows()))
+        self.prompts = house.prompts(
             [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")],
         )
 
@@ -89,7 +87,7 @@ class CalibrationPage:
             return Pop()
         if self.focus.on(press):
             self.house.sounds.play("move")
-        by = rows.pushed(press, self.focus, self._value(self.focus.name))
+        by = dials.pushed(press, self.focus, self._value(self.focus.name))
         if by:
             self.held = self.held + 1 if press.repeat else 0
             self._change(self.focus.name, by)
@@ -122,8 +120,10 @@ class CalibrationPage:
         screen.blit(backdrop(), (0, 0))
         heading(words("calibrate.title"), self.state).draw(screen)
         blacked(screen, dials.PANEL)
-        rows.draw(screen, self.house, self.focus, "calibrate", {name: self._value(name) for name in self._rows()})
-        dials.beside().draw(screen, *dials.PANEL.topleft)
+        dials.draw(
+            screen, self.house.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
+        )
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         self._draw_camera(screen)
         name = self.focus.name
         text(words(f"calibrate.{name}"), LABEL, FOCUS, "head", "l", dials.PANEL.w - 40).draw(
@@ -218,7 +218,7 @@ class CalibrationPage:
                 robot = bool(measures.height) if around else by > 0
                 height = 0.0 if robot else measures.height or self.site.measures.height or USUAL
                 self.measures = Measures(measures.width, height, measures.lid)
-                self.focus.place(rows.spots(self._rows()))
+                self.focus.place(dials.spots(self._rows()))
             case "width" | "lid" | "height":
                 self._measure(name, by)
         self._keep()
@@ -258,8 +258,6 @@ class CalibrationPage:
 
     def _begin(self) -> Turn:
         """Show the boards on the whole display."""
-        from pigaming_app.scenes.calibration.boards_page import BoardsPage
-
         self.house.sounds.play("accept")
         self.left()
         canvas = self.house.canvas

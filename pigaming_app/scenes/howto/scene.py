@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.rule_texts import kept_minutes, limits
+from pigaming_app.scenes.flow.match_words import FIRES, kept_minutes, limits
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
@@ -30,7 +30,6 @@ from pigaming_app.ui.widgets.labels import blacked, button_light, chip, chip_wid
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without a press until the title
-FIRES = {"pitanks": "hint_fire", "factory": "hint_lift"}  # what FIRE does, in games in which it does something
 LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
 
 

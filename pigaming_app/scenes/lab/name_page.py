@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.menu import IDLE, Bench
+from pigaming_app.scenes.lab.bench import IDLE, Bench
 from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, NotKept, keep, names, proposal
 from pigaming_app.ui.draw.ink import (
     ALARM,
@@ -23,7 +23,6 @@ from pigaming_app.ui.draw.ink import (
 from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, word
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.labels import heading, text
 
 DEAF = 0.3  # seconds in which presses are ignored
@@ -42,8 +41,7 @@ class Naming:
         self.age = self.rolling = 0.0
         self.rolled = 0
         self.taken = False  # the name belongs to another robot; START again replaces it
-        self.prompts = Prompts(
-            self.house,
+        self.prompts = self.house.prompts(
             [(Act.FIRE, "results.next_letter"), (Act.BACK, "lab.hint_back"), (Act.START, "lab.hint_save")],
         )
 

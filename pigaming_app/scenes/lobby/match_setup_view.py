@@ -1,6 +1,5 @@
 """Rows in which something is chosen, and the small things round them, for the page before a match."""
 
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
 from pigaming_app.ui.draw.ink import (
     BODY,
     FOCUS,
@@ -15,7 +14,6 @@ from pigaming_app.ui.draw.ink import (
     cut,
     dim,
     icon,
-    panel,
     text_width,
 )
 from pigaming_app.ui.draw.layers import Lit, Pane, fitted, lines_of, span
@@ -98,16 +96,6 @@ def begin(said: str) -> Lit:
     icon(pane.hot, "right", x - 30, 48, 24, FOCUS, LINE)
     pane.page.text(said, size, W / 2 + 16, 48, FOCUS, "head", "c")
     return pane.done()
-
-
-@cached
-@sliced
-def frame(w: int, h: int) -> Steps[Lit]:
-    """The frame of a picture; upper left at (0, 0)."""
-    pane = Pane(0, 0, w, h)
-    panel(pane.hot, 0, 0, w, h)
-    yield
-    return (yield from pane.lighting())
 
 
 @cached

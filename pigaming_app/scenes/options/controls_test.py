@@ -96,7 +96,7 @@ class PadTest:
 
     def _prompts(self) -> Prompts:
         pad = self.house.controls.last.kind == "pad"
-        return Prompts(self.house, [(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
+        return self.house.prompts([(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
     def _leave(self) -> Turn:
         self.house.sounds.play("back")

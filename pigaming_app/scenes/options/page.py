@@ -5,13 +5,13 @@ In a kiosk the page offers only what children may touch; the operator's page off
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 
 import pygame
 
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Turn
+from pigaming_app.scenes.options import pictures
 from pigaming_app.scenes.views.race.ghost_files import forget
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
@@ -22,9 +22,9 @@ from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.input.hold import Holds
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, calling, glow_bar, heading
+from pigaming_app.ui.widgets.labels import blacked, calling, frame, glow_bar, heading
+from pigaming_app.ui.widgets.setting_row import Value
 
 IDLE = 90.0  # seconds without a press until the title
 SAID = 3.0  # seconds for which a sentence stays
@@ -35,15 +35,6 @@ ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscree
 FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
 TOP, BOTTOM, HIGH = 240, 908, 64
 log = logging.getLogger("pigaming")
-
-
-@dataclass(frozen=True)
-class Value:
-    """What a row shows: options of which one is lit, a number of ten, a text between arrows, or a thing to do."""
-
-    kind: str  # toggle, meter, arrows, deed
-    options: tuple[str, ...]
-    chosen: int = 0
 
 
 class OptionsPage:
@@ -59,8 +50,8 @@ class OptionsPage:
         self.clearing = Holds(house.controls, CLEAR)
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
         self.ahead = Ahead(self._ahead())
-        self.prompts = Prompts(
-            house, [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
+        self.prompts = house.prompts(
+            [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
         )
 
     def entered(self) -> None:
@@ -105,11 +96,11 @@ class OptionsPage:
         glow_bar(screen, self.focus.box)
         for i, name in enumerate(self.rows):
             self._row(screen, i, name, name == focus)
-        dials.beside().draw(screen, *dials.PANEL.topleft)
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         dials.about(screen, words(f"options.{focus}"), words(f"options.{focus}_line"))
-        dials.sketch(screen, focus, self._value(focus).chosen, self.clock)
+        pictures.sketch(screen, focus, self._value(focus).chosen, self.clock)
         if self.clearing.share:
-            dials.ring(screen, self.clearing.share)
+            pictures.ring(screen, self.clearing.share)
         self.focus.draw(screen)
         if self.said > 0.0:
             calling(self.sentence, "", LABEL).draw(screen, 960, 926)
@@ -138,7 +129,7 @@ class OptionsPage:
             yield partial(dials.label, words(f"options.{name}"), True)
             yield partial(self._piece, name)
             yield partial(dials.told, words(f"options.{name}"), words(f"options.{name}_line"))
-            yield partial(dials.drawn, name, self._value(name).chosen)
+            yield partial(pictures.drawn, name, self._value(name).chosen)
 
     def _piece(self, name: str) -> object:
         value = self._value(name)

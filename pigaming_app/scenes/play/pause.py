@@ -34,7 +34,6 @@ from pigaming_app.ui.draw.ink import (
 from pigaming_app.ui.draw.layers import Lit, Pane, fitted, word
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay
 from pigaming_app.ui.widgets.focus import Focus, Spot
@@ -95,7 +94,7 @@ class Pause:
         self.sure = self.waits = 0.0
         self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Quiet."""

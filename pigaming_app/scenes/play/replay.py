@@ -92,7 +92,7 @@ class ReplayScene:
         if not self.ended:
             fire = "replay.hint_pause" if self.playing else "replay.hint_play"
             hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
-        return Prompts(self.house, hints)
+        return self.house.prompts(hints)
 
     @property
     def ended(self) -> bool:

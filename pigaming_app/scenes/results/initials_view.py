@@ -4,7 +4,6 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.lobby.seat_card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.storage.scores import LETTERS
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
@@ -31,6 +30,7 @@ from pigaming_app.ui.draw.ink import (
 from pigaming_app.ui.draw.layers import RIGHT, Lit, Pane, fitted, word
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.letter_picker import ROLL, Spelling
+from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
 
 __all__ = ["asked", "clock", "corners", "frame", "letters", "panel_at", "ready", "refused"]
 

@@ -10,7 +10,7 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.lobby.match_setup import measure
+from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.results.celebration import Finale
 from pigaming_app.scenes.results.headline import headline, winning_color
 from pigaming_app.scenes.results.high_score_tables import boards, clock, contest, told

@@ -11,8 +11,6 @@ from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.calibration.messages import paragraph, tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.scenes.lobby.match_setup_view import frame
-from pigaming_app.scenes.options.page import Value
 from pigaming_app.scenes.robots.avoid_discs import Aside
 from pigaming_app.scenes.robots.fleet_state import Checkup, worst
 from pigaming_app.scenes.robots.flood_light import Flood
@@ -23,11 +21,11 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw.ink import ALARM, FOCUS, GREEN, ICE, MIST, Color
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts, places
+from pigaming_app.ui.widgets.button_prompts import places
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import heading, stamp, text
+from pigaming_app.ui.widgets.labels import frame, heading, stamp, text
+from pigaming_app.ui.widgets.setting_row import Value
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "stock")
@@ -55,12 +53,12 @@ class RobotsPage:
         self.flood = Flood()
         self.flood.level = 0.0
         self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
-        self.focus = Focus(rows.spots(self.names), "pair")
+        self.focus = Focus(dials.spots(self.names), "pair")
         self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
         self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
-        self.prompts = Prompts(
-            house, [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        self.prompts = house.prompts(
+            [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
         )
 
     def entered(self) -> None:
@@ -84,7 +82,7 @@ class RobotsPage:
         if self.focus.on(press):
             self.house.sounds.play("move")
         name = self.focus.name
-        if by := rows.pushed(press, self.focus, self._value(name)):
+        if by := dials.pushed(press, self.focus, self._value(name)):
             self._change(name, by, False)
         elif self.focus.chosen(press) and (press.act is not Act.CLICK or self._value(name).kind == "deed"):
             self._do(name)
@@ -158,7 +156,7 @@ class RobotsPage:
         """Everything below the heading."""
         words = self.house.words
         screen.fill("black")
-        rows.draw(screen, self.house, self.focus, "fleet", {name: self._value(name) for name in self.names})
+        dials.draw(screen, self.house.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
         frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
         for robot, (heard, bright, seen, dim) in enumerate(self.lines):
             x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot

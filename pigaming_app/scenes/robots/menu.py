@@ -7,18 +7,16 @@ import pygame
 from pigaming_app.scenes.calibration.messages import paragraph, tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
-from pigaming_app.scenes.options.page import Value
 from pigaming_app.storage.safe_files import NotSaved, write
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, heading, text
+from pigaming_app.ui.widgets.labels import blacked, frame, heading, text
+from pigaming_app.ui.widgets.setting_row import Value
 
 ROWS = ("robots", "calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
@@ -33,9 +31,9 @@ class RobotsMenu:
 
     def __init__(self, house: House) -> None:
         self.house = house
-        self.focus = Focus(rows.spots(ROWS))
+        self.focus = Focus(dials.spots(ROWS))
         self.sentence, self.said = "", 0.0
-        self.prompts = Prompts(house, [(Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")])
+        self.prompts = house.prompts([(Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")])
 
     def entered(self) -> None:
         """Shown, or come back to."""
@@ -64,8 +62,8 @@ class RobotsMenu:
         heading(words("robots.title")).draw(screen)
         blacked(screen, dials.PANEL)
         values = {one: Value("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS}
-        rows.draw(screen, self.house, self.focus, "robots", values)
-        dials.beside().draw(screen, *dials.PANEL.topleft)
+        dials.draw(screen, self.house.words, self.focus, "robots", values)
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         sketch(name).draw(screen, *dials.CENTRE)
         room = dials.PANEL.w - 80
         text(words(f"robots.{name}"), LABEL, ICE, "head", "l", room).draw(

@@ -25,7 +25,6 @@ from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Device
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.labels import stamp, text
 
@@ -46,8 +45,8 @@ class Gathering:
         self.house, self.plant = house, plant
         self.clock = 0.0
         self.flood = Flood()
-        self.prompts = Prompts(
-            house, [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
+        self.prompts = house.prompts(
+            [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
             HINTS_Y, 1560, voice=voice,
         )  # fmt: skip
 

@@ -25,6 +25,7 @@ from pigaming_app.ui.draw.ink import (
     cut,
     dim,
     icon,
+    panel,
     text_width,
 )
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, fitted
@@ -57,6 +58,16 @@ def heading(title: str, right: str = "", color: Color = ICE) -> Steps[Lit]:
         room = RIGHT - LEFT - 60 - text_width(title, size)
         pane.page.body(right, RIGHT, 112, MIST, "r", fitted(right, BODY, room, "body"))
     pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
+    yield
+    return (yield from pane.lighting())
+
+
+@cached
+@sliced
+def frame(w: int, h: int) -> Steps[Lit]:
+    """The frame of a picture or of a panel; upper left at (0, 0)."""
+    pane = Pane(0, 0, w, h)
+    panel(pane.hot, 0, 0, w, h)
     yield
     return (yield from pane.lighting())
 

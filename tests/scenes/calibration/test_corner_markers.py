@@ -10,7 +10,7 @@ pytest.importorskip("cv2")
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.scenes.calibration.corner_markers import DriftWatch, tiles
-from pigaming_app.scenes.play.runner import LEFT
+from pigaming_app.scenes.views.background import LEFT
 from pigaming_app.sim.world import WIDTH
 
 

@@ -9,7 +9,6 @@ import pytest
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.race.course import Place, locate
 from pigaming_app.games.race.state import LINES
-from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.benchmark.pitanks import Full
 from pigaming_app.scenes.views.benchmark.race import Busy
 from pigaming_app.scenes.views.particles import MOST
@@ -22,6 +21,7 @@ from pigaming_app.scenes.views.race.ghost_files import Ghost, call, file_of, gho
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import Card, card_bits
 from pigaming_app.scenes.views.race.track import edges, sign_post
+from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.scenes.views.sprites.pickups import glyph
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
