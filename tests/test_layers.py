@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -30,8 +31,25 @@ DEBTS = {
     ("hardware", "ui"),
     ("sim", "storage"),
     ("ui", "hardware"),
-    ("ui", "scenes"),
 }
+# Circles that are still there: of modules, by their full names, and of the modules and folders of one folder.
+KNOWN = {
+    ("pigaming_app.ai.pitanks.classic", "pigaming_app.ai.pitanks.classic_thoughts"),
+    ("pigaming_app.ai.pitanks.fsm", "pigaming_app.ai.pitanks.fsm_thoughts"),
+    ("pigaming_app.ai.qlearning.learner", "pigaming_app.ai.qlearning.thoughts"),
+    ("pigaming_app.ai.race.racer", "pigaming_app.ai.race.racer_thoughts"),
+    (
+        "pigaming_app.boot.environment",
+        "pigaming_app.boot.interpreter",
+        "pigaming_app.cli",
+        "pigaming_app.jobs.doctor",
+    ),
+    ("pigaming_app.hardware.emulator.arena", "pigaming_app.hardware.emulator.faults"),
+    ("boot", "cli", "jobs"),
+    ("environment", "interpreter"),
+    ("hardware", "ui"),
+}
+MODULES, FLOORS = 15, 7  # at most: in a folder, between the rooms
 ONLY_IN = {"pygame": {"ui", "scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
@@ -68,6 +86,88 @@ def test_a_file_imports_only_what_its_layer_may(path):
         if root == "numba":
             assert place == ("sim", "kernel.py")
             assert not at_once
+
+
+@cache
+def graph():
+    """The modules of the package and what each imports of it, late imports included."""
+    names = {name_of(path): path for path in FILES}
+    found = {name: set() for name in names}
+    for name, path in names.items():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                found[name] |= {alias.name for alias in node.names} & names.keys()
+            elif isinstance(node, ast.ImportFrom):
+                inner = {alias.name: f"{node.module}.{alias.name}" for alias in node.names}
+                found[name] |= {inner[one] if inner[one] in names else node.module for one in inner} & names.keys()
+        found[name].discard(name)
+    return found
+
+
+def name_of(path):
+    return ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+
+
+def circles(arrows):
+    """The groups of nodes that reach each other."""
+    reached = {node: reach(arrows, node) for node in arrows}
+    groups = {tuple(sorted(one for one in reached[node] if node in reached[one])) for node in arrows}
+    return {group for group in groups if len(group) > 1}
+
+
+def reach(arrows, node):
+    """The nodes to which a path of at least one arrow leads."""
+    found, ways = set(), [node]
+    while ways:
+        for after in arrows[ways.pop()] - found:
+            found.add(after)
+            ways.append(after)
+    return found
+
+
+def within(folder):
+    """The folders and modules in a folder, and which imports which; its `__init__` is no part of it."""
+    arrows = {}
+    for name, others in graph().items():
+        if unit := unit_of(name, folder):
+            found = {unit_of(other, folder) for other in others} - {None, unit}
+            arrows.setdefault(unit, set()).update(found)
+    return arrows
+
+
+def unit_of(name, folder):
+    return name.removeprefix(f"{folder}.").split(".")[0] if name.startswith(f"{folder}.") else None
+
+
+FOLDERS = sorted({path.parent for path in FILES})
+
+
+def test_no_circle_between_modules_even_by_late_imports():
+    assert circles(graph()) - KNOWN == set()
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.relative_to(PACKAGE).as_posix())
+def test_no_circle_between_the_units_of_a_folder(folder):
+    name = ".".join(folder.relative_to(PACKAGE.parent).parts)
+    known = {tuple(one.rpartition(".")[2] for one in group) for group in KNOWN}
+    assert circles(within(name)) - known == set()
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.relative_to(PACKAGE).as_posix())
+def test_no_folder_holds_more_modules_than_a_shelf(folder):
+    modules = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
+    assert len(modules) <= MODULES
+
+
+def test_rooms_lie_on_few_floors():
+    arrows = {room: rooms - {"__init__"} for room, rooms in MAY.items()}
+
+    def floor(room):
+        return 1 + max((floor(other) for other in arrows[room]), default=0)
+
+    assert max(map(floor, arrows)) <= FLOORS
+    real = {room: set(others) - {"__init__"} for room, others in within("pigaming_app").items()}
+    assert all(other in MAY[room] or (room, other) in DEBTS for room, others in real.items() for other in others)
 
 
 def test_main_needs_nothing_but_the_standard_library():
