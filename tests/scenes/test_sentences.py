@@ -13,7 +13,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.headline import headline, winning_color
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.world import DT
-from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.widgets.labels import LEVELS

@@ -18,7 +18,7 @@ from pigaming_app.scenes.flow.match_words import FIRES
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Picture
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw.ink import ADD, PLAYERS
+from pigaming_app.ui.draw import ADD, PLAYERS
 
 EVERY = 5  # ticks between two questions
 EASE = 10.0  # of what is missing, in a second: bars and petals do not jump

@@ -16,8 +16,7 @@ from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BODY,
     FOCUS,
@@ -34,12 +33,13 @@ from pigaming_app.ui.draw.ink import (
     dim,
     panel,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.focus import WAYS
-from pigaming_app.ui.widgets.labels import text
 from pigaming_app.ui.window import NoPin
 
 STEPS = (10, 1)  # px

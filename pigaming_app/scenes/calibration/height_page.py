@@ -10,11 +10,11 @@ from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
 from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import text
 
 DISC = 72  # px: the light must fall on all of a lid, which is 70 mm up, aslant
 GREY = (128, 128, 128)

@@ -14,17 +14,18 @@ from pigaming_app.hardware.calibration.site import Measures, Site
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
 from pigaming_app.hardware.session import store as kept
 from pigaming_app.hardware.signals import Image
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Swap, Turn
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, MIST, STEEL
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, chip, heading, text
+from pigaming_app.ui.widgets.labels import blacked, chip, heading
 
 HIGH = 84  # px, of a chip
 FOOT = 836  # px, their upper edge

@@ -11,18 +11,19 @@ from pigaming_app.hardware.messages import Said, said
 from pigaming_app.hardware.session import store as kept
 from pigaming_app.hardware.session.real import NoMat
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.ink import BODY, FOCUS, LABEL, MIST
+from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading, text
+from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading
 from pigaming_app.ui.widgets.setting_row import Value
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")

@@ -11,7 +11,7 @@ from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
-from pigaming_app.ui.draw.ink import HERO, ICE, MIST, PLAYERS, badge
+from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Pane
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.input.hold import Holds

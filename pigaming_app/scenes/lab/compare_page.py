@@ -16,11 +16,12 @@ from pigaming_app.ai.experiments.training import GAME
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.lab.bench import IDLE, Bench
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import heading, text
+from pigaming_app.ui.widgets.labels import heading
 
 MATCHES = {True: 10, False: 2}  # of every two, compiled and plain
 MINUTES = 1.0

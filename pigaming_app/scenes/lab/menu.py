@@ -8,8 +8,9 @@ from pigaming_app.scenes.lab.compare_page import Compare
 from pigaming_app.scenes.lab.name_page import Naming
 from pigaming_app.scenes.lab.open_page import Shelf
 from pigaming_app.scenes.play.pause import items, title
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import Pane, word
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
+from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.text import word
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus

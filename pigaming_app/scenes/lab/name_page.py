@@ -5,7 +5,7 @@ import pygame
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.lab.bench import IDLE, Bench
 from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, NotKept, keep, names, proposal
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BODY,
     FOCUS,
@@ -20,10 +20,11 @@ from pigaming_app.ui.draw.ink import (
     icon,
     panel,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, word
+from pigaming_app.ui.draw.layers import Lit, Pane, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text, word
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import heading, text
+from pigaming_app.ui.widgets.labels import heading
 
 DEAF = 0.3  # seconds in which presses are ignored
 ROLL = 0.09  # seconds in which a letter rolls into its place

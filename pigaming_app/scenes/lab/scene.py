@@ -20,7 +20,7 @@ from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.trainer import Workshop
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, Shown, speed_at, warming
 from pigaming_app.scenes.play.scene import new_seed
-from pigaming_app.ui.draw.ink import ALARM, FOCUS
+from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.focus import Focus, Spot

@@ -25,8 +25,8 @@ from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import PLAYERS
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press

@@ -9,8 +9,7 @@ from functools import partial
 
 from pigaming_app.scenes.views.sprites.factory import TEAMS, emblem
 from pigaming_app.scenes.views.sprites.robot import seat_robot
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ARROWS,
     BODY,
     FOCUS,
@@ -35,9 +34,11 @@ from pigaming_app.ui.draw.ink import (
     shape_points,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 

@@ -11,7 +11,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, PLACES, Seats
-from pigaming_app.ui.draw.ink import FOCUS, LABEL, dim
+from pigaming_app.ui.draw import FOCUS, LABEL, dim
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.i18n import Words

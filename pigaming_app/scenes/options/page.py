@@ -15,8 +15,8 @@ from pigaming_app.scenes.options import pictures
 from pigaming_app.scenes.views.race.ghost_files import forget
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import LABEL
 from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.ink import LABEL
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import Act, Press

@@ -5,7 +5,7 @@ import math
 import pygame
 
 from pigaming_app.scenes.views.sprites.robot import seat_robot
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, HAIR, ICE, LABEL, LINE, STEEL, THIN, Color, Ink, cut, dim, icon
+from pigaming_app.ui.draw import ALARM, FOCUS, HAIR, ICE, LABEL, LINE, STEEL, THIN, Color, Ink, cut, dim, icon
 from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached

@@ -8,9 +8,10 @@ import pygame
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.ui.draw.frame_budget import Steps, budget
-from pigaming_app.ui.draw.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.input.events import Act, Device, Press
 
 TOP, PITCH, HIGH = 236, 164, 140

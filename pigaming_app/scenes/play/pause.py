@@ -16,7 +16,7 @@ from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, Turn
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     FOCUS,
     ICE,
@@ -31,8 +31,9 @@ from pigaming_app.ui.draw.ink import (
     button_width,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, word
+from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, word
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay

@@ -8,9 +8,10 @@ import pygame
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import Held, Pause, title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.ui.draw.ink import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, lines_of, word
+from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
+from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, lines_of, word
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 

@@ -8,7 +8,7 @@ from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.side_hints import Column, note
 from pigaming_app.sim.world import DT
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LABEL, STEEL
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate

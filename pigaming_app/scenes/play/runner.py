@@ -16,7 +16,7 @@ from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.events import Act, Device
 from pigaming_app.ui.widgets.caption import Plate, plate

@@ -28,13 +28,12 @@ from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.results.scene import After, Results
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
 from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, LABEL, PLAYERS
-from pigaming_app.ui.draw.layers import lines_of
+from pigaming_app.ui.draw.text import lines_of, text
 from pigaming_app.ui.input.events import Act, Device, Drive, Press
 from pigaming_app.ui.input.hold import Holds
 from pigaming_app.ui.widgets.caption import RING_STEPS, Plate, filling, plate
-from pigaming_app.ui.widgets.labels import text
 
 LEAD = 0.8  # seconds in which one looks round before the countdown
 RESUME = 0.5  # seconds for each number after an interruption

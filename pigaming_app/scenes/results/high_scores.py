@@ -14,12 +14,13 @@ from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, older_boards, told
 from pigaming_app.storage.scores import Score, Table
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
 from pigaming_app.ui.draw.layers import RIGHT, Lit, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import heading, sign, text
+from pigaming_app.ui.widgets.labels import heading, sign
 
 ROWS = 8
 WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px

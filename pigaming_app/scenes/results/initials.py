@@ -20,8 +20,8 @@ from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, Table
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import FOCUS, LABEL
 from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.ink import FOCUS, LABEL
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse

@@ -6,8 +6,7 @@ import pygame
 
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.storage.scores import LETTERS
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ADD,
     ALARM,
     BODY,
@@ -27,8 +26,10 @@ from pigaming_app.ui.draw.ink import (
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import RIGHT, Lit, Pane, fitted, word
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import RIGHT, Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, word
 from pigaming_app.ui.widgets.letter_picker import ROLL, Spelling
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
 

@@ -18,7 +18,7 @@ from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.scenes.results.initials import Initials, claims
 from pigaming_app.scenes.results.rematch_vote import Ballot
 from pigaming_app.scenes.results.view import ResultsPage
-from pigaming_app.ui.draw.ink import FOCUS
+from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.input.hold import Holds
 from pigaming_app.ui.widgets.caption import plate

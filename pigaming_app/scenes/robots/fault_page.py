@@ -14,8 +14,9 @@ from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
-from pigaming_app.ui.draw.layers import Pane, fitted, lines_of
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
+from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.text import fitted, write
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.caption import Plate, plate
@@ -136,22 +137,13 @@ class Trouble:
             ending = words("mat.goes_on")
             pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
         fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
-        y = write(pane, named(first, words, fire), HEAD + 56, ICE)
+        y = write(pane, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:
-            y = write(pane, tell(words, detail), y + 8, MIST)
+            y = write(pane, tell(words, detail), TEXT_X, y + 8, ROOM, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
         if others and y < FOOT - 130:
-            write(pane, words("mat.also", other=named(others[0], words, "")), y + 8, MIST)
-
-
-def write(pane: Pane, sentence: str, y: float, color: Color) -> float:
-    """A sentence in lines beside the picture, smaller where it is long; where the next may begin, px."""
-    size = next((one for one in (BODY, 36, 32) if len(lines_of(sentence, one, ROOM)) <= 3), 28)
-    for line in lines_of(sentence, size, ROOM):
-        pane.page.body(line, TEXT_X, y, color, "l", size)
-        y += 1.35 * size
-    return y
+            write(pane, words("mat.also", other=named(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
 
 
 def named(fault: Fault, words: Words, button: str) -> str:

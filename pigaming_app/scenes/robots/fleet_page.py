@@ -8,7 +8,7 @@ import pygame
 from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.real import unfit
 from pigaming_app.hardware.vision.discovery import cameras
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.robots.avoid_discs import Aside
@@ -18,13 +18,14 @@ from pigaming_app.scenes.robots.marker_discs import Discs, tag
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, GREEN, ICE, MIST, Color
+from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
 from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import places
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import frame, heading, stamp, text
+from pigaming_app.ui.widgets.labels import frame, heading, stamp
 from pigaming_app.ui.widgets.setting_row import Value
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)

@@ -25,7 +25,7 @@ from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.robots.marker_discs import Discs
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.take_places import Gathering
-from pigaming_app.ui.draw.ink import ALARM
+from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.caption import plate

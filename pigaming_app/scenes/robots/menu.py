@@ -4,18 +4,19 @@ import logging
 
 import pygame
 
-from pigaming_app.scenes.calibration.messages import paragraph, tell
+from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.storage.safe_files import NotSaved, write
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
+from pigaming_app.ui.draw import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, frame, heading, text
+from pigaming_app.ui.widgets.labels import blacked, frame, heading
 from pigaming_app.ui.widgets.setting_row import Value
 
 ROWS = ("robots", "calibrate", "check", "pin", "sheet")

@@ -7,16 +7,15 @@ the match goes on.
 import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Case, Pairing
-from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.scenes.robots.fleet_state import worst
 from pigaming_app.scenes.robots.flood_light import UNSEEN, Flood, looking
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.ui.draw.ink import ALARM, BODY, ICE
+from pigaming_app.ui.draw import ALARM, BODY, ICE
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import text
 
 LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
 GOOD = (Case.FITS, Case.SWAPPED, Case.ABSENT)

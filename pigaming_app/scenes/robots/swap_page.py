@@ -6,8 +6,9 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.play.pause import items, title
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
-from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
-from pigaming_app.ui.draw.layers import Pane, fitted, word
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
+from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.text import fitted, word
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus

@@ -11,10 +11,11 @@ from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import title
 from pigaming_app.scenes.robots.fault_icons import sign
-from pigaming_app.scenes.robots.fault_page import ICON, write
+from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
 from pigaming_app.scenes.robots.interrupted import MatchOf
-from pigaming_app.ui.draw.ink import ALARM, ICE, MIST
+from pigaming_app.ui.draw import ALARM, ICE, MIST
 from pigaming_app.ui.draw.layers import Pane, backdrop
+from pigaming_app.ui.draw.text import write
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
 
@@ -79,6 +80,6 @@ class Refused:
         words = self.house.words
         title(pane, None, words("mat.refused"), ICE)
         sign(pane.hot, "robot", *ICON, 76, ALARM)
-        y = write(pane, tell(words, self.sentence), HEAD + 56, ICE)
+        y = write(pane, tell(words, self.sentence), TEXT_X, HEAD + 56, ROOM, ICE)
         lost = getattr(self.sentence, "key", "") in UNCALIBRATED
-        write(pane, words("mat.calibrate" if lost else "mat.anyway"), y + 16, MIST)
+        write(pane, words("mat.calibrate" if lost else "mat.anyway"), TEXT_X, y + 16, ROOM, MIST)

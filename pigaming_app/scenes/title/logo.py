@@ -1,6 +1,6 @@
 """What the title is drawn of: the name in tubes of light, four robots that draw its underline, a picture of a game."""
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     FOCUS,
     ICE,
     Color,

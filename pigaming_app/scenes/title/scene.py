@@ -13,13 +13,13 @@ from pigaming_app.scenes.title.kiosk_unlock import Combination
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
 from pigaming_app.scenes.views.game_tile import tile, tile_rect
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     FOCUS,
     LINE,
     SUB,
     button_width,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Pane, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import LANGUAGES, NAMES

@@ -6,8 +6,7 @@ import pygame
 
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.scenes.views.sprites.wall import draw_wall
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BLUE,
     BODY,
@@ -30,8 +29,10 @@ from pigaming_app.ui.draw.ink import (
     dim,
     panel,
 )
-from pigaming_app.ui.draw.layers import MARGIN, Lit, Pane, fitted, span
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import MARGIN, Lit, Pane, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted
 
 TILE_Y, TILE_H = 416, 416
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pygame
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BLACK,
     BODY,
     MIST,

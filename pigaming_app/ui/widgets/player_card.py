@@ -3,7 +3,7 @@
 A card is W x H px, its upper left at (0, 0) of its own.
 """
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
     ICE,
@@ -18,8 +18,9 @@ from pigaming_app.ui.draw.ink import (
     icon,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, span
+from pigaming_app.ui.draw.layers import Lit, Pane, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 
 W, H = span(0, 3)[1], 600

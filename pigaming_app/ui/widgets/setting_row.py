@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
     HAIR,
@@ -21,12 +21,13 @@ from pigaming_app.ui.draw.ink import (
     icon,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, lines_of, span
+from pigaming_app.ui.draw.layers import Lit, Pane, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, lines_of, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import glow_bar, text
+from pigaming_app.ui.widgets.labels import glow_bar
 
 PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 660)
 W = span(0, 8)[1]

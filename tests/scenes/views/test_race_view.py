@@ -22,11 +22,11 @@ from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import Card, card_bits
 from pigaming_app.scenes.views.race.track import edges, sign_post
 from pigaming_app.scenes.views.registry import VIEWS
-from pigaming_app.scenes.views.sprites.pickups import glyph
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import keep
 from pigaming_app.ui.draw.frame_budget import finished
+from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import LANGUAGES, Words
 
 HUMANS = ["human"] * 4

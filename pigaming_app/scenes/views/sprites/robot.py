@@ -7,7 +7,7 @@ import math
 
 import pygame
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BLACK,
     ICE,
