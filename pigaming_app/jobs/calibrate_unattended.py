@@ -89,7 +89,7 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
         finding, trouble = page.finding, page.finding.trouble
         if finding.good:
             operator.press(Act.FIRE)
-            trouble = page.sentence or None
+            trouble = page.navigation.sentence or None
         saved = finding.good and operator.stack.top is operator.page
         told: dict[str, Any] = {"saved": saved, "trouble": trouble, "file": str(kept.path(operator.site))}
         if finding.residuals and finding.ground:

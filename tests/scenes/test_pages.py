@@ -160,7 +160,7 @@ def hints(scene: Scene, device: Device) -> Iterator[Prompts]:
     elif isinstance(scene, PadTest):
         yield scene._prompts()
     elif isinstance(scene, SetupPage | OptionsPage):
-        yield scene.prompts
+        yield scene.navigation.prompts
 
 
 @pytest.mark.parametrize("name", PAGES)

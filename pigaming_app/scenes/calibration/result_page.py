@@ -17,7 +17,8 @@ from pigaming_app.hardware.signals import Image
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Swap, Turn
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
 from pigaming_app.ui.draw.layers import Lit, backdrop
@@ -62,9 +63,9 @@ class ResultPage:
         self.house, self.finding, self.again = house, finding, again
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
-        self.sentence, self.said = "", 0.0
         self.arrows: tuple[Lit, int] | None = None
-        self.prompts = house.prompts([(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")])
+        hints = [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")]
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
@@ -75,21 +76,16 @@ class ResultPage:
 
     def on(self, press: Press) -> Turn:
         """Left and right choose, FIRE does it."""
-        press = self.prompts.meant(press)
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
+        press = self.navigation.prompts.meant(press)
+        if turn := self.navigation.on(press):
+            return turn
         chosen = self.focus.chosen(press)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
         """Only the focus moves."""
         self.finding.site.advance(seconds)
-        self.focus.update(seconds)
-        self.said -= seconds
-        return Home() if self.house.idle > IDLE else None
+        return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -107,10 +103,10 @@ class ResultPage:
             state = "focus" if spot.name == self.focus.name else "on"
             chip(words(f"calibrate.{spot.name}"), spot.rect.w, state, HIGH).draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
-        if self.said > 0.0:
-            for line in paragraph(self.sentence, 1600, 1, FOCUS, "c"):
+        if self.navigation.sentence:
+            for line in paragraph(self.navigation.sentence, 1600, 1, FOCUS, "c"):
                 line.draw(screen, 960, 1046)
-        self.prompts.draw(screen)
+        self.navigation.prompts.draw(screen)
 
     # ---- what is seen
 
@@ -185,7 +181,7 @@ class ResultPage:
             log.warning("%s", trouble)
             self.house.sounds.play("back")
             path = kept.path(finding.site)
-            self.sentence, self.said = self.house.words("calibrate.unsaved", path=path), SAID
+            self.navigation.say(self.house.words("calibrate.unsaved", path=path))
             return None
         self.house.sounds.play("accept")
         return Pop()

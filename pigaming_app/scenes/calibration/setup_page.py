@@ -13,7 +13,8 @@ from pigaming_app.hardware.session.real import NoMat
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
@@ -59,13 +60,13 @@ class CalibrationPage:
         self.state = ""
         self._state_of: tuple[int, int] = (0, 0)
         self.asked = 0.0  # s since it was asked which cameras there are
-        self.held, self.sentence, self.said = 0, "", 0.0
+        self.held = 0
         self._small: object = None
         self._picture: pygame.Surface | None = None
         self.focus = Focus(dials.spots(self._rows()))
-        self.prompts = house.prompts(
-            [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")],
-        )
+        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok")]
+        hints.append((Act.BACK, "calibrate.hint_back"))
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look through the camera, also after a calibration."""
@@ -81,13 +82,9 @@ class CalibrationPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose a row, left and right change it; the last row begins."""
-        press = self.prompts.meant(press)
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            self.left()
-            return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
+        press = self.navigation.prompts.meant(press)
+        if turn := self.navigation.on(press):
+            return turn
         by = dials.pushed(press, self.focus, self._value(self.focus.name))
         if by:
             self.held = self.held + 1 if press.repeat else 0
@@ -100,8 +97,6 @@ class CalibrationPage:
 
     def update(self, seconds: float) -> Turn:
         """Look; leave when nobody is there."""
-        self.focus.update(seconds)
-        self.said -= seconds
         self.asked += seconds
         if self.asked > EVERY:
             self.asked, self.known = 0.0, self.site.cameras()
@@ -110,10 +105,7 @@ class CalibrationPage:
             self.preview.pump()
             if self.preview.size != self._state_of:
                 self._look_up(self.preview.size)
-        if self.house.idle > IDLE:
-            self.left()
-            return Home()
-        return None
+        return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -132,9 +124,9 @@ class CalibrationPage:
         )
         for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
             line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
-        if self.said > 0.0:
-            calling(self.sentence, "", BODY).draw(screen, 960, 916)
-        self.prompts.draw(screen)
+        if self.navigation.sentence:
+            calling(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
+        self.navigation.prompts.draw(screen)
 
     # ---- what is seen
 
@@ -284,4 +276,4 @@ class CalibrationPage:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.sentence, self.said = self.house.words("app.unsaved"), SAID
+            self.navigation.say(self.house.words("app.unsaved"))

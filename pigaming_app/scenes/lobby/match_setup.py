@@ -15,7 +15,8 @@ from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.match_choice import chosen, load_kept, playable, title
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Pop, Push, Turn
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, Seats
 from pigaming_app.scenes.results.high_score_tables import contest, table_of, told
@@ -58,8 +59,8 @@ class SetupPage:
         self.access = Access(house, seats.devices)
         self.going = False  # a match was asked for
         hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
-        self.prompts = house.prompts(hints, voice=lambda: self.access.voice)
         self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
+        self.navigation = Navigation(house, self.focus, hints, IDLE, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
@@ -68,7 +69,7 @@ class SetupPage:
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
-        admitted = self.access.admit(self.prompts.meant(press))
+        admitted = self.access.admit(self.navigation.prompts.meant(press))
         if admitted is None or self.going:
             return None
         press = admitted
@@ -77,15 +78,11 @@ class SetupPage:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
             case Act.FIRE | Act.START:
                 return self._go() if self.clock > DEAF else None
-            case Act.BACK:
-                self.house.sounds.play("back")
-                return Pop()
             case Act.CLICK:
                 self.focus.on(press)
                 return self._click(press)
             case _:
-                if self.focus.on(press):
-                    self.house.sounds.play("move")
+                return self.navigation.on(press)
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -97,10 +94,8 @@ class SetupPage:
             self.house.sounds.play("back")
             return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
-        self.focus.update(seconds)
-        if self.going:
-            return self._begin()
-        return Home() if self.house.idle > IDLE else None
+        turn = self.navigation.update(seconds)
+        return self._begin() if self.going else turn
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -115,7 +110,7 @@ class SetupPage:
         self._records(screen)
         choice.meant(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
         self.focus.draw(screen)
-        self.prompts.draw(screen)
+        self.navigation.prompts.draw(screen)
 
     # ---- inside
 

@@ -10,7 +10,8 @@ from pigaming_app.hardware.session.real import unfit
 from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Turn
 from pigaming_app.scenes.robots.avoid_discs import Aside
 from pigaming_app.scenes.robots.fleet_state import Checkup, worst
 from pigaming_app.scenes.robots.flood_light import Flood
@@ -55,12 +56,11 @@ class RobotsPage:
         self.flood.level = 0.0
         self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
         self.focus = Focus(dials.spots(self.names), "pair")
-        self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
+        self.anew, self.age = 0.0, EVERY
         self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
-        self.prompts = house.prompts(
-            [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
-        )
+        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look and listen."""
@@ -72,16 +72,13 @@ class RobotsPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
-        press = self.prompts.meant(self._on_sheet(press))
+        press = self.navigation.prompts.meant(self._on_sheet(press))
         if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
             self.check.stop()
-            self._say(self.house.words("fleet.stopped"))
+            self.navigation.say(self.house.words("fleet.stopped"))
             return None
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
+        if turn := self.navigation.on(press):
+            return turn
         name = self.focus.name
         if by := dials.pushed(press, self.focus, self._value(name)):
             self._change(name, by, False)
@@ -92,8 +89,7 @@ class RobotsPage:
     def update(self, seconds: float) -> Turn:
         """Read what there is to read."""
         words = self.house.words
-        self.focus.update(seconds)
-        self.said -= seconds
+        turn = self.navigation.update(seconds)
         self.age += seconds
         if self.anew > 0.0:
             self.anew -= seconds
@@ -103,13 +99,16 @@ class RobotsPage:
         pairing = self.check.pairing is not None
         self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
-            self._found() if pairing else self._say(words("fleet.measured" if self.check.late else "fleet.nobody"))
+            if pairing:
+                self._found()
+            else:
+                self.navigation.say(words("fleet.measured" if self.check.late else "fleet.nobody"))
             self.house.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
             self.lines = [self._read(robot) for robot in range(ROBOTS)]
         self.aside.update(seconds, self._blocks(), self.discs.circles(EVERYBODY) if self.discs else ())
-        return Home() if self.house.idle > IDLE else None
+        return turn
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page in blocks that keep off the discs, and these."""
@@ -135,19 +134,19 @@ class RobotsPage:
     def _blocks(self) -> list[pygame.Rect]:
         """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""
         low = self.focus.spots[-1].rect.bottom
-        ends = places(self.prompts.said, self.prompts.room)
+        ends = places(self.navigation.prompts.said, self.navigation.prompts.room)
         left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
         found = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
             pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
             pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
-            pygame.Rect(left, self.prompts.y - 40, right - left, 80),
+            pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
         ]
         return [*found, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else found
 
     def _sentence(self) -> str:
         """What is wrong, or was just found."""
-        return self._trouble() or (self.sentence if self.said > 0.0 else "")
+        return self._trouble() or self.navigation.sentence
 
     def _on_sheet(self, press: Press) -> Press:
         """A press of the mouse where the block is drawn that it hits."""
@@ -171,7 +170,7 @@ class RobotsPage:
         sentence = self._sentence()
         for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
             line.draw(screen, 960, 896 + 44 * i)
-        self.prompts.draw(screen)
+        self.navigation.prompts.draw(screen)
 
     # ---- what is read
 
@@ -246,7 +245,7 @@ class RobotsPage:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self._say(self.house.words("app.unsaved"))
+            self.navigation.say(self.house.words("app.unsaved"))
 
     def _do(self, name: str) -> None:
         """Begin what the row is for, or take its next value."""
@@ -256,20 +255,17 @@ class RobotsPage:
         begun = self.check.pair() if name == "pair" else self.check.measure()
         self.house.sounds.play("accept" if begun else "error")
         if not begun:
-            self._say(self.house.words("fleet.nobody"))
+            self.navigation.say(self.house.words("fleet.nobody"))
 
     def _found(self) -> None:
         """Say what came of the pairing."""
         words, told = self.house.words, worst(self.check.findings)
         if told is None:
-            self._say(words("fleet.paired"))
+            self.navigation.say(words("fleet.paired"))
         else:
             marker = 0 if told.marker is None else told.marker + 1
-            self._say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
+            self.navigation.say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
         try:
             self.house.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-
-    def _say(self, sentence: str) -> None:
-        self.sentence, self.said = sentence, SAID

@@ -22,13 +22,13 @@ class HudParts:
 
     def __init__(self, ground: Ground) -> None:
         self.ground = ground
-        self._shown: dict[Hashable, object] = {}
+        self.shown: dict[Hashable, object] = {}
 
     def changed(self, part: Hashable, content: object) -> bool:
         """Whether a part has to be baked anew; from now on it counts as baked."""
-        if self._shown.get(part) == content:
+        if self.shown.get(part) == content:
             return False
-        self._shown[part] = content
+        self.shown[part] = content
         return True
 
     def show(self, part: Hashable, content: object, x: int, w: int, bits: Callable[[], Iterable[Bit]]) -> None:

@@ -23,7 +23,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.layers import Lit, Pane, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, lines_of, text
+from pigaming_app.ui.draw.text import fitted, paragraph, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.focus import Focus, Spot
@@ -151,15 +151,14 @@ def hit(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | Non
     return max(0, min(len(options) - 1, chosen + by))
 
 
-def about(screen: pygame.Surface, said: str, line: str) -> None:
+def describe(screen: pygame.Surface, said: str, line: str) -> None:
     """What a row is called and does, in the panel."""
-    for i, lit in enumerate(told(said, line)):
+    for i, lit in enumerate(description(said, line)):
         lit.draw(screen, PANEL.x + 40, PANEL.y + 400 + (14 + 58 * i if i else 0))
 
 
 @cached
-def told(said: str, line: str) -> tuple[Lit, ...]:
+def description(said: str, line: str) -> tuple[Lit, ...]:
     """A title, and a sentence in lines that fit into the panel."""
     room = PANEL.w - 80
-    parts = (text(part, BODY, MIST, "body", "l") for part in lines_of(line, BODY, room))
-    return (text(said, LABEL, ICE, "head", "l", room), *parts)
+    return (text(said, LABEL, ICE, "head", "l", room), *paragraph(line, room, 3, MIST))

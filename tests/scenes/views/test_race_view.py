@@ -297,7 +297,7 @@ def test_cards_show_place_lap_and_gap(screen, language, gap):
             state.racers[seat].progress = 2.0 * state.tick - behind
         view.watch(state)
     view.draw(screen, state, 1.0, 0.02)
-    first, second, third = (view.cards.said[x] for x in view.cards.xs)
+    first, second, third = (view.cards.parts.shown[x] for x in view.cards.xs)
     assert (first.place, first.gap) == (1, "")
     assert (second.place, second.lap, second.laps, second.gap) == (2, 4, 5, gap)
     assert third.gap == "+6.0".replace(".", gap[2]), "since the start"
