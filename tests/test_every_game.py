@@ -126,7 +126,7 @@ def test_every_number_of_every_view_is_finite(game, arena, teams):
 def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
     import pygame
 
-    from pigaming_app.scenes.views import VIEWS
+    from pigaming_app.scenes.views.registry import VIEWS
 
     if game not in VIEWS:
         return

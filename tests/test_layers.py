@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -23,9 +24,7 @@ MAY = {
     "jobs": {"boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "cli": {"jobs"},
 }
-DEBTS = {
-    ("ui", "scenes"),
-}
+MODULES, FLOORS = 15, 7  # at most: in a folder, between the rooms
 ONLY_IN = {"pygame": {"ui", "scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
@@ -56,12 +55,93 @@ def test_a_file_imports_only_what_its_layer_may(path):
         root = module.split(".")[0]
         if root == "pigaming_app" and module.count("."):
             other = module.split(".")[1]
-            assert other in {layer, *MAY[layer]} or (layer, other) in DEBTS, f"{path.name} imports {module}"
+            assert other in {layer, *MAY[layer]}, f"{path.name} imports {module}"
         if root in ONLY_IN:
             assert layer in ONLY_IN[root], f"{path.name} imports {module}"
         if root == "numba":
             assert place == ("sim", "kernel.py")
             assert not at_once
+
+
+@cache
+def graph():
+    """The modules of the package and what each imports of it, late imports included."""
+    names = {name_of(path): path for path in FILES}
+    found = {name: set() for name in names}
+    for name, path in names.items():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                found[name] |= {alias.name for alias in node.names} & names.keys()
+            elif isinstance(node, ast.ImportFrom):
+                inner = {alias.name: f"{node.module}.{alias.name}" for alias in node.names}
+                found[name] |= {inner[one] if inner[one] in names else node.module for one in inner} & names.keys()
+        found[name].discard(name)
+    return found
+
+
+def name_of(path):
+    return ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+
+
+def circles(arrows):
+    """The groups of nodes that reach each other."""
+    reached = {node: reach(arrows, node) for node in arrows}
+    groups = {tuple(sorted(one for one in reached[node] if node in reached[one])) for node in arrows}
+    return {group for group in groups if len(group) > 1}
+
+
+def reach(arrows, node):
+    """The nodes to which a path of at least one arrow leads."""
+    found, ways = set(), [node]
+    while ways:
+        for after in arrows[ways.pop()] - found:
+            found.add(after)
+            ways.append(after)
+    return found
+
+
+def within(folder):
+    """The folders and modules in a folder, and which imports which; its `__init__` is no part of it."""
+    arrows = {}
+    for name, others in graph().items():
+        if unit := unit_of(name, folder):
+            found = {unit_of(other, folder) for other in others} - {None, unit}
+            arrows.setdefault(unit, set()).update(found)
+    return arrows
+
+
+def unit_of(name, folder):
+    return name.removeprefix(f"{folder}.").split(".")[0] if name.startswith(f"{folder}.") else None
+
+
+FOLDERS = sorted({path.parent for path in FILES} - {PACKAGE.parent})
+
+
+def test_no_circle_between_modules_even_by_late_imports():
+    assert circles(graph()) == set()
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.relative_to(PACKAGE).as_posix())
+def test_no_circle_between_the_units_of_a_folder(folder):
+    name = ".".join(folder.relative_to(PACKAGE.parent).parts)
+    assert circles(within(name)) == set()
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.relative_to(PACKAGE).as_posix())
+def test_no_folder_holds_more_modules_than_a_shelf(folder):
+    modules = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
+    assert len(modules) <= MODULES
+
+
+def test_rooms_lie_on_few_floors():
+    arrows = {room: rooms - {"__init__"} for room, rooms in MAY.items()}
+
+    def floor(room):
+        return 1 + max((floor(other) for other in arrows[room]), default=0)
+
+    assert max(map(floor, arrows)) <= FLOORS
+    real = {room: set(others) - {"__init__"} for room, others in within("pigaming_app").items()}
+    assert all(other in MAY[room] for room, others in real.items() for other in others)
 
 
 def test_main_needs_nothing_but_the_standard_library():

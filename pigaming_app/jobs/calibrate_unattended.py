@@ -87,7 +87,7 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
         trouble = reason and english().explained(reason)
         if finding.good:
             operator.press(Act.FIRE)
-            trouble = page.sentence or None
+            trouble = page.navigation.sentence or None
         saved = finding.good and operator.stack.top is operator.page
         told: dict[str, Any] = {
             "saved": saved,

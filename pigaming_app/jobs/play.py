@@ -243,6 +243,7 @@ def _on_screen(
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.flow.context import House
     from pigaming_app.scenes.flow.stack import Scene
+    from pigaming_app.scenes.lobby.scene import game_choice
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.robots.start_match import match_of
     from pigaming_app.ui.input.events import Device
@@ -258,7 +259,10 @@ def _on_screen(
         people = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         devices = dict(zip(people, free, strict=False))
         seats = [devices.get(i) for i in range(ROBOTS)]
-        shown = match_of(house, setup, seats, real, speed) if real else MatchScene(house, setup, seats, speed, plant)
+        if real:
+            shown = match_of(house, setup, seats, real, speed, game_choice)
+        else:
+            shown = MatchScene(house, setup, seats, speed, plant, game_choice)
         if isinstance(shown, MatchScene):
             made.append(shown)
         return shown

@@ -11,7 +11,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby.match_setup import SetupPage
-from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.options.controls_test import PadTest
 from pigaming_app.scenes.options.page import OptionsPage
@@ -55,7 +55,7 @@ class Ending:
         arena = max(arenas(self.game), key=len)
         setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, game.variants[-1], goal)
         devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
-        scene = Results(arcade.house, self.outcome(), setup, devices, MatchScene, finished)
+        scene = Results(arcade.house, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
         scene.age = 9.0
         return scene
 

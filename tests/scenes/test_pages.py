@@ -18,14 +18,15 @@ from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.options import controls_pictures as gadgets
 from pigaming_app.scenes.options.controls_test import PadTest
 from pigaming_app.scenes.options.page import OptionsPage
-from pigaming_app.scenes.title import scene as title
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.scenes.views import game_tile
 from pigaming_app.storage.settings import Settings
-from pigaming_app.ui.draw import layers as pane
+from pigaming_app.ui.draw import text as texts
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets import labels as page
+from pigaming_app.ui.widgets import player_card
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import Prompts, places
 from pigaming_app.ui.window import Canvas
@@ -107,8 +108,8 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
         shrunk[text] = min(shrunk.get(text, 1.0), fits / size)
         return fits
 
-    true_size = pane.fitted
-    for module in (card, choice, dials, gadgets, howto, page, title):
+    true_size = texts.fitted
+    for module in (card, choice, dials, gadgets, game_tile, howto, page, player_card, texts):
         monkeypatch.setattr(module, "fitted", measured)
     surfaces.clear()
     scene = top(arcade, name)
@@ -159,7 +160,7 @@ def hints(scene: Scene, device: Device) -> Iterator[Prompts]:
     elif isinstance(scene, PadTest):
         yield scene._prompts()
     elif isinstance(scene, SetupPage | OptionsPage):
-        yield scene.prompts
+        yield scene.navigation.prompts
 
 
 @pytest.mark.parametrize("name", PAGES)

@@ -6,18 +6,18 @@ import pytest
 
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.rule_texts import limits, numbers, tagline
+from pigaming_app.scenes.flow.match_words import limits, numbers, tagline
 from pigaming_app.scenes.howto.scene import HowTo
-from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.match_setup import SetupPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.headline import headline, winning_color
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.world import DT
-from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.widgets.labels import LEVELS
+from pigaming_app.ui.widgets.player_card import asked
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import measuring
 from tests.scenes.screens import seats
@@ -145,7 +145,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
 def test_the_button_follows_the_question(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:
     arcade = Arcade(controls)
     with measuring(monkeypatch) as screen:
-        card.asked("SPACE", arcade.house.words("lobby.if_ready"), LEVELS).draw(screen, 200, 200)
+        asked("SPACE", arcade.house.words("lobby.if_ready"), LEVELS).draw(screen, 200, 200)
         ready, space = sorted(screen.texts, key=lambda mark: mark.box[0])
     assert (ready.text, space.text) == ("Ready?", "SPACE")
 

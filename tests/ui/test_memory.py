@@ -21,8 +21,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import beam, wave
 from pigaming_app.ui import memory as heap
-from pigaming_app.ui.draw import surface_cache
-from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Press

@@ -15,7 +15,7 @@ from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Pose
 from pigaming_app.sim.sweep import meets_wall
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, LINE, THIN, Color, Ink, Points, dim
+from pigaming_app.ui.draw import ALARM, FOCUS, LINE, THIN, Color, Ink, Points, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, master, painted, put, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 

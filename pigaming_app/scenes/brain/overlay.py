@@ -14,11 +14,11 @@ from pigaming_app.ai.brain.thoughts import PETALS, Move, Thoughts
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.floor_marks import Marks
-from pigaming_app.scenes.howto.scene import FIRES
+from pigaming_app.scenes.flow.match_words import FIRES
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Picture
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw.ink import ADD, PLAYERS
+from pigaming_app.ui.draw import ADD, PLAYERS
 
 EVERY = 5  # ticks between two questions
 EASE = 10.0  # of what is missing, in a second: bars and petals do not jump

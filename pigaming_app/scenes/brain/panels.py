@@ -11,7 +11,7 @@ import pygame
 from pigaming_app.ai.brain.thoughts import Move
 from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.sprites.factory import state_icon
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BLACK,
     BODY,
     ICE,
@@ -30,9 +30,9 @@ from pigaming_app.ui.draw.ink import (
     mix,
     text_width,
 )
-from pigaming_app.ui.draw.layers import fitted, word
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, word
 
 Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin round their sprites
 TEXT = 104  # px from the left edge of a box to its texts

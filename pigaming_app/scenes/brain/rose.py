@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ui.draw.ink import ADD, ICE, MIST, THIN, Color, Ink, Points, dim, icon
+from pigaming_app.ui.draw import ADD, ICE, MIST, THIN, Color, Ink, Points, dim, icon
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
 

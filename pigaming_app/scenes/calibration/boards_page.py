@@ -9,8 +9,10 @@ from pigaming_app.hardware.calibration.boards import LIGHT, Board
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import Measures, Site
 from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.scenes.calibration.height_page import OutlinesPage
+from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
+from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press
@@ -50,15 +52,12 @@ class BoardsPage:
         if not self.work.over:
             return None
         self.left()
-        from pigaming_app.scenes.calibration.height_page import OutlinesPage
-        from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
-
         work = self.work
         finding = Finding(self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small)
         self.house.sounds.play("accept" if finding.good else "back")
         if finding.good and not self.measures.height:
-            return Swap(OutlinesPage(self.house, finding))
-        return Swap(ResultPage(self.house, finding))
+            return Swap(OutlinesPage(self.house, finding, self._again))
+        return Swap(ResultPage(self.house, finding, self._again))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the board, pure light, and how far it is."""
@@ -74,6 +73,10 @@ class BoardsPage:
             return
         self._draw_progress(screen)
         self.work.shown(board)
+
+    def _again(self) -> Scene:
+        """The same calibration once more."""
+        return BoardsPage(self.house, self.site, self.number, self.measures)
 
     def _draw_progress(self, screen: pygame.Surface) -> None:
         """A box for every picture; what has been taken is filled."""

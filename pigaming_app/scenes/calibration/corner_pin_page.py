@@ -11,12 +11,11 @@ from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.scenes.play.runner import LEFT, TOP
+from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BODY,
     FOCUS,
@@ -33,14 +32,14 @@ from pigaming_app.ui.draw.ink import (
     dim,
     panel,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.focus import WAYS
-from pigaming_app.ui.widgets.labels import text
 
 STEPS = (10, 1)  # px
 CORNERS = ((0, 0), (1920, 0), (1920, 1080), (0, 1080))
@@ -62,8 +61,7 @@ class PinPage:
         self.corners = [round(value) for value in self.before or STRAIGHT]
         self.chosen = self.step = 0
         self.sentence, self.said = "", 0.0
-        self.prompts = Prompts(
-            house,
+        self.prompts = house.prompts(
             [
                 (Act.FIRE, "pin.hint_next"),
                 (Act.EXTRA, "pin.hint_step"),

@@ -11,18 +11,16 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
-from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.calibration.result_page import OFF
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.scenes.play.runner import LEFT, TOP
-from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.labels import text
 
 BAR = pygame.Rect(560, 640, 800, 40)
 ROOM = 1040  # px between the spot for a robot and as much on the other side
@@ -40,7 +38,7 @@ class CheckPage:
             self.site, number, partial(store.load, store.calibration_file(self.site.name), house.canvas.projection)
         )
         self.clock = 0.0
-        self.prompts = Prompts(house, [(Act.BACK, "calibrate.hint_back")])
+        self.prompts = house.prompts([(Act.BACK, "calibrate.hint_back")])
 
     def entered(self) -> None:
         """Look."""

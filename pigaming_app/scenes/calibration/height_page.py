@@ -1,5 +1,6 @@
 """A robot is put on one bright spot after the other; where the camera sees it says how high the camera hangs."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import pygame
@@ -7,14 +8,13 @@ import pygame
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, Standing
 from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.play.runner import LEFT, TOP
-from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
+from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
 from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.labels import text
 
 DISC = 72  # px: the light must fall on all of a lid, which is 70 mm up, aslant
 GREY = (128, 128, 128)
@@ -22,15 +22,15 @@ NEAR, FAR = 86, 128  # px from the middle, of the four lines that help to aim
 
 
 class OutlinesPage:
-    """The page. `finding`: a calibration that lacks only the camera's place."""
+    """The page. `finding`: a calibration that lacks only the camera's place; `again`: the page that repeats it."""
 
-    def __init__(self, house: House, finding: Finding) -> None:
+    def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
         assert finding.ground is not None
-        self.house, self.finding = house, finding
+        self.house, self.finding, self.again = house, finding, again
         self.work = Standing(finding.site, finding.number, finding.ground)
         self.work.begin()
         self.known = 0
-        self.prompts = Prompts(house, [(Act.BACK, "calibrate.hint_stop")], 1040)
+        self.prompts = house.prompts([(Act.BACK, "calibrate.hint_stop")], 1040)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -60,7 +60,7 @@ class OutlinesPage:
         self.left()
         ground = work.found or self.finding.ground
         found = replace(self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small)
-        return Swap(ResultPage(self.house, found))
+        return Swap(ResultPage(self.house, found, self.again))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the spots, and what to do."""

@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.hardware.calibration.solver import MAX_MM, Residuals
-from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEEL, SUB, THIN, Color, cut, dim, panel
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEEL, SUB, THIN, Color, cut, dim, panel
 from pigaming_app.ui.draw.layers import Lit, Pane, span
 from pigaming_app.ui.draw.surface_cache import cached
 

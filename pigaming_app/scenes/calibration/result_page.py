@@ -4,6 +4,7 @@ What failed is said in one sentence, beside what the camera saw.
 """
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import pygame
@@ -14,19 +15,19 @@ from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import Image
-from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, MIST, STEEL
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, chip, heading, text
+from pigaming_app.ui.widgets.labels import blacked, chip, heading
 
 HIGH = 84  # px, of a chip
 FOOT = 836  # px, their upper edge
@@ -57,15 +58,15 @@ class Finding:
 
 
 class ResultPage:
-    """The page: save, again, or back."""
+    """The page: save, again, or back. `again`: makes the page that repeats the calibration."""
 
-    def __init__(self, house: House, finding: Finding) -> None:
-        self.house, self.finding = house, finding
+    def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
+        self.house, self.finding, self.again = house, finding, again
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
-        self.sentence, self.said = "", 0.0
         self.arrows: tuple[Lit, int] | None = None
-        self.prompts = Prompts(house, [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")])
+        hints = [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")]
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
@@ -76,21 +77,16 @@ class ResultPage:
 
     def on(self, press: Press) -> Turn:
         """Left and right choose, FIRE does it."""
-        press = self.prompts.meant(press)
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
+        press = self.navigation.prompts.meant(press)
+        if turn := self.navigation.on(press):
+            return turn
         chosen = self.focus.chosen(press)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
         """Only the focus moves."""
         self.finding.site.advance(seconds)
-        self.focus.update(seconds)
-        self.said -= seconds
-        return Home() if self.house.idle > IDLE else None
+        return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -108,10 +104,10 @@ class ResultPage:
             state = "focus" if spot.name == self.focus.name else "on"
             chip(words(f"calibrate.{spot.name}"), spot.rect.w, state, HIGH).draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
-        if self.said > 0.0:
-            for line in paragraph(self.sentence, 1600, 1, FOCUS, "c"):
+        if self.navigation.sentence:
+            for line in paragraph(self.navigation.sentence, 1600, 1, FOCUS, "c"):
                 line.draw(screen, 960, 1046)
-        self.prompts.draw(screen)
+        self.navigation.prompts.draw(screen)
 
     # ---- what is seen
 
@@ -172,15 +168,13 @@ class ResultPage:
     # ---- what happens
 
     def _do(self, name: str) -> Turn:
-        from pigaming_app.scenes.calibration.boards_page import BoardsPage
-
         finding = self.finding
         if name == "leave":
             self.house.sounds.play("back")
             return Pop()
         if name == "again":
             self.house.sounds.play("accept")
-            return Swap(BoardsPage(self.house, finding.site, finding.number, finding.measures))
+            return Swap(self.again())
         if finding.ground is None:
             return None
         path = store.calibration_file(finding.site.name)
@@ -189,7 +183,7 @@ class ResultPage:
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.house.sounds.play("back")
-            self.sentence, self.said = self.house.words("calibrate.unsaved", path=path), SAID
+            self.navigation.say(self.house.words("calibrate.unsaved", path=path))
             return None
         self.house.sounds.play("accept")
         return Pop()

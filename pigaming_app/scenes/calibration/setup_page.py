@@ -10,22 +10,22 @@ from pigaming_app.hardware.calibration.site import Measures, RealSite, Site
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import NoRobots
-from pigaming_app.scenes.calibration.messages import paragraph
+from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
-from pigaming_app.scenes.options.page import Value
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.ink import BODY, FOCUS, LABEL, MIST
+from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, calling, heading, text
+from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading
+from pigaming_app.ui.widgets.setting_row import Value
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
@@ -59,14 +59,13 @@ class CalibrationPage:
         self.state = ""
         self._state_of: tuple[int, int] = (0, 0)
         self.asked = 0.0  # s since it was asked which cameras there are
-        self.held, self.sentence, self.said = 0, "", 0.0
+        self.held = 0
         self._small: object = None
         self._picture: pygame.Surface | None = None
-        self.focus = Focus(rows.spots(self._rows()))
-        self.prompts = Prompts(
-            house,
-            [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")],
-        )
+        self.focus = Focus(dials.spots(self._rows()))
+        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok")]
+        hints.append((Act.BACK, "calibrate.hint_back"))
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look through the camera, also after a calibration."""
@@ -82,14 +81,10 @@ class CalibrationPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose a row, left and right change it; the last row begins."""
-        press = self.prompts.meant(press)
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            self.left()
-            return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
-        by = rows.pushed(press, self.focus, self._value(self.focus.name))
+        press = self.navigation.prompts.meant(press)
+        if turn := self.navigation.on(press):
+            return turn
+        by = dials.pushed(press, self.focus, self._value(self.focus.name))
         if by:
             self.held = self.held + 1 if press.repeat else 0
             self._change(self.focus.name, by)
@@ -101,8 +96,6 @@ class CalibrationPage:
 
     def update(self, seconds: float) -> Turn:
         """Look; leave when nobody is there."""
-        self.focus.update(seconds)
-        self.said -= seconds
         self.asked += seconds
         if self.asked > EVERY:
             self.asked, self.known = 0.0, self.site.cameras()
@@ -111,10 +104,7 @@ class CalibrationPage:
             self.preview.pump()
             if self.preview.size != self._state_of:
                 self._look_up(self.preview.size)
-        if self.house.idle > IDLE:
-            self.left()
-            return Home()
-        return None
+        return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -122,8 +112,10 @@ class CalibrationPage:
         screen.blit(backdrop(), (0, 0))
         heading(words("calibrate.title"), self.state).draw(screen)
         blacked(screen, dials.PANEL)
-        rows.draw(screen, self.house, self.focus, "calibrate", {name: self._value(name) for name in self._rows()})
-        dials.beside().draw(screen, *dials.PANEL.topleft)
+        dials.draw(
+            screen, self.house.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
+        )
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         self._draw_camera(screen)
         name = self.focus.name
         text(words(f"calibrate.{name}"), LABEL, FOCUS, "head", "l", dials.PANEL.w - 40).draw(
@@ -131,9 +123,9 @@ class CalibrationPage:
         )
         for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
             line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
-        if self.said > 0.0:
-            calling(self.sentence, "", BODY).draw(screen, 960, 916)
-        self.prompts.draw(screen)
+        if self.navigation.sentence:
+            calling(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
+        self.navigation.prompts.draw(screen)
 
     # ---- what is seen
 
@@ -219,7 +211,7 @@ class CalibrationPage:
                 robot = bool(measures.height) if around else by > 0
                 height = 0.0 if robot else measures.height or self.site.measures.height or USUAL
                 self.measures = Measures(measures.width, height, measures.lid)
-                self.focus.place(rows.spots(self._rows()))
+                self.focus.place(dials.spots(self._rows()))
             case "width" | "lid" | "height":
                 self._measure(name, by)
         self._keep()
@@ -259,8 +251,6 @@ class CalibrationPage:
 
     def _begin(self) -> Turn:
         """Show the boards on the whole display."""
-        from pigaming_app.scenes.calibration.boards_page import BoardsPage
-
         self.house.sounds.play("accept")
         self.left()
         canvas = self.house.canvas
@@ -286,4 +276,4 @@ class CalibrationPage:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.sentence, self.said = self.house.words("app.unsaved"), SAID
+            self.navigation.say(self.house.words("app.unsaved"))

@@ -1,17 +1,19 @@
 """What every scene may use: settings, scores, words, devices, sounds and the window."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.scenes.flow.preload import Backstage
-from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act, Device
 from pigaming_app.ui.sounds import Sounds
+from pigaming_app.ui.widgets.button_prompts import ROOM, Prompts
 from pigaming_app.ui.window import Canvas
 
 if TYPE_CHECKING:
@@ -39,6 +41,17 @@ class House:
     def robots(self) -> bool:
         """Whether real robots can be chosen for a match."""
         return self.mat is not None and (self.mat.emulated or self.settings.mat)
+
+    def prompts(
+        self,
+        items: Sequence[tuple[Act, str]],
+        y: int = 980,
+        room: int = ROOM,
+        solid: bool = False,
+        voice: Callable[[], Device] | None = None,
+    ) -> Prompts:
+        """The row of hints of a page, see `Prompts`."""
+        return Prompts(self.words, self.controls, items, y, room, solid, voice)
 
     def stand_still(self) -> None:
         """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw.ink import ADD, Point
+from pigaming_app.ui.draw import ADD, Point
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.widgets.labels import stamp
 

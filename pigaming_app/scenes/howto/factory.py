@@ -11,8 +11,8 @@ from pigaming_app.scenes.views.factory.background import draw_lorry, draw_machin
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.ui.draw import FOCUS, LINE, MIST, STEEL, THIN, WALL, Ink, cut, dim
 from pigaming_app.ui.draw.frame_budget import finished
-from pigaming_app.ui.draw.ink import FOCUS, LINE, MIST, STEEL, THIN, WALL, Ink, cut, dim
 from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.surface_cache import cached

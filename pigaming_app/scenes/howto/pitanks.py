@@ -10,7 +10,7 @@ from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.scenes.views.sprites.wall import wall
-from pigaming_app.ui.draw.ink import FOCUS, HAIR, ICE, LINE, MIST, PLAYERS, STEEL, THIN, Ink, Point, cut, icon
+from pigaming_app.ui.draw import FOCUS, HAIR, ICE, LINE, MIST, PLAYERS, STEEL, THIN, Ink, Point, cut, icon
 from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.surface_cache import cached

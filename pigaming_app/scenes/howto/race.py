@@ -9,10 +9,11 @@ from pigaming_app.scenes.views.race.sprites import clods
 from pigaming_app.scenes.views.race.track import EDGE, MUD, Frame, draw_line
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
+from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, SUB, THIN, Color, Ink, badge, dim, mix
 from pigaming_app.ui.draw.frame_budget import finished
-from pigaming_app.ui.draw.ink import ALARM, ICE, PLAYERS, SUB, THIN, Color, Ink, badge, dim, mix
-from pigaming_app.ui.draw.layers import Lit, word
+from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import word
 
 ROUND, ROAD = Loop(254.0, 310.0, 127.0), 46.0  # px: the middle of the road, and half its width
 SPEED, LAPS = 300.0, 3  # px/s

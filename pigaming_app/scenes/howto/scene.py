@@ -5,11 +5,10 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.rule_texts import kept_minutes, limits
+from pigaming_app.scenes.flow.match_words import FIRES, kept_minutes, limits
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.howto.lessons import LESSONS
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BLACK,
     BODY,
     ICE,
@@ -22,15 +21,16 @@ from pigaming_app.ui.draw.ink import (
     regular,
     text_width,
 )
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted, lines_of, span
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import balanced, fitted, lines_of, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import blacked, button_light, chip, chip_width, heading, text
+from pigaming_app.ui.widgets.labels import blacked, button_light, chip, chip_width, heading
 
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without a press until the title
-FIRES = {"pitanks": "hint_fire", "factory": "hint_lift"}  # what FIRE does, in games in which it does something
 LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
 
 
@@ -129,20 +129,12 @@ def frame(number: int, w: int) -> Steps[Lit]:
 @cached
 def caption(said: str, room: int) -> Lit:
     """A few words in lines of about the same length, their middle at (0, 0)."""
-    lines = balanced(said, room)
+    lines = balanced(said, len(lines_of(said, BODY, room)))
     pane = Pane(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
         size = fitted(line, BODY, room, "body")
         pane.page.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
     return pane.done()
-
-
-def balanced(said: str, room: int) -> list[str]:
-    """The lines of a text, no more than needed, and none much longer than the others."""
-    count = len(lines_of(said, BODY, room))
-    narrow = next(w for w in range(40, room + 40, 20) if len(lines_of(said, BODY, w)) <= count)
-    lines = lines_of(said, BODY, narrow)
-    return lines if max(text_width(line, BODY, "body") for line in lines) <= room else lines_of(said, BODY, room)
 
 
 @cached

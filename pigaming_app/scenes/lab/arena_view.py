@@ -18,8 +18,8 @@ from pigaming_app.scenes.views.pitanks.background import wall_sprite
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.sim.world import SOLID
+from pigaming_app.ui.draw import ADD, PLAYERS, PRE, Ink, dim
 from pigaming_app.ui.draw.frame_budget import Ahead, Job
-from pigaming_app.ui.draw.ink import ADD, PLAYERS, PRE, Ink, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, faded, put, step
 from pigaming_app.ui.draw.surface_cache import cached
 

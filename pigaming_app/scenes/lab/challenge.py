@@ -11,11 +11,10 @@ from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
-from pigaming_app.ui.draw.ink import HERO, ICE, MIST, PLAYERS, badge
+from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Pane
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.input.hold import Holds
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
 
 MINUTES = 1.0
@@ -77,7 +76,7 @@ class Verdict:
         self.access = Access(self.house, lambda: [fight.inner.devices[0]])
         self.leaving = Holds(self.house.controls, LEAVE)
         hints = [(Act.FIRE, "results.again"), (Act.BACK, "lab.hint_lab")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""

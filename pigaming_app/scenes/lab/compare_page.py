@@ -14,14 +14,14 @@ from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.experiments.evaluation import HANDMADE, Exam
 from pigaming_app.ai.experiments.training import GAME
 from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.lab.bench import IDLE, Bench
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
-from pigaming_app.scenes.lab.menu import IDLE, Bench
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.labels import heading, text
+from pigaming_app.ui.widgets.labels import heading
 
 MATCHES = {True: 10, False: 2}  # of every two, compiled and plain
 MINUTES = 1.0
@@ -68,7 +68,7 @@ class Compare:
         self.pairs = list(combinations(self.players, 2))
         self.whole = len(self.pairs)
         self.exam: Exam | None = None
-        self.prompts = Prompts(self.house, [(Act.BACK, "lab.hint_lab")])
+        self.prompts = self.house.prompts([(Act.BACK, "lab.hint_lab")])
 
     def entered(self) -> None:
         """Nothing to begin."""

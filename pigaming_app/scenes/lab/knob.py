@@ -3,7 +3,7 @@
 import math
 
 from pigaming_app.scenes.lab.layout import BAD, GOOD, NOTHING
-from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
 

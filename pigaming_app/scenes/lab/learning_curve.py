@@ -9,10 +9,10 @@ from itertools import pairwise
 import pygame
 
 from pigaming_app.scenes.lab.layout import CURVE, GOOD, PLOT, RIGHT
-from pigaming_app.ui.draw.ink import BODY, ICE, MIST, STEEL, THIN, TITLE, WHITE, dim
-from pigaming_app.ui.draw.layers import Lit, word
+from pigaming_app.ui.draw import BODY, ICE, MIST, STEEL, THIN, TITLE, WHITE, dim
+from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.widgets.labels import text
+from pigaming_app.ui.draw.text import text, word
 
 FIRST = 50  # matches that the plot has room for in the beginning; it doubles
 HANDMADE = 0.5  # how often one wins against one like itself

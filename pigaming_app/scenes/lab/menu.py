@@ -1,48 +1,21 @@
 """What else there is to do in the Lab: save the robot, open another one, compare, begin from nothing."""
 
-from typing import Protocol
-
 import pygame
 
-from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.lab.trainer import Workshop
+from pigaming_app.scenes.lab.bench import IDLE, Bench, behind
+from pigaming_app.scenes.lab.compare_page import Compare
+from pigaming_app.scenes.lab.name_page import Naming
+from pigaming_app.scenes.lab.open_page import Shelf
 from pigaming_app.scenes.play.pause import items, title
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import Pane, word
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
+from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.text import word
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
 
 ITEMS = ("save", "open", "compare", "anew")
-IDLE = 90.0  # seconds without a press until the Lab
-DARK = 72  # of 255: how bright the Lab is behind a page
-
-
-class Bench(Protocol):
-    """The Lab below a page."""
-
-    house: House
-    workshop: Workshop
-    name: str
-
-    def draw(self, screen: pygame.Surface) -> None:
-        """Paint it."""
-
-    def say(self, sentence: str, wrong: bool = False) -> None:
-        """Show a sentence for a while."""
-
-    def begin(self) -> None:
-        """Everything from an empty table."""
-
-
-def behind(lab: Bench) -> pygame.Surface:
-    """The Lab as it lies behind a page."""
-    canvas = pygame.Surface((1920, 1080))
-    lab.draw(canvas)
-    canvas.fill((DARK, DARK, DARK), special_flags=pygame.BLEND_RGB_MULT)
-    return canvas
 
 
 class LabMenu:
@@ -53,7 +26,7 @@ class LabMenu:
         self.sure = False  # the next press on it forgets everything
         self.picture: pygame.Surface | None = None
         self.focus = Focus(items(ITEMS))
-        self.prompts = Prompts(self.house, [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+        self.prompts = self.house.prompts([(Act.FIRE, "pause.hint_ok"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -88,10 +61,6 @@ class LabMenu:
         self.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:
-        from pigaming_app.scenes.lab.compare_page import Compare
-        from pigaming_app.scenes.lab.name_page import Naming
-        from pigaming_app.scenes.lab.open_page import Shelf
-
         self.house.sounds.play("accept")
         match name:
             case "save":

@@ -5,15 +5,15 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.menu import IDLE, Bench
+from pigaming_app.scenes.lab.bench import IDLE, Bench
 from pigaming_app.scenes.lab.saved_robots import NotKept, fetch, file_of, names
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, fitted, span
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut
+from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, heading, text
+from pigaming_app.ui.widgets.labels import blacked, heading
 
 COLUMNS, ROWS = 3, 4
 TOP, HIGH, PITCH = 236, 140, 164
@@ -28,7 +28,7 @@ class Shelf:
         self.names = names()
         self.page, self.age = 0, 0.0
         self.focus = Focus(self._spots())
-        self.prompts = Prompts(self.house, self._hints())
+        self.prompts = self.house.prompts(self._hints())
 
     def entered(self) -> None:
         """Nothing to begin."""

@@ -20,9 +20,8 @@ from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.trainer import Workshop
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, Shown, speed_at, warming
 from pigaming_app.scenes.play.scene import new_seed
-from pigaming_app.ui.draw.ink import ALARM, FOCUS
+from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.focus import Focus, Spot
 
@@ -53,8 +52,7 @@ class Lab:
         self.sentence, self.wrong = "", False
         self.focus = Focus([Spot("speed", SPEED), Spot("play", PLAY)]
                            + [Spot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
-        self.prompts = Prompts(
-            house,
+        self.prompts = house.prompts(
             [
                 (Act.FIRE, "lab.hint_choose"),
                 (Act.EXTRA, "lab.hint_play"),
@@ -64,7 +62,7 @@ class Lab:
             ],
             PROMPTS_Y,
         )
-        self.turning = Prompts(house, [(Act.RIGHT, "lab.hint_turn"), (Act.FIRE, "lab.hint_done")], PROMPTS_Y)
+        self.turning = house.prompts([(Act.RIGHT, "lab.hint_turn"), (Act.FIRE, "lab.hint_done")], PROMPTS_Y)
 
     # ---- what happens to it
 

@@ -12,10 +12,10 @@ import threading
 from collections.abc import Callable
 from time import monotonic, perf_counter, sleep
 
+from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.experiments.evaluation import compile_all
 from pigaming_app.ai.experiments.training import Checkpoint, Training
 from pigaming_app.ai.qlearning.rewards import Recipe
-from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.scenes.lab.progress import Moment, Progress
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ

@@ -31,8 +31,7 @@ from pigaming_app.scenes.lab.layout import (
 )
 from pigaming_app.scenes.lab.learning_curve import Curve, Measure
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BLUE,
     BODY,
     FOCUS,
@@ -55,9 +54,11 @@ from pigaming_app.ui.draw.ink import (
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, fitted
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import Lit, Pane, backdrop
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import balanced, fitted
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.labels import blacked, stamp
 
@@ -172,7 +173,7 @@ def _named(page: Page, name: str, box: pygame.Rect) -> None:
 
 def _saying(page: Page, said: str, x: float) -> None:
     """What the Lab is about, in two lines beside its title, where there is room."""
-    lines = balanced(said)
+    lines = balanced(said, 2)
     if all(text_width(line, BODY, "body") <= MATCH.right - x for line in lines):
         for i, line in enumerate(lines):
             page.body(line, x, TITLE_Y + 24 * (2 * i + 1 - len(lines)), MIST)
@@ -253,7 +254,7 @@ def speed_at(x: float) -> int:
 def knob_name(said: str, focus: bool) -> Lit:
     """What a knob turns, in two lines at most below it; round the middle of the knob."""
     color: Color = FOCUS if focus else ICE
-    lines = balanced(said)
+    lines = balanced(said, 2)
     pane = Pane(-104, 60, 208, 90)
     for i, line in enumerate(lines):
         y = 84 + 40 * i + (20 if len(lines) == 1 else 0)
@@ -261,21 +262,12 @@ def knob_name(said: str, focus: bool) -> Lit:
     return pane.done()
 
 
-def balanced(said: str) -> list[str]:
-    """A text of a few words in one or two lines, as equal as they can be."""
-    parts = said.split()
-    if len(parts) < 2:
-        return parts
-    cuts = [(" ".join(parts[:i]), " ".join(parts[i:])) for i in range(1, len(parts))]
-    return list(min(cuts, key=lambda lines: max(text_width(line, BODY, "body") for line in lines)))
-
-
 @cached
 def warming(said: str) -> Lit:
     """What is being waited for, beside a clock: above the middle of the plot, where no curve comes so early."""
     pane = Pane(PLOT.x, PLOT.y - 10, PLOT.w, 92)
     icon(pane.page.cold, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
-    for i, line in enumerate(balanced(said)):
+    for i, line in enumerate(balanced(said, 2)):
         size = fitted(line, BODY, PLOT.w - 92, "body")
         pane.page.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
     return pane.done()

@@ -1,6 +1,6 @@
 """Another game for the same people: a tile for each game. Whoever played keeps the seat and the device."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import pygame
 
@@ -8,30 +8,31 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.rule_texts import kept_goal, tagline
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.scenes.title.scene import TILE_H, tile, tile_rect
+from pigaming_app.scenes.flow.match_words import kept_goal, tagline
+from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Turn
+from pigaming_app.scenes.views.game_tile import TILE_H, tile, tile_rect
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
 from pigaming_app.ui.widgets.labels import blacked, heading
 
 IDLE = 60.0  # seconds without a press until the title
 DOWN = (1080 - TILE_H) // 2 - tile_rect(0).y + 20  # px by which the tiles stand lower than on the title
 
+LobbyOf = Callable[[House, str, Sequence[Device | str | None]], Scene]  # for a game, with these drivers
+
 
 class GameChoice:
     """The page after a match of `setup`, whose seats were driven with `devices`; the next game has the focus."""
 
-    def __init__(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> None:
-        self.house, self.setup, self.devices = house, setup, list(devices)
+    def __init__(self, house: House, setup: Setup, devices: Sequence[Device | None], lobby: LobbyOf) -> None:
+        self.house, self.setup, self.devices, self.lobby = house, setup, list(devices), lobby
         self.access = Access(house, lambda: self.devices)
         names = list(games())
         after = names[(names.index(setup.game) + 1) % len(names)]
         self.focus = Focus([Spot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(names)], after)
         hints = [(Act.FIRE, "choice.hint_ok"), (Act.BACK, "choice.hint_back")]
-        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
+        self.prompts = house.prompts(hints, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -73,11 +74,9 @@ class GameChoice:
 
     def _open(self, game: str) -> Turn:
         """The lobby of a game, with everybody seated whose device is there, and the AIs."""
-        from pigaming_app.scenes.lobby.scene import Lobby
-
         self.house.sounds.play("accept")
         drivers: list[Device | str | None] = []
         for device, seat in zip(self.devices, self.setup.seats, strict=True):
             here = device if device and self.house.controls.connected(device) else None
             drivers.append(here or (None if seat.brain in ("human", "off") else seat.brain))
-        return Home(Lobby(self.house, game, drivers))
+        return Home(self.lobby(self.house, game, drivers))

@@ -10,30 +10,29 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.flow.match_choice import chosen, load_kept, playable, title
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Pop, Push, Turn
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, Seats
 from pigaming_app.scenes.results.high_score_tables import contest, table_of, told
+from pigaming_app.scenes.results.scene import After
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.sprites import effects
-from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.settings import Choice, folders
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import PLAYERS
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, heading
+from pigaming_app.ui.widgets.labels import blacked, frame, heading
 
 IDLE = 60.0  # seconds without a press until the title
 DEAF = 0.35  # seconds in which nobody can begin: the press that said "ready" may be hammered
@@ -49,10 +48,10 @@ log = logging.getLogger(__name__)
 
 
 class SetupPage:
-    """The choice of the match that `seats` are going to play."""
+    """The choice of the match that `seats` are going to play. `game_choice`: see `Results`."""
 
-    def __init__(self, house: House, game: str, seats: Seats) -> None:
-        self.house, self.game, self.seats = house, games()[game], seats
+    def __init__(self, house: House, game: str, seats: Seats, game_choice: After | None = None) -> None:
+        self.house, self.game, self.seats, self.game_choice = house, games()[game], seats, game_choice
         self.arenas = playable(game)
         self.chosen = chosen(house, game)
         self.rows = rows(self.game)
@@ -60,8 +59,8 @@ class SetupPage:
         self.access = Access(house, seats.devices)
         self.going = False  # a match was asked for
         hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
-        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
         self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
+        self.navigation = Navigation(house, self.focus, hints, IDLE, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
@@ -70,7 +69,7 @@ class SetupPage:
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
-        admitted = self.access.admit(self.prompts.meant(press))
+        admitted = self.access.admit(self.navigation.prompts.meant(press))
         if admitted is None or self.going:
             return None
         press = admitted
@@ -79,15 +78,11 @@ class SetupPage:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
             case Act.FIRE | Act.START:
                 return self._go() if self.clock > DEAF else None
-            case Act.BACK:
-                self.house.sounds.play("back")
-                return Pop()
             case Act.CLICK:
                 self.focus.on(press)
                 return self._click(press)
             case _:
-                if self.focus.on(press):
-                    self.house.sounds.play("move")
+                return self.navigation.on(press)
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -99,10 +94,8 @@ class SetupPage:
             self.house.sounds.play("back")
             return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
-        self.focus.update(seconds)
-        if self.going:
-            return self._begin()
-        return Home() if self.house.idle > IDLE else None
+        turn = self.navigation.update(seconds)
+        return self._begin() if self.going else turn
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -117,7 +110,7 @@ class SetupPage:
         self._records(screen)
         choice.meant(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
         self.focus.draw(screen)
-        self.prompts.draw(screen)
+        self.navigation.prompts.draw(screen)
 
     # ---- inside
 
@@ -135,7 +128,7 @@ class SetupPage:
         if not self.house.backstage.ready(self.game.name, self.chosen.arena):
             return None
         setup = replace(self._setup(), seed=new_seed())
-        return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real()))
+        return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real(), game_choice=self.game_choice))
 
     def _setup(self) -> Setup:
         """The match as it is chosen now, without a seed."""
@@ -221,7 +214,7 @@ class SetupPage:
 
     def _picture(self, screen: pygame.Surface) -> None:
         """The arena, coming in from the side, and light where the robots of this match begin."""
-        choice.frame(*FRAME.size).draw(screen, *FRAME.topleft)
+        frame(*FRAME.size).draw(screen, *FRAME.topleft)
         left = (1.0 - self.slid / SLIDE) ** 2
         dx = round(self.way * 160 * left)
         screen.set_clip(FRAME.inflate(-12, -12))
@@ -260,30 +253,6 @@ def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[t
     return [(robot.x, robot.y) for robot in state.robots]
 
 
-@lru_cache(maxsize=32)
-def load_kept(game: str, name: str) -> Arena:
-    """An arena, read once. Raises ArenaError."""
-    return load(game, name)
-
-
-@lru_cache(maxsize=4)
-def playable(game: str) -> tuple[str, ...]:
-    """The arenas of a game whose files are right; what is wrong with the others goes to the log."""
-    names = []
-    for name in arenas(game):
-        try:
-            load_kept(game, name)
-            names.append(name)
-        except ArenaError as trouble:
-            log.warning("%s", trouble)
-    return tuple(names)
-
-
-def title(arena: Arena, language: str) -> str:
-    """What an arena is called."""
-    return arena.title.get(language, arena.name)
-
-
 def rows(game: Game) -> dict[str, pygame.Rect]:
     """Where the rows of a game stand: those in which there is something to choose, and the button."""
     there = {"arena": True, "goal": bool(game.goals), "minutes": len(game.minutes) > 1, "rules": len(game.variants) > 1}
@@ -298,26 +267,3 @@ def rows(game: Game) -> dict[str, pygame.Rect]:
 def beside(values: Sequence[int], value: int, by: int) -> int:
     """The value so many places after another one; the last and the first stop it."""
     return values[max(0, min(len(values) - 1, values.index(value) + by))]
-
-
-def chosen(house: House, game: str) -> Choice:
-    """What was chosen last, or the game's own where that is not there (any more)."""
-    rules, last, names = games()[game], house.settings.choice(game), playable(game)
-    return Choice(
-        arena=last.arena if last.arena in names else names[0],
-        minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
-        variant=last.variant if last.variant in rules.variants else rules.variants[0],
-        goal=last.goal if last.goal in rules.goals else rules.default_goal,
-    )
-
-
-def summary(house: House, game: str) -> str:
-    """Game, minutes or goal, and arena in one line."""
-    words, now = house.words, chosen(house, game)
-    where = title(load_kept(game, now.arena), words.language)
-    return "  ·  ".join((words(f"games.{game}"), measure(words, games()[game], now.minutes, now.goal), where))
-
-
-def measure(words: Words, game: Game, minutes: float, goal: int) -> str:
-    """How long a match is: its laps or pallets, or its minutes."""
-    return words(f"setup.count_{game.goal}", count=goal) if game.goal else words("setup.min", minutes=f"{minutes:g}")

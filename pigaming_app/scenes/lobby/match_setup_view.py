@@ -1,7 +1,6 @@
 """Rows in which something is chosen, and the small things round them, for the page before a match."""
 
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
     ICE,
@@ -15,11 +14,11 @@ from pigaming_app.ui.draw.ink import (
     cut,
     dim,
     icon,
-    panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, lines_of, span
+from pigaming_app.ui.draw.layers import Lit, Pane, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, shrunk_lines
 
 W = span(8, 4)[1]
 PAD = 32  # px between a row's edge and what is in it
@@ -38,8 +37,8 @@ def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
         icon(pane.hot, sign, x, 94, 20, MIST, LINE)
     room = W - 2 * PAD
-    size = next(size for size in range(BODY, 0, -2) if len(lines_of(line, size, room)) <= 2)
-    for i, part in enumerate(lines_of(line, size, room)):
+    size, parts = shrunk_lines(line, room, 2)
+    for i, part in enumerate(parts):
         pane.page.body(part, PAD, 156 + 48 * i, MIST, "l", size)
     return pane.done()
 
@@ -98,16 +97,6 @@ def begin(said: str) -> Lit:
     icon(pane.hot, "right", x - 30, 48, 24, FOCUS, LINE)
     pane.page.text(said, size, W / 2 + 16, 48, FOCUS, "head", "c")
     return pane.done()
-
-
-@cached
-@sliced
-def frame(w: int, h: int) -> Steps[Lit]:
-    """The frame of a picture; upper left at (0, 0)."""
-    pane = Pane(0, 0, w, h)
-    panel(pane.hot, 0, 0, w, h)
-    yield
-    return (yield from pane.lighting())
 
 
 @cached

@@ -16,9 +16,11 @@ from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.robot_session import unfit
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.match_choice import chosen, summary
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.lobby import seat_card as card
-from pigaming_app.scenes.lobby.match_setup import SetupPage, chosen, summary
+from pigaming_app.scenes.lobby.game_choice import GameChoice
+from pigaming_app.scenes.lobby.match_setup import SetupPage
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES, Seats
 from pigaming_app.scenes.lobby.view import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.play.runner import Stage
@@ -171,7 +173,7 @@ class Lobby:
     def _go(self) -> Turn:
         self.now.starting = None
         self.house.sounds.play("accept")
-        return Push(SetupPage(self.house, self.game, self.seats))
+        return Push(SetupPage(self.house, self.game, self.seats, game_choice))
 
     def _back(self, device: Device) -> Turn:
         """Not ready after all; then out of the seat; then back to the title."""
@@ -284,3 +286,8 @@ class Lobby:
     def _say(self, message: str, sound: str) -> None:
         self.now.message, self.now.label, self.now.said = message, "", SAID
         self.house.sounds.play(sound)
+
+
+def game_choice(house: House, setup: Setup, devices: Sequence[Device | None]) -> GameChoice:
+    """The choice of another game after a match; it leads to a lobby."""
+    return GameChoice(house, setup, devices, Lobby)

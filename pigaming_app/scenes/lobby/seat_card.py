@@ -7,10 +7,9 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from pigaming_app.scenes.title.logo import seat_robot
 from pigaming_app.scenes.views.sprites.factory import TEAMS, emblem
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.scenes.views.sprites.robot import seat_robot
+from pigaming_app.ui.draw import (
     ARROWS,
     BODY,
     FOCUS,
@@ -35,19 +34,19 @@ from pigaming_app.ui.draw.ink import (
     shape_points,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, span
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
+from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 
-W, H = span(0, 3)[1], 600
-MIDDLE = W / 2
 ROBOT = (268, 2.1, 130)  # middle, scale, radius of the turntable
 ROBOT_IN_TEAM = (236, 1.7, 106)  # with one row below it
 ROBOT_LOW = (204, 1.25, 78)  # with two
 REAL_Y = 316
-TEAM_Y, DEVICE_Y, BAR_Y = 378, 444, 538
-BAR = (24, 500, W - 48, 76)
+TEAM_Y, DEVICE_Y = 378, 444
 PLUS_Y, OUTLINE = 256, 80  # middle and size of the shape on an empty seat
 ASKS_Y, BUTTONS_Y, BUTTON_PITCH, GAP = 398, 502, 66, 12
 SPOKES, TURNS = 5, 8  # arcs of a turntable, and how many positions are kept between two of them
@@ -122,31 +121,6 @@ def driver(sign: str, name: str) -> Lit:
             icon(pane.hot, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
     else:
         pane.page.body(name, 136, DEVICE_Y, ICE, "l", fitted(name, BODY, W - 160, "body"))
-    return pane.done()
-
-
-@cached
-def ready(player: int, said: str) -> Lit:
-    """The bar of somebody who is ready."""
-    pane, color = Pane(*BAR), PLAYERS[player]
-    pane.hot.fill(cut(*BAR, 14), dim(color, 0.28)).line(cut(*BAR, 14), color, THIN, True)
-    size = fitted(said, LABEL, W - 150)
-    icon(pane.hot, "check", MIDDLE - text_width(said, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
-    pane.page.text(said, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
-    return pane.done()
-
-
-@cached
-def asked(label: str, said: str, level: int) -> Lit:
-    """The bar of somebody who has to press a button to be ready."""
-    if level < LEVELS:
-        return dimmed(asked(label, said, LEVELS), level / LEVELS)
-    wide = button_width(label)
-    size = fitted(said, BODY, W - 40 - wide - 18, "body")
-    x = MIDDLE - (wide + 18 + text_width(said, size, "body")) / 2
-    pane = Pane(*BAR)
-    pane.page.body(said, x, BAR_Y, ICE, "l", size)
-    button(pane.page, x + text_width(said, size, "body") + 18, BAR_Y, label, FOCUS)
     return pane.done()
 
 

@@ -11,7 +11,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, PLACES, Seats
-from pigaming_app.ui.draw.ink import FOCUS, LABEL, dim
+from pigaming_app.ui.draw import FOCUS, LABEL, dim
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.i18n import Words
@@ -19,6 +19,7 @@ from pigaming_app.ui.input.events import Act
 from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Spot
 from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse, stamp
+from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, asked, ready
 
 TOP, MESSAGE_Y, LINE_Y = 216, 884, 932
 ROLL_IN = 0.35  # seconds in which a robot comes onto its turntable
@@ -73,7 +74,7 @@ class LobbyPage:
         ]
         if self.seats.sides == FREE:
             hints.append((Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
-        return Prompts(self.house, [*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
+        return self.house.prompts([*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
 
     @property
     def invited(self) -> tuple[str, ...]:
@@ -114,10 +115,10 @@ class LobbyPage:
         if place.kind == AI:
             card.strength(words(f"lobby.{place.strength}"), self.seats.teams).draw(screen, x, y)
         elif place.ready:
-            card.ready(seat, words("lobby.ready")).draw(screen, x, y)
+            ready(seat, words("lobby.ready")).draw(screen, x, y)
         else:
             label = words.printed(self.house.controls.label(place.device, Act.FIRE))
-            card.asked(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
+            asked(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
 
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
         place, (x, y) = self.seats.places[seat], card_rect(seat).topleft
@@ -125,12 +126,12 @@ class LobbyPage:
         middle_y, scale, r = (card.ROBOT, card.ROBOT_IN_TEAM, card.ROBOT_LOW)[rows]
         speed = 14 if place.ready else 3
         turn = int(self.now.clock * speed) % card.TURNS
-        card.turntable(seat, turn, place.ready, r).draw(screen, round(x + card.MIDDLE), y + middle_y)
+        card.turntable(seat, turn, place.ready, r).draw(screen, round(x + MIDDLE), y + middle_y)
         coming = max(0.0, 1.0 - self.now.since[seat] / ROLL_IN) ** 2
         hop = 8 * abs(math.sin(self.now.clock * 7 + seat)) if place.ready else 0.0
         look = 0.0 if place.ready else glance(self.now.clock, seat)
         sprite = card.robot(seat, step(card.UP + look, HEADINGS), scale)
-        stamp(screen, sprite, x + card.MIDDLE, y + middle_y + 120 * coming - hop)
+        stamp(screen, sprite, x + MIDDLE, y + middle_y + 120 * coming - hop)
 
     def _message(self, screen: pygame.Surface) -> None:
         words, waiting = self.house.words, self.seats.waiting
@@ -159,12 +160,12 @@ def spots(seats: Seats) -> list[Spot]:
         x, y = card_rect(seat).topleft
         if place.kind == AI:
             found.append(Spot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
-            found.append(Spot(f"stronger {seat}", pygame.Rect(x + card.W - 124, y + 500, 100, 76)))
+            found.append(Spot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
         if seats.teams and place.kind != EMPTY:
-            found.append(Spot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, card.W - 48, 68)))
+            found.append(Spot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
         if seats.mat and place.kind != EMPTY:
             middle = card.REAL_Y if seats.teams else card.TEAM_Y
-            found.append(Spot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, card.W - 48, 60)))
+            found.append(Spot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
     return [*found, *(Spot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
 
 
@@ -178,7 +179,7 @@ def problem(seats: Seats, words: Words) -> str:
 def card_rect(seat: int) -> pygame.Rect:
     """Where a seat's card is."""
     x, w = span(3 * seat, 3)
-    return pygame.Rect(x, TOP, w, card.H)
+    return pygame.Rect(x, TOP, w, H)
 
 
 def glance(seconds: float, seat: int) -> float:

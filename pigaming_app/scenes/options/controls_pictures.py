@@ -5,7 +5,7 @@ A card is W x H px, its upper left at (0, 0).
 
 import pygame
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ARROWS,
     BODY,
     FOCUS,
@@ -23,8 +23,9 @@ from pigaming_app.ui.draw.ink import (
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, span
+from pigaming_app.ui.draw.layers import Lit, Pane, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.input.events import Act
 
 W, H = span(0, 3)[1], 340

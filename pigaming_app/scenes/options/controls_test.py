@@ -13,7 +13,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.options import controls_pictures as gadgets
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw.ink import ADD, ICE
+from pigaming_app.ui.draw import ADD, ICE
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.input.events import Act, Device, Drive, Press
@@ -96,7 +96,7 @@ class PadTest:
 
     def _prompts(self) -> Prompts:
         pad = self.house.controls.last.kind == "pad"
-        return Prompts(self.house, [(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
+        return self.house.prompts([(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
     def _leave(self) -> Turn:
         self.house.sounds.play("back")

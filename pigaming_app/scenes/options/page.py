@@ -5,26 +5,27 @@ In a kiosk the page offers only what children may touch; the operator's page off
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 
 import pygame
 
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Turn
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, Quit, Turn
+from pigaming_app.scenes.options import pictures
 from pigaming_app.scenes.views.race.ghost_files import forget
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import LABEL
 from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.ink import LABEL
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.input.hold import Holds
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, calling, glow_bar, heading
+from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading
+from pigaming_app.ui.widgets.setting_row import Value
 
 IDLE = 90.0  # seconds without a press until the title
 SAID = 3.0  # seconds for which a sentence stays
@@ -37,15 +38,6 @@ TOP, BOTTOM, HIGH = 240, 908, 64
 log = logging.getLogger("pigaming")
 
 
-@dataclass(frozen=True)
-class Value:
-    """What a row shows: options of which one is lit, a number of ten, a text between arrows, or a thing to do."""
-
-    kind: str  # toggle, meter, arrows, deed
-    options: tuple[str, ...]
-    chosen: int = 0
-
-
 class OptionsPage:
     """The options; `operator`: everything, also in a kiosk."""
 
@@ -54,25 +46,21 @@ class OptionsPage:
         self.rows: Sequence[str] = ROWS
         if house.kiosk:
             self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
-        self.clock, self.said, self.sentence = 0.0, 0.0, ""
+        self.clock = 0.0
         self.cleared = False
         self.clearing = Holds(house.controls, CLEAR)
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
         self.ahead = Ahead(self._ahead())
-        self.prompts = Prompts(
-            house, [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
-        )
+        hints = [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Shown, or come back to from the test of the controls."""
 
     def on(self, press: Press) -> Turn:
         """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
-        press = self.prompts.meant(press)
+        press = self.navigation.prompts.meant(press)
         match press.act:
-            case Act.BACK:
-                self.house.sounds.play("back")
-                return Pop()
             case Act.LEFT | Act.RIGHT:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
             case Act.FIRE | Act.START:
@@ -81,9 +69,10 @@ class OptionsPage:
                 self.focus.on(press)
                 return self._click(press)
             case _:
-                if self.focus.on(press):
-                    self.house.sounds.play("move")
+                before, turn = self.focus.name, self.navigation.on(press)
+                if self.focus.name != before:
                     self.clearing.clear()
+                return turn
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -91,10 +80,8 @@ class OptionsPage:
         self.clock += seconds
         if self.clearing.update(seconds):
             self._clear()
-        self.said -= seconds
-        self.focus.update(seconds)
         self.ahead.work(AHEAD)
-        return Home() if self.house.idle > IDLE else None
+        return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -102,27 +89,18 @@ class OptionsPage:
         screen.blit(backdrop(), (0, 0))
         heading(words("options.operator" if self.operator else "options.title")).draw(screen)
         blacked(screen, dials.PANEL)
-        glow_bar(screen, self.focus.box)
-        for i, name in enumerate(self.rows):
-            self._row(screen, i, name, name == focus)
-        dials.beside().draw(screen, *dials.PANEL.topleft)
-        dials.about(screen, words(f"options.{focus}"), words(f"options.{focus}_line"))
-        dials.sketch(screen, focus, self._value(focus).chosen, self.clock)
+        values = {name: self._value(name) for name in self.rows}
+        dials.draw(screen, words, self.focus, "options", values)
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
+        dials.describe(screen, words(f"options.{focus}"), words(f"options.{focus}_line"))
+        pictures.sketch(screen, focus, values[focus].chosen, self.clock)
         if self.clearing.share:
-            dials.ring(screen, self.clearing.share)
-        self.focus.draw(screen)
-        if self.said > 0.0:
-            calling(self.sentence, "", LABEL).draw(screen, 960, 926)
-        self.prompts.draw(screen)
+            pictures.ring(screen, self.clearing.share)
+        if self.navigation.sentence:
+            calling(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
+        self.navigation.prompts.draw(screen)
 
     # ---- what is seen
-
-    def _row(self, screen: pygame.Surface, i: int, name: str, hot: bool) -> None:
-        box, value = self._box(i), self._value(name)
-        dials.label(self.house.words(f"options.{name}"), hot).draw(screen, box.x + 40, box.centery)
-        dials.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
-        if i and box.y > self._box(i - 1).bottom:
-            dials.rule(box.w).draw(screen, box.x, (box.y + self._box(i - 1).bottom) // 2)
 
     def _box(self, i: int) -> pygame.Rect:
         """Where the i-th row is."""
@@ -137,8 +115,8 @@ class OptionsPage:
         for name in self.rows:
             yield partial(dials.label, words(f"options.{name}"), True)
             yield partial(self._piece, name)
-            yield partial(dials.told, words(f"options.{name}"), words(f"options.{name}_line"))
-            yield partial(dials.drawn, name, self._value(name).chosen)
+            yield partial(dials.description, words(f"options.{name}"), words(f"options.{name}_line"))
+            yield partial(pictures.drawn, name, self._value(name).chosen)
 
     def _piece(self, name: str) -> object:
         value = self._value(name)
@@ -251,4 +229,4 @@ class OptionsPage:
                 self.house.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.sentence, self.said = self.house.words("app.unsaved"), SAID
+            self.navigation.say(self.house.words("app.unsaved"))

@@ -7,8 +7,8 @@ from itertools import cycle
 
 import pygame
 
+from pigaming_app.ui.draw import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
 from pigaming_app.ui.draw.frame_budget import Job, Steps, sliced
-from pigaming_app.ui.draw.ink import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
 from pigaming_app.ui.draw.sprites import Sprite, faded, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.theme import CAPITALS

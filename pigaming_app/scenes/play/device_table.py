@@ -8,11 +8,11 @@ import pygame
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.ui.draw.frame_budget import Steps, budget
-from pigaming_app.ui.draw.ink import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 
 TOP, PITCH, HIGH = 236, 164, 140
 NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
@@ -26,7 +26,7 @@ class DeviceTable:
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[Lit] = []
         self.making = self._make()
-        self.prompts = Prompts(house, [(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
+        self.prompts = house.prompts([(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""

@@ -16,7 +16,7 @@ from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, Turn
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     FOCUS,
     ICE,
@@ -31,10 +31,10 @@ from pigaming_app.ui.draw.ink import (
     button_width,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, word
+from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, word
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay
 from pigaming_app.ui.widgets.focus import Focus, Spot
@@ -95,7 +95,7 @@ class Pause:
         self.sure = self.waits = 0.0
         self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Quiet."""

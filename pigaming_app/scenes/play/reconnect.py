@@ -8,11 +8,11 @@ import pygame
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import Held, Pause, title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.ui.draw.ink import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
-from pigaming_app.ui.draw.layers import Lit, Pane, fitted, lines_of, word
+from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
+from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted, lines_of, word
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 
 WAIT = 15.0  # seconds
@@ -44,7 +44,7 @@ class Reconnect:
         self.age, self.found = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
         hints = [(Act.EXTRA, "pause.hint_ai"), (Act.BACK, "pause.hint_menu")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
@@ -113,7 +113,7 @@ class StillThere:
         self.match, self.house = match, match.house
         self.age = 0.0
         self.picture: pygame.Surface | None = None
-        self.prompts = Prompts(self.house, [(Act.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
+        self.prompts = self.house.prompts([(Act.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
 
     def entered(self) -> None:
         """Ask."""

@@ -8,7 +8,7 @@ from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.side_hints import Column, note
 from pigaming_app.sim.world import DT
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LABEL, STEEL
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
@@ -95,7 +95,7 @@ class ReplayScene:
         if not self.ended:
             fire = "replay.hint_pause" if self.playing else "replay.hint_play"
             hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
-        return Prompts(self.house, hints)
+        return self.house.prompts(hints)
 
     @property
     def ended(self) -> bool:

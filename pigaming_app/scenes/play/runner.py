@@ -13,16 +13,16 @@ from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.timestep import Pace
-from pigaming_app.scenes.views import VIEWS
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.events import Act, Device
 from pigaming_app.ui.widgets.caption import Plate, plate
 
 BEHIND = 72  # of 255: how bright a match is behind a page
 LAST = 10  # seconds before the end in which each second is heard
-LEFT, TOP = 160, 140  # of the arena on the canvas
 BESIDE = 104  # px from a robot to what is said about it
 
 

@@ -18,23 +18,22 @@ from pigaming_app.ai.brain.kind import Hands
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.rule_texts import tagline
+from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, Swap, Turn
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
 from pigaming_app.scenes.play.idle_seats import WalkOff
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.runner import Stage
-from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.scene import After, Results
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
 from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, LABEL, PLAYERS
-from pigaming_app.ui.draw.layers import lines_of
+from pigaming_app.ui.draw.text import lines_of, text
 from pigaming_app.ui.input.events import Act, Device, Drive, Press
 from pigaming_app.ui.input.hold import Holds
 from pigaming_app.ui.widgets.caption import RING_STEPS, Plate, filling, plate
-from pigaming_app.ui.widgets.labels import text
 
 LEAD = 0.8  # seconds in which one looks round before the countdown
 RESUME = 0.5  # seconds for each number after an interruption
@@ -49,7 +48,7 @@ class MatchScene:
     """One match, from its countdown to its results. `devices`: who drives each seat; None: an AI, or nobody yet.
 
     `humans`: the seats of people, of whom some may be away; `helped`: those for whom an AI has driven for a while;
-    `open`: whether a free device may take the seat of an AI.
+    `open`: whether a free device may take the seat of an AI. `game_choice`: see `Results`.
     """
 
     def __init__(
@@ -59,8 +58,9 @@ class MatchScene:
         devices: Sequence[Device | None] = (),
         speed: float = 1.0,
         plant: Callable[[Any], Plant] = SimPlant,
+        game_choice: After | None = None,
     ) -> None:
-        self.house, self.setup, self.speed = house, setup, speed
+        self.house, self.setup, self.speed, self.game_choice = house, setup, speed, game_choice
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = seated(setup, plant)
@@ -228,7 +228,7 @@ class MatchScene:
 
     def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck."""
-        return MatchScene(house, anew(setup, devices), devices)
+        return MatchScene(house, anew(setup, devices), devices, game_choice=self.game_choice)
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
@@ -319,7 +319,14 @@ class MatchScene:
             finished = self.match.over and not self.stopped
             helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
             self.results = Results(
-                self.house, self.match.outcome(), self.setup, self.devices, self.again, finished, helped
+                self.house,
+                self.match.outcome(),
+                self.setup,
+                self.devices,
+                self.again,
+                finished,
+                helped,
+                self.game_choice,
             )
             if finished:
                 self.house.sounds.play("go")

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import pygame
 
-from pigaming_app.scenes.play.runner import LEFT
+from pigaming_app.scenes.views.background import LEFT
 from pigaming_app.sim.world import WIDTH
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, MIST, button, button_width, text_width
-from pigaming_app.ui.draw.layers import Lit, Pane, lines_of
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, button, button_width, text_width
+from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import lines_of
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.button_prompts import Prompts
 

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.scenes.views.sprites.effects import SPARK_LEVELS, SPARK_SIZES, SPARK_TURNS, sparks
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw.ink import PLAYERS
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.layers import LEFT, RIGHT
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 

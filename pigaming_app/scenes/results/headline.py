@@ -6,7 +6,7 @@ from pigaming_app.ai import RIVALS
 from pigaming_app.games.game import PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.sprites.factory import TEAMS
-from pigaming_app.ui.draw.ink import ICE, PLAYERS, Color
+from pigaming_app.ui.draw import ICE, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
 
 

@@ -9,17 +9,18 @@ import pygame
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.match_choice import load_kept, playable, title
+from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lobby.match_setup import load_kept, measure, playable, title
 from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, older_boards, told
 from pigaming_app.storage.scores import Score, Table
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
 from pigaming_app.ui.draw.layers import RIGHT, Lit, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.labels import heading, sign, text
+from pigaming_app.ui.widgets.labels import heading, sign
 
 ROWS = 8
 WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px
@@ -40,7 +41,7 @@ class Best:
         self.shelf = [one for one in contests(house.scores) if one.arena in playable(one.game)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
-        self.prompts = Prompts(house, [(Act.FIRE, "results.on")])
+        self.prompts = house.prompts([(Act.FIRE, "results.on")])
 
     @property
     def game(self) -> str:

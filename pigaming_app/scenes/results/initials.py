@@ -17,15 +17,15 @@ from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.results import initials_view as page
 from pigaming_app.scenes.results.high_score_tables import contest, counts, table_of, told
 from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, Table
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import FOCUS, LABEL
 from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.ink import FOCUS, LABEL
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse
-from pigaming_app.ui.widgets.letter_picker import Spelling
 
 TOP = 8  # places of today's best, and of the best ever, for which letters are asked
 SECONDS = 10.0  # for all players together
@@ -155,7 +155,7 @@ class Initials:
         if spelling.refused:
             page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
             return
-        key = "done" if spelling.slot == 2 else "next_letter"
+        key = "done" if spelling.last else "next_letter"
         label = words.printed(self.house.controls.label(claim.device, Act.FIRE))
         page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 

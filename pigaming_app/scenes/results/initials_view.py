@@ -4,11 +4,9 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.lobby.seat_card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
+from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.storage.scores import LETTERS
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ADD,
     ALARM,
     BODY,
@@ -22,15 +20,16 @@ from pigaming_app.ui.draw.ink import (
     THIN,
     TITLE,
     badge,
-    brackets,
     cut,
-    icon,
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import RIGHT, Lit, Pane, fitted, word
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import RIGHT, Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.widgets.letter_picker import ROLL, Spelling
+from pigaming_app.ui.draw.text import fitted, word
+from pigaming_app.ui.widgets.letter_picker import cursor, draw_letters
+from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
 
 __all__ = ["asked", "clock", "corners", "frame", "letters", "panel_at", "ready", "refused"]
 
@@ -79,14 +78,12 @@ def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) 
 def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> None:
     """The three letters of a player, whose panel begins at x, and the corners round the one that is chosen."""
     shake = 10 * math.sin(spelling.shaking * 50) if spelling.refused else 0.0
-    for i, letter in enumerate(spelling.letters):
-        here = i == spelling.slot and not spelling.done
-        roll = spelling.rolled * 40 * max(0.0, 1 - spelling.rolling / ROLL) if here else 0.0
-        color = FOCUS if here else PLAYERS[seat]
-        at = x + slot_x(i) + shake, TOP_Y + LETTERS_Y + roll
-        word(LETTERS[letter], TITLE, color).draw(screen, *at)
+    xs = [x + slot_x(i) + shake for i in range(3)]
+    draw_letters(screen, spelling.picker, xs, TOP_Y + LETTERS_Y, TITLE, 40, PLAYERS[seat], not spelling.done)
     if not spelling.done:
-        chosen().draw(screen, x + slot_x(spelling.slot), TOP_Y + LETTERS_Y)
+        arrows = (ARROW_Y, 18, ARROW_Y + 30)
+        lit = cursor(SLOT_W, SLOT_H, 20, 14, LINE, arrows)
+        lit.draw(screen, x + slot_x(spelling.picker.slot), TOP_Y + LETTERS_Y)
 
 
 @cached
@@ -107,13 +104,3 @@ def clock(screen: pygame.Surface, left: float, whole: float) -> None:
     image, dx, dy = timer_ring(FOCUS, 4 * math.ceil(12 * left / whole), 46, LINE)
     screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=ADD)
     word(str(math.ceil(left)), LABEL, FOCUS, "head").draw(screen, *RING)
-
-
-@cached
-def chosen() -> Lit:
-    """The corners round the letter that is chosen, and what changes it; round (0, 0)."""
-    pane = Pane(-SLOT_W / 2 - 20, -ARROW_Y - 30, SLOT_W + 40, 2 * ARROW_Y + 60)
-    brackets(pane.hot, -SLOT_W / 2, -SLOT_H / 2, SLOT_W, SLOT_H, FOCUS, 20, 14, LINE)
-    for side, name in ((-1, "up"), (1, "down")):
-        icon(pane.hot, name, 0, side * ARROW_Y, 18, FOCUS, LINE)
-    return pane.done()

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw.ink import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix, text_width
 from pigaming_app.ui.draw.layers import Lit, Pane
 
 Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 import pygame
 
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut, dim, icon, text_width
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut, dim, icon, text_width
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Device

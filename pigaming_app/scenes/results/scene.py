@@ -13,16 +13,14 @@ from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, Swap, Turn
-from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.scenes.results.initials import Initials, claims
 from pigaming_app.scenes.results.rematch_vote import Ballot
 from pigaming_app.scenes.results.view import ResultsPage
-from pigaming_app.ui.draw.ink import FOCUS
+from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.input.hold import Holds
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
 
 DEAF = 2.5  # seconds in which presses are ignored
@@ -31,12 +29,13 @@ SAID = 3.0  # seconds for which a sentence stays
 CLAIMS = 2.6  # seconds before initials are asked for
 IDLE = 60.0  # seconds without a press until the title
 
-Again = Callable[[House, Setup, Sequence[Device | None]], Scene]
+After = Callable[[House, Setup, Sequence[Device | None]], Scene]  # what follows a match, driven with these devices
 
 
 class Results:
     """How a match ended. `devices`: who drove each seat; `finished`: it was played to its end.
 
+    `again`: makes the rematch; `game_choice`: makes the page that offers another game, if any.
     `helped`: the seats that were not driven by the same person all the time; what they scored is no record.
     """
 
@@ -46,11 +45,12 @@ class Results:
         outcome: Outcome,
         setup: Setup,
         devices: Sequence[Device | None],
-        again: Again,
+        again: After,
         finished: bool = True,
         helped: Collection[int] = (),
+        game_choice: After | None = None,
     ) -> None:
-        self.house, self.setup, self.again = house, setup, again
+        self.house, self.setup, self.again, self.game_choice = house, setup, again, game_choice
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = Ballot(house, seats, humans, devices)
@@ -65,11 +65,11 @@ class Results:
         self.leaving, self.joining = Holds(house.controls, LEAVE), Holds(house.controls, TAKE)
         hints = [
             (Act.FIRE, "results.again"),
-            (Act.EXTRA, "results.change"),
+            *([(Act.EXTRA, "results.change")] if game_choice else []),
             (Act.ALT, "results.scores"),
             (Act.BACK, "results.menu"),
         ]
-        self.prompts = Prompts(house, hints, voice=lambda: self.access.voice)
+        self.prompts = house.prompts(hints, voice=lambda: self.access.voice)
 
     def warm(self, milliseconds: float) -> bool:
         """Make the page for so long; true when all of it is there."""
@@ -94,9 +94,9 @@ class Results:
         match admitted.act:
             case Act.START | Act.FIRE:
                 return self._rematch(everyone=True)
-            case Act.EXTRA:
+            case Act.EXTRA if self.game_choice:
                 self.house.sounds.play("accept")
-                return Push(GameChoice(self.house, self.setup, self.ballot.devices))
+                return Push(self.game_choice(self.house, self.setup, self.ballot.devices))
             case Act.ALT:
                 return Push(Best(self.house, contest(self.setup)))
             case Act.BACK if admitted.device.kind == "mouse":

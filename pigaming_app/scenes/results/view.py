@@ -10,14 +10,12 @@ from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.lobby.match_setup import measure
+from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.results.celebration import Finale
 from pigaming_app.scenes.results.headline import headline, winning_color
 from pigaming_app.scenes.results.high_score_tables import boards, clock, contest, told
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
-from pigaming_app.ui.draw.frame_budget import Unfinished, budget
-from pigaming_app.ui.draw.frame_budget import clock as frame_clock
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
     ICE,
@@ -38,7 +36,10 @@ from pigaming_app.ui.draw.ink import (
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, fitted, span
+from pigaming_app.ui.draw.frame_budget import Unfinished, budget
+from pigaming_app.ui.draw.frame_budget import clock as frame_clock
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, span
+from pigaming_app.ui.draw.text import fitted
 
 TOP, ROW, PITCH = 280, 120, 136
 SCORED = ("pitanks",)  # games in which the score itself is a column

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pygame
 
-from pigaming_app.ui.draw.ink import ADD, Point
+from pigaming_app.ui.draw import ADD, Point
 
 Circle = tuple[float, float, float]  # x, y, radius, px on the canvas
 ROOM = pygame.Rect(40, 190, 1840, 850)  # where blocks may stand: below the heading

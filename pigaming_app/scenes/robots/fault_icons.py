@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from pigaming_app.ui.draw.ink import LINE, Color, Ink, cut, regular
+from pigaming_app.ui.draw import LINE, Color, Ink, cut, regular
 
 Draw = Callable[[Ink, float, float, float, Color], None]
 

@@ -3,8 +3,6 @@
 The page goes by itself as soon as all is well again. Whoever has pressed the all-stop holds FIRE to let go of it.
 """
 
-from typing import TYPE_CHECKING
-
 import pygame
 
 from pigaming_app.hardware.control.safety import Fault
@@ -12,18 +10,16 @@ from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Swap, Turn
 from pigaming_app.scenes.play.pause import Pause, title
 from pigaming_app.scenes.robots.fault_icons import sign
+from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
-from pigaming_app.ui.draw.layers import Pane, fitted, lines_of
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
+from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.text import fitted, write
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import Plate, plate
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, overlay
-
-if TYPE_CHECKING:
-    from pigaming_app.scenes.robots.match_scene import RealMatch
 
 IDLE = 600.0  # seconds without a press until the title
 HOLD = 1.0  # s for which FIRE is held to let go of the all-stop
@@ -35,15 +31,15 @@ RING = X + 150, FOOT - 96
 class Trouble:
     """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
 
-    def __init__(self, match: "RealMatch", stopper: Device | None = None) -> None:
+    def __init__(self, match: InterruptedMatch, stopper: Device | None = None) -> None:
         self.match, self.house, self.stopper = match, match.house, stopper
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
         hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
         mending = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry")]
-        self.mending = Prompts(self.house, mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
+        self.mending = self.house.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
@@ -140,22 +136,13 @@ class Trouble:
             ending = words("mat.goes_on")
             pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
         fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
-        y = write(pane, named(first, words, fire), HEAD + 56, ICE)
+        y = write(pane, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         cause = cause_of(self.match.plant.rig, first.name)
         if cause:
-            y = write(pane, words.sentence(cause), y + 8, MIST)
+            y = write(pane, words.sentence(cause), TEXT_X, y + 8, ROOM, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
         if others and y < FOOT - 130:
-            write(pane, words("mat.also", other=named(others[0], words, "")), y + 8, MIST)
-
-
-def write(pane: Pane, sentence: str, y: float, color: Color) -> float:
-    """A sentence in lines beside the picture, smaller where it is long; where the next may begin, px."""
-    size = next((one for one in (BODY, 36, 32) if len(lines_of(sentence, one, ROOM)) <= 3), 28)
-    for line in lines_of(sentence, size, ROOM):
-        pane.page.body(line, TEXT_X, y, color, "l", size)
-        y += 1.35 * size
-    return y
+            write(pane, words("mat.also", other=named(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
 
 
 def named(fault: Fault, words: Words, button: str) -> str:

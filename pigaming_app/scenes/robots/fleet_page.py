@@ -8,11 +8,9 @@ import pygame
 from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import unfit
 from pigaming_app.hardware.vision.discovery import cameras
-from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.scenes.lobby.match_setup_view import frame
-from pigaming_app.scenes.options.page import Value
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Turn
 from pigaming_app.scenes.robots.avoid_discs import Aside
 from pigaming_app.scenes.robots.fleet_state import Checkup, worst
 from pigaming_app.scenes.robots.flood_light import Flood
@@ -20,14 +18,15 @@ from pigaming_app.scenes.robots.marker_discs import Discs, tag
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, GREEN, ICE, MIST, Color
+from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
 from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts, places
+from pigaming_app.ui.widgets.button_prompts import places
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import heading, stamp, text
+from pigaming_app.ui.widgets.labels import frame, heading, stamp
+from pigaming_app.ui.widgets.setting_row import Value
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "stock")
@@ -55,13 +54,12 @@ class RobotsPage:
         self.flood = Flood()
         self.flood.level = 0.0
         self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
-        self.focus = Focus(rows.spots(self.names), "pair")
-        self.sentence, self.said, self.anew, self.age = "", 0.0, 0.0, EVERY
+        self.focus = Focus(dials.spots(self.names), "pair")
+        self.anew, self.age = 0.0, EVERY
         self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
-        self.prompts = Prompts(
-            house, [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
-        )
+        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look and listen."""
@@ -73,18 +71,15 @@ class RobotsPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
-        press = self.prompts.meant(self._on_sheet(press))
+        press = self.navigation.prompts.meant(self._on_sheet(press))
         if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
             self.check.stop()
-            self._say(self.house.words("fleet.stopped"))
+            self.navigation.say(self.house.words("fleet.stopped"))
             return None
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
+        if turn := self.navigation.on(press):
+            return turn
         name = self.focus.name
-        if by := rows.pushed(press, self.focus, self._value(name)):
+        if by := dials.pushed(press, self.focus, self._value(name)):
             self._change(name, by, False)
         elif self.focus.chosen(press) and (press.act is not Act.CLICK or self._value(name).kind == "deed"):
             self._do(name)
@@ -93,8 +88,7 @@ class RobotsPage:
     def update(self, seconds: float) -> Turn:
         """Read what there is to read."""
         words = self.house.words
-        self.focus.update(seconds)
-        self.said -= seconds
+        turn = self.navigation.update(seconds)
         self.age += seconds
         if self.anew > 0.0:
             self.anew -= seconds
@@ -104,13 +98,16 @@ class RobotsPage:
         pairing = self.check.pairing is not None
         self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
-            self._found() if pairing else self._say(words("fleet.measured" if self.check.late else "fleet.nobody"))
+            if pairing:
+                self._found()
+            else:
+                self.navigation.say(words("fleet.measured" if self.check.late else "fleet.nobody"))
             self.house.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
             self.lines = [self._read(robot) for robot in range(ROBOTS)]
         self.aside.update(seconds, self._blocks(), self.discs.circles(EVERYBODY) if self.discs else ())
-        return Home() if self.house.idle > IDLE else None
+        return turn
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page in blocks that keep off the discs, and these."""
@@ -136,19 +133,19 @@ class RobotsPage:
     def _blocks(self) -> list[pygame.Rect]:
         """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""
         low = self.focus.spots[-1].rect.bottom
-        ends = places(self.prompts.said, self.prompts.room)
+        ends = places(self.navigation.prompts.said, self.navigation.prompts.room)
         left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
         found = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
             pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
             pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
-            pygame.Rect(left, self.prompts.y - 40, right - left, 80),
+            pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
         ]
         return [*found, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else found
 
     def _sentence(self) -> str:
         """What is wrong, or was just found."""
-        return self._trouble() or (self.sentence if self.said > 0.0 else "")
+        return self._trouble() or self.navigation.sentence
 
     def _on_sheet(self, press: Press) -> Press:
         """A press of the mouse where the block is drawn that it hits."""
@@ -158,7 +155,7 @@ class RobotsPage:
         """Everything below the heading."""
         words = self.house.words
         screen.fill("black")
-        rows.draw(screen, self.house, self.focus, "fleet", {name: self._value(name) for name in self.names})
+        dials.draw(screen, self.house.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
         frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
         for robot, (heard, bright, seen, dim) in enumerate(self.lines):
             x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
@@ -172,7 +169,7 @@ class RobotsPage:
         sentence = self._sentence()
         for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
             line.draw(screen, 960, 896 + 44 * i)
-        self.prompts.draw(screen)
+        self.navigation.prompts.draw(screen)
 
     # ---- what is read
 
@@ -247,7 +244,7 @@ class RobotsPage:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self._say(self.house.words("app.unsaved"))
+            self.navigation.say(self.house.words("app.unsaved"))
 
     def _do(self, name: str) -> None:
         """Begin what the row is for, or take its next value."""
@@ -257,20 +254,17 @@ class RobotsPage:
         begun = self.check.pair() if name == "pair" else self.check.measure()
         self.house.sounds.play("accept" if begun else "error")
         if not begun:
-            self._say(self.house.words("fleet.nobody"))
+            self.navigation.say(self.house.words("fleet.nobody"))
 
     def _found(self) -> None:
         """Say what came of the pairing."""
         words, told = self.house.words, worst(self.check.findings)
         if told is None:
-            self._say(words("fleet.paired"))
+            self.navigation.say(words("fleet.paired"))
         else:
             marker = 0 if told.marker is None else told.marker + 1
-            self._say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
+            self.navigation.say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
         try:
             self.house.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-
-    def _say(self, sentence: str) -> None:
-        self.sentence, self.said = sentence, SAID

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ui.draw.ink import BODY
+from pigaming_app.ui.draw import BODY
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.widgets.labels import text
 
 LIGHT = 128  # grey level: bright enough for markers in the dark, and not dazzling
 UNSEEN = 1.0  # s after which a robot that was seen is looked for again

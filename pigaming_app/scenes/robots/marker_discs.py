@@ -14,7 +14,7 @@ from pigaming_app.hardware.session.robot_session import LIGHT_AFTER
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw.ink import BLACK, GREY, LINE, PLAYERS, THIN, Color, Ink, badge, regular
+from pigaming_app.ui.draw import BLACK, GREY, LINE, PLAYERS, THIN, Color, Ink, badge, regular
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 

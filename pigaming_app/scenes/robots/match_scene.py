@@ -19,11 +19,13 @@ from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, anew
+from pigaming_app.scenes.results.scene import After
 from pigaming_app.scenes.robots.fault_page import Trouble, named
+from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.robots.marker_discs import Discs
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.take_places import Gathering
-from pigaming_app.ui.draw.ink import ALARM
+from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.caption import plate
@@ -35,17 +37,29 @@ log = logging.getLogger("pigaming")
 
 
 class RealMatch(MatchScene):
-    """A match in which the robots of the seats `real` are real ones. Raises NoRobots where they cannot be used."""
+    """A match in which the robots of the seats `real` are real ones. Raises NoRobots where they cannot be used.
+
+    `match_of`: makes the rematch.
+    """
 
     def __init__(
-        self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: RobotSession
+        self,
+        house: House,
+        setup: Setup,
+        devices: Sequence[Device | None],
+        real: Collection[int],
+        mat: RobotSession,
+        match_of: MatchOf,
+        game_choice: After | None = None,
     ) -> None:
         if reason := unfit(house.settings):
             raise refused(reason)
         rig = mat.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
-        self.mat = mat
-        super().__init__(house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen))
+        self.mat, self.match_of = mat, match_of
+        super().__init__(
+            house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen), game_choice=game_choice
+        )
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
         self.plant = plant
@@ -167,10 +181,8 @@ class RealMatch(MatchScene):
 
     def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck and the same robots."""
-        from pigaming_app.scenes.robots.start_match import match_of
-
         self.left()
-        return match_of(house, anew(setup, devices), devices, self.real)
+        return self.match_of(anew(setup, devices), devices, self.real)
 
     # ---- inside
 

@@ -4,22 +4,21 @@ import logging
 
 import pygame
 
-from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
-from pigaming_app.scenes.options.page import Value
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.storage.safe_files import NotSaved, write
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
+from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import paragraph
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, heading, text
+from pigaming_app.ui.widgets.labels import blacked, frame, heading
+from pigaming_app.ui.widgets.setting_row import Value
 
 ROWS = ("robots", "calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
@@ -34,29 +33,24 @@ class RobotsMenu:
 
     def __init__(self, house: House) -> None:
         self.house = house
-        self.focus = Focus(rows.spots(ROWS))
-        self.sentence, self.said = "", 0.0
-        self.prompts = Prompts(house, [(Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")])
+        self.focus = Focus(dials.spots(ROWS))
+        hints = [(Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Shown, or come back to."""
 
     def on(self, press: Press) -> Turn:
         """Up and down choose, FIRE opens."""
-        press = self.prompts.meant(press)
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
-            return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
+        press = self.navigation.prompts.meant(press)
+        if turn := self.navigation.on(press):
+            return turn
         chosen = self.focus.chosen(press)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
         """Let a sentence fade; leave when nobody is there."""
-        self.focus.update(seconds)
-        self.said -= seconds
-        return Home() if self.house.idle > IDLE else None
+        return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -65,19 +59,14 @@ class RobotsMenu:
         heading(words("robots.title")).draw(screen)
         blacked(screen, dials.PANEL)
         values = {one: Value("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS}
-        rows.draw(screen, self.house, self.focus, "robots", values)
-        dials.beside().draw(screen, *dials.PANEL.topleft)
+        dials.draw(screen, self.house.words, self.focus, "robots", values)
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         sketch(name).draw(screen, *dials.CENTRE)
-        room = dials.PANEL.w - 80
-        text(words(f"robots.{name}"), LABEL, ICE, "head", "l", room).draw(
-            screen, dials.PANEL.x + 40, dials.PANEL.y + 400
-        )
-        for i, line in enumerate(paragraph(words(f"robots.{name}_line"), room, 3, MIST)):
-            line.draw(screen, dials.PANEL.x + 40, dials.PANEL.y + 472 + 58 * i)
-        if self.said > 0.0:
-            for i, line in enumerate(paragraph(self.sentence, 1600, 2, FOCUS, "c")):
+        dials.describe(screen, words(f"robots.{name}"), words(f"robots.{name}_line"))
+        if self.navigation.sentence:
+            for i, line in enumerate(paragraph(self.navigation.sentence, 1600, 2, FOCUS, "c")):
                 line.draw(screen, 960, 900 + 44 * i)
-        self.prompts.draw(screen)
+        self.navigation.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:
         from pigaming_app.scenes.calibration.corner_pin_page import PinPage
@@ -107,14 +96,13 @@ class RobotsMenu:
         path, words = folders().data / SHEET, self.house.words
         try:
             write(path, sheet())
-            self.sentence = words("robots.written", path=path)
+            self.navigation.say(words("robots.written", path=path))
         except NoVision as missing:
             log.warning("%s", english().explained(missing.message))
-            self.sentence = words.sentence(missing.message)
+            self.navigation.say(words.sentence(missing.message))
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.sentence = words("app.unsaved")
-        self.said = SAID
+            self.navigation.say(words("app.unsaved"))
 
 
 @cached

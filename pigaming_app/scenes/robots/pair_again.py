@@ -4,25 +4,19 @@ What was found is applied at once. If a robot did not spin as it should, the pag
 the match goes on.
 """
 
-from typing import TYPE_CHECKING
-
 import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Case, Pairing
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
-from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.scenes.robots.fleet_state import worst
 from pigaming_app.scenes.robots.flood_light import UNSEEN, Flood, looking
+from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.ui.draw.ink import ALARM, BODY, ICE
+from pigaming_app.ui.draw import ALARM, BODY, ICE
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.labels import text
-
-if TYPE_CHECKING:
-    from pigaming_app.scenes.robots.match_scene import RealMatch
 
 LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
 GOOD = (Case.FITS, Case.SWAPPED, Case.ABSENT)
@@ -32,14 +26,14 @@ TITLE_Y, PROMPTS_Y, SAID_Y = 42, 102, 480  # px
 class PairAgain:
     """The page, over a match whose robots stand."""
 
-    def __init__(self, match: "RealMatch") -> None:
+    def __init__(self, match: InterruptedMatch) -> None:
         self.match, self.house = match, match.house
         self.flood, self.pace = Flood(), Pace()
         self.pairing: Pairing | None = None
         self.sentence = ""  # what is wrong, once all have spun
         self.clock = 0.0
-        self.stop = Prompts(self.house, [(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
-        self.after = Prompts(self.house, [(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
+        self.stop = self.house.prompts([(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
+        self.after = self.house.prompts([(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
 
     def entered(self) -> None:
         """Nothing moves yet."""

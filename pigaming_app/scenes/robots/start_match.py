@@ -7,23 +7,32 @@ from pigaming_app.hardware.session.robot_session import NoRobots
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.scene import After
 from pigaming_app.ui.input.events import Device
 
 
 def match_of(
-    house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], speed: float = 1.0
+    house: House,
+    setup: Setup,
+    devices: Sequence[Device | None],
+    real: Collection[int],
+    speed: float = 1.0,
+    game_choice: After | None = None,
 ) -> Scene:
     """The match, or the page that says why the robots of the seats `real` cannot be real.
 
-    `speed`: times real time, for a match without real robots.
+    `speed`: times real time, for a match without real robots. `game_choice`: see `Results`.
     """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
     if not real or house.mat is None:
-        return MatchScene(house, setup, devices, speed)
+        return MatchScene(house, setup, devices, speed, game_choice=game_choice)
     from pigaming_app.scenes.robots.match_scene import RealMatch
     from pigaming_app.scenes.robots.unavailable import Refused
 
+    def again(setup: Setup, devices: Sequence[Device | None], real: Collection[int]) -> Scene:
+        return match_of(house, setup, devices, real, game_choice=game_choice)
+
     try:
-        return RealMatch(house, setup, devices, real, house.mat)
+        return RealMatch(house, setup, devices, real, house.mat, again, game_choice)
     except NoRobots as trouble:
-        return Refused(house, setup, devices, real, trouble.message)
+        return Refused(house, setup, devices, real, trouble.message, again)

@@ -1,34 +1,30 @@
 """Which robots of a running match are real: each can be handed to a simulated one, and back."""
 
-from typing import TYPE_CHECKING
-
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.play.pause import items, title
-from pigaming_app.ui.draw.ink import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
-from pigaming_app.ui.draw.layers import Pane, fitted, word
+from pigaming_app.scenes.robots.interrupted import InterruptedMatch
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
+from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.text import fitted, word
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
-
-if TYPE_CHECKING:
-    from pigaming_app.scenes.robots.match_scene import RealMatch
 
 
 class SwapPage:
     """The page; what is chosen is done when it is left. `access`: whose presses count."""
 
-    def __init__(self, match: "RealMatch", access: Access) -> None:
+    def __init__(self, match: InterruptedMatch, access: Access) -> None:
         self.match, self.house, self.access = match, match.house, access
         self.seats = [i for i, robot in enumerate(match.match.state.robots) if robot.present]
         self.wanted = {seat: seat in match.real for seat in self.seats}
         self.focus = Focus(items([str(seat) for seat in self.seats]))
         self.picture: pygame.Surface | None = None
         hints = [(Act.FIRE, "mat.hint_change"), (Act.BACK, "mat.hint_done")]
-        self.prompts = Prompts(self.house, hints, PROMPTS, W - 80, voice=lambda: access.voice)
+        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing has been chosen yet."""

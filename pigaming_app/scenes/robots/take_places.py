@@ -19,14 +19,14 @@ from pigaming_app.scenes.robots.flood_light import Flood, looking
 from pigaming_app.scenes.robots.marker_discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw.ink import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Device
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.caption import plate
-from pigaming_app.ui.widgets.labels import stamp, text
+from pigaming_app.ui.widgets.labels import stamp
 
 UNSEEN = 1e6  # px: so far away is a robot that nobody sees
 DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
@@ -45,8 +45,8 @@ class Gathering:
         self.house, self.plant = house, plant
         self.clock = 0.0
         self.flood = Flood()
-        self.prompts = Prompts(
-            house, [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
+        self.prompts = house.prompts(
+            [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
             HINTS_Y, 1560, voice=voice,
         )  # fmt: skip
 

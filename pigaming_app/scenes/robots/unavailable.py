@@ -10,13 +10,13 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import title
-from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.robots.fault_icons import sign
-from pigaming_app.scenes.robots.fault_page import ICON, write
-from pigaming_app.ui.draw.ink import ALARM, ICE, MIST
+from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
+from pigaming_app.scenes.robots.interrupted import MatchOf
+from pigaming_app.ui.draw import ALARM, ICE, MIST
 from pigaming_app.ui.draw.layers import Pane, backdrop
+from pigaming_app.ui.draw.text import write
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
 
 UNCALIBRATED = ("none", "damaged", "changed", "version", "other_display")  # messages after which one must calibrate
@@ -24,7 +24,7 @@ IDLE = 90.0  # seconds without a press until the title
 
 
 class Refused:
-    """The page. `message`: the reason."""
+    """The page. `message`: the reason; `match_of`: makes a match with these real seats."""
 
     def __init__(
         self,
@@ -33,12 +33,14 @@ class Refused:
         devices: Sequence[Device | None],
         real: Collection[int],
         message: OperatorMessage,
+        match_of: MatchOf,
     ) -> None:
         self.house, self.setup, self.devices, self.real, self.message = house, setup, devices, real, message
+        self.match_of = match_of
         self.picture: pygame.Surface | None = None
         self.access = Access(house, lambda: self.devices)
         hints = [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")]
-        self.prompts = Prompts(house, hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
@@ -52,11 +54,9 @@ class Refused:
         press = admitted
         if press.act in (Act.FIRE, Act.START):
             self.house.sounds.play("accept")
-            return Swap(MatchScene(self.house, self.setup, self.devices))
+            return Swap(self.match_of(self.setup, self.devices, ()))
         if press.act is Act.EXTRA:
-            from pigaming_app.scenes.robots.start_match import match_of
-
-            return Swap(match_of(self.house, self.setup, self.devices, self.real))
+            return Swap(self.match_of(self.setup, self.devices, self.real))
         if press.act is Act.BACK:
             self.house.sounds.play("back")
             return Pop()
@@ -80,6 +80,6 @@ class Refused:
         words = self.house.words
         title(pane, None, words("mat.refused"), ICE)
         sign(pane.hot, "robot", *ICON, 76, ALARM)
-        y = write(pane, words.sentence(self.message), HEAD + 56, ICE)
+        y = write(pane, words.sentence(self.message), TEXT_X, HEAD + 56, ROOM, ICE)
         lost = self.message.key in UNCALIBRATED
-        write(pane, words("mat.calibrate" if lost else "mat.anyway"), y + 16, MIST)
+        write(pane, words("mat.calibrate" if lost else "mat.anyway"), TEXT_X, y + 16, ROOM, MIST)

@@ -18,7 +18,7 @@ from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import Best
-from pigaming_app.ui.draw.ink import BODY, FOCUS, LABEL, dim
+from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.caption import plate
 

@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import pygame
 
-from pigaming_app.scenes.title.logo import seat_robot, trail_path
-from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.scenes.title.logo import trail_path
+from pigaming_app.scenes.views.sprites.robot import seat_robot, tank
+from pigaming_app.ui.draw import ADD, LINE, PLAYERS, WHITE, Ink, Point, mix
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import ADD, LINE, PLAYERS, WHITE, Ink, Point, mix
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.draw.surface_cache import cached

@@ -7,27 +7,20 @@ import pygame
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.rule_texts import kept_goal, tagline
+from pigaming_app.scenes.flow.match_words import kept_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, Turn
 from pigaming_app.scenes.title.kiosk_unlock import Combination
-from pigaming_app.scenes.title.logo import dot_of, logo, vignette
+from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
-    BODY,
+from pigaming_app.scenes.views.game_tile import tile, tile_rect
+from pigaming_app.ui.draw import (
     FOCUS,
-    HAIR,
-    ICE,
-    LABEL,
     LINE,
-    MIST,
-    STEEL,
     SUB,
     button_width,
-    dim,
-    panel,
 )
-from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Lit, Pane, backdrop, fitted, span
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Pane, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import Act, Press
@@ -44,7 +37,6 @@ from pigaming_app.ui.widgets.labels import (
     stamp,
 )
 
-TILE_Y, TILE_H = 416, 416
 PROMPT_Y, FOOT_Y = 906, 990
 LOGO = (LEFT + 16, 84, 30)
 
@@ -200,12 +192,6 @@ class Title:
             button_light(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
 
 
-def tile_rect(i: int) -> pygame.Rect:
-    """Where the tile of a game is, the i-th from the left."""
-    x, w = span(4 * i, 4)
-    return pygame.Rect(x, TILE_Y, w, TILE_H)
-
-
 @cached
 @sliced
 def ground() -> Steps[pygame.Surface]:
@@ -216,30 +202,3 @@ def ground() -> Steps[pygame.Surface]:
     out = backdrop().copy()
     name.draw(out)
     return blacked(out, *map(tile_rect, range(len(games()))))
-
-
-@cached
-@sliced
-def tile(game: str, name: str, line: str, hot: bool) -> Steps[Lit]:
-    """A game's picture and name, its upper left at (0, 0)."""
-    w = span(0, 4)[1]
-    pane = Pane(0, 0, w, TILE_H)
-    panel(pane.hot, 0, 0, w, TILE_H, dim(FOCUS, 0.55) if hot else STEEL)
-    pane.hot.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
-    color = FOCUS if hot else ICE
-    pane.page.text(name, fitted(name, LABEL, w - 64), 32, 326, color)
-    pane.page.body(line, 32, 380, ICE if hot else MIST, "l", fitted(line, BODY, w - 64, "body"))
-    picture = _picture(game)
-    lit = yield from pane.lighting()
-    picture.draw(lit.image, -lit.at[0], -lit.at[1])
-    return lit
-
-
-@cached
-@sliced
-def _picture(game: str) -> Steps[Lit]:
-    pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
-    vignette(game, pane.hot, MARGIN, MARGIN)
-    yield
-    lit = yield from pane.lighting()
-    return Lit(lit.image, (-MARGIN, -MARGIN))

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import pygame
 
-from pigaming_app.ui.draw.ink import ADD
+from pigaming_app.ui.draw import ADD
 
 LEFT, TOP = 160, 140  # where the arena lies on the canvas
 HUD_HEIGHT = 136

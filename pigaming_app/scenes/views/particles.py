@@ -21,7 +21,7 @@ from pigaming_app.scenes.views.sprites.effects import (
 )
 from pigaming_app.scenes.views.sprites.pickups import POPUP_LEVELS, popup
 from pigaming_app.sim.world import WIDTH
-from pigaming_app.ui.draw.ink import Color
+from pigaming_app.ui.draw import Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step
 
 MOST = 320  # particles alive

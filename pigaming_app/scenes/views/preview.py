@@ -16,8 +16,8 @@ from pigaming_app.scenes.views.race.track import draw_track
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
+from pigaming_app.ui.draw import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps
-from pigaming_app.ui.draw.ink import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
 
 MARGIN = 8  # px round the frame, for its glow
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pygame
 
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.views import VIEWS
+from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import DT
 from pigaming_app.storage.safe_files import write
 from pigaming_app.storage.settings import Settings

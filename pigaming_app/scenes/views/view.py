@@ -16,8 +16,8 @@ from pigaming_app.scenes.views.prewarm import driving
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.tread_marks import Treads
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import ADD, PRE
 from pigaming_app.ui.draw.frame_budget import Ahead, Job
-from pigaming_app.ui.draw.ink import ADD, PRE
 from pigaming_app.ui.draw.sprites import Batch, put, step
 
 REAL_WIDER = 42  # px

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import pygame
 
+from pigaming_app.ui.draw import Ink, Page
 from pigaming_app.ui.draw.frame_budget import Steps, finished
-from pigaming_app.ui.draw.ink import Color, Ink, Page, text_width
 from pigaming_app.ui.draw.surface_cache import cached
 
 ADD = pygame.BLEND_RGB_ADD
@@ -56,38 +56,6 @@ class Pane:
     def done(self) -> Lit:
         """As `lighting`, at once."""
         return finished(self.lighting())
-
-
-@cached
-def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0.7, level: int = 8) -> Lit:
-    """One line of light whose capitals are centred on (0, 0); `level` of 8 parts of its brightness."""
-    if level < 8:
-        whole = word(text, size, color, face, glow)
-        image = whole.image.copy()
-        image.fill([255 * level // 8] * 3, special_flags=pygame.BLEND_RGB_MULT)
-        return Lit(image, whole.at)
-    w, h = round(text_width(text, size, face)) + 64, round(size * 1.5) + 48
-    ink = Ink(w, h)
-    ink.text(text, size, w / 2, h / 2, color, face, "c")
-    return Lit(ink.lit(glow), (-(w // 2), -(h // 2)))
-
-
-def fitted(text: str, size: int, width: float, face: str = "head") -> int:
-    """The largest size, `size` at most, in which a line is not wider than `width` px."""
-    wide = text_width(text, size, face)
-    return size if wide <= width else int(size * width / wide)
-
-
-def lines_of(text: str, size: int, width: float, face: str = "body") -> list[str]:
-    """A text broken into lines not wider than `width` px."""
-    lines = [""]
-    for part in text.split():
-        longer = f"{lines[-1]} {part}".strip()
-        if lines[-1] and text_width(longer, size, face) > width:
-            lines.append(part)
-        else:
-            lines[-1] = longer
-    return lines
 
 
 def span(first: int, columns: int) -> tuple[int, int]:

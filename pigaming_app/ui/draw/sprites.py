@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import pygame
 
-from pigaming_app.ui.draw.ink import MULT, Ink
+from pigaming_app.ui.draw import MULT, Ink
 from pigaming_app.ui.draw.surface_cache import cached
 
 HEADINGS = 96  # of what is turned finely: 3.75 degrees each, two pixels at a barrel's end

@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BLACK,
     BODY,
     MIST,
@@ -19,6 +18,8 @@ from pigaming_app.ui.draw.ink import (
 )
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device, Press
 
 ROOM = 1760  # px for the whole row
@@ -34,20 +35,21 @@ class Prompts:
 
     def __init__(
         self,
-        house: House,
+        words: Words,
+        controls: Controls,
         items: Sequence[tuple[Act, str]],
         y: int = 980,
         room: int = ROOM,
         solid: bool = False,
         voice: Callable[[], Device] | None = None,
     ) -> None:
-        self.house, self.items, self.y, self.room, self.solid = house, tuple(items), y, room, solid
-        self.voice = voice
+        self.words, self.controls = words, controls
+        self.items, self.y, self.room, self.solid, self.voice = tuple(items), y, room, solid, voice
 
     @property
     def said(self) -> tuple[tuple[str, str], ...]:
         """The labels and texts of the moment; an act without a button is left out."""
-        words = self.house.words
+        words = self.words
         return tuple((words.printed(self._label(act)), words(key)) for act, key in self.items if self._label(act))
 
     @property
@@ -75,7 +77,7 @@ class Prompts:
 
     def _label(self, act: Act) -> str:
         """What is printed on the button; RIGHT stands for left and right."""
-        return "<>" if act is Act.RIGHT else self.house.controls.label(self.voice() if self.voice else None, act)
+        return "<>" if act is Act.RIGHT else self.controls.label(self.voice() if self.voice else None, act)
 
 
 def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LINE, STEEL, THIN, Color, Ink, badge, cut, icon, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, STEEL, THIN, Color, Ink, badge, cut, icon, text_width
 from pigaming_app.ui.draw.surface_cache import cached
 
 MARGIN = 24  # px of glow round a plate

@@ -7,8 +7,8 @@ from collections.abc import Callable, Hashable
 
 import pygame
 
+from pigaming_app.ui.draw import BLACK, LINE, STEEL, THIN, Color, cut, panel
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import BLACK, LINE, STEEL, THIN, Color, cut, panel
 from pigaming_app.ui.draw.layers import Lit, Pane, span
 
 X, W = span(2, 8)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw.ink import BOLD, FOCUS, LINE, Color, Ink
+from pigaming_app.ui.draw import BOLD, FOCUS, LINE, Color, Ink
 from pigaming_app.ui.draw.layers import Lit
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press

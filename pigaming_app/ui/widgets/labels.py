@@ -8,8 +8,7 @@ import math
 
 import pygame
 
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
     ICE,
@@ -19,17 +18,19 @@ from pigaming_app.ui.draw.ink import (
     THIN,
     TITLE,
     Color,
-    Ink,
     button,
     button_width,
     cut,
     dim,
     icon,
+    panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, fitted
+from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane
 from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fitted
 
 LEVELS = 8  # brightnesses kept of what pulses
 
@@ -62,16 +63,13 @@ def heading(title: str, right: str = "", color: Color = ICE) -> Steps[Lit]:
 
 
 @cached
-def text(
-    said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
-) -> Lit:
-    """One line, its capitals round y = 0; all but sentences shimmer. It shrinks where it would be wider than `room`."""
-    size = fitted(said, size, room, face)
-    edge = 4 if face == "body" else 32  # px for the glow
-    w, h = round(text_width(said, size, face)) + 2 * edge, 2 * size + 2 * edge
-    ink = Ink(w, h).text(said, size, edge, h / 2, color, face)
-    left = -edge - round((w - 2 * edge) * {"l": 0.0, "c": 0.5, "r": 1.0}[align])
-    return Lit(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
+@sliced
+def frame(w: int, h: int) -> Steps[Lit]:
+    """The frame of a picture or of a panel; upper left at (0, 0)."""
+    pane = Pane(0, 0, w, h)
+    panel(pane.hot, 0, 0, w, h)
+    yield
+    return (yield from pane.lighting())
 
 
 @cached
@@ -146,9 +144,3 @@ def glow_bar(screen: pygame.Surface, box: pygame.Rect, color: Color = FOCUS) -> 
 def stamp(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
     """Blit a premultiplied sprite where it belongs."""
     screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=pygame.BLEND_PREMULTIPLIED)
-
-
-def switched(before: float, wanted: bool, seconds: float, duration: float) -> float:
-    """A share, 0..1, on its way to 1 (wanted) or 0."""
-    step = seconds / duration
-    return min(1.0, before + step) if wanted else max(0.0, before - step)

@@ -1,83 +1,84 @@
-"""Three letters that one player chooses with a stick and a button: the model, without drawing or sounds."""
+"""Letters that are chosen with a stick and a button: a name in the Lab, initials for the high scores."""
 
-from pigaming_app.storage.scores import LETTERS
-from pigaming_app.ui.input.events import Act
-from pigaming_app.ui.widgets.word_filter import HARMLESS, rude
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.ui.draw import FOCUS, LINE, Color, brackets, icon
+from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import word
 
 ROLL = 0.09  # seconds in which a letter rolls into its place
-SHAKE = 0.5  # seconds for which refused letters shake
 
 
-class Spelling:
-    """Up and down turn a letter, FIRE goes on and accepts the last one, START accepts all, BACK goes back.
+class LetterPicker:
+    """The letters of `text`, each from `alphabet`; the one at `slot` is turned."""
 
-    FIRE accepts only letters of which one was turned, so that whoever hammers on it does not fill the tables with AAA.
-    """
-
-    def __init__(self) -> None:
-        self.letters, self.slot = [0, 0, 0], 0
-        self.turned = self.done = False
-        self.rolled, self.rolling, self.shaking = 0, ROLL, SHAKE
+    def __init__(self, alphabet: str, text: str) -> None:
+        self.alphabet = alphabet
+        self.letters = [alphabet.index(letter) for letter in text]
+        self.slot = 0
+        self._rolled, self._rolling = 0, ROLL
 
     @property
     def spelled(self) -> str:
         """The letters as they are now."""
-        return "".join(LETTERS[letter] for letter in self.letters)
+        return "".join(self.alphabet[letter] for letter in self.letters)
 
     @property
-    def taken(self) -> str | None:
-        """What enters the tables when time is up; None: nobody has chosen anything."""
-        if not (self.done or self.turned):
-            return None
-        return HARMLESS if rude(self.spelled) else self.spelled
+    def roll(self) -> float:
+        """How far the letter at `slot` is from its place, -1..1 letters."""
+        return self._rolled * max(0.0, 1.0 - self._rolling / ROLL)
 
-    @property
-    def refused(self) -> bool:
-        """The letters have just been refused."""
-        return self.shaking < SHAKE
-
-    def on(self, act: Act) -> str | None:
-        """Answer a press of the player; the name of the sound that follows."""
-        match act:
-            case Act.BACK | Act.LEAVE if self.done:
-                self.done = False
-                return "back"
-            case _ if self.done:
-                return None
-            case Act.UP | Act.DOWN:
-                return self._turn(-1 if act is Act.UP else 1)
-            case Act.LEFT | Act.BACK | Act.LEAVE:
-                return self._move(self.slot - 1)
-            case Act.RIGHT:
-                return self._move(self.slot + 1)
-            case Act.FIRE if self.slot < 2:
-                return self._move(self.slot + 1)
-            case Act.FIRE:
-                return self._accept(self.turned)
-            case Act.START:
-                return self._accept(True)
-        return None
-
-    def update(self, seconds: float) -> None:
-        """Let letters roll and shake."""
-        self.rolling += seconds
-        self.shaking += seconds
-
-    def _turn(self, by: int) -> str:
-        self.letters[self.slot] = (self.letters[self.slot] + by) % len(LETTERS)
-        self.rolled, self.rolling, self.turned = by, 0.0, True
+    def turn(self, by: int) -> str:
+        """Turn the letter at `slot`; the name of the sound."""
+        self.letters[self.slot] = (self.letters[self.slot] + by) % len(self.alphabet)
+        self._rolled, self._rolling = by, 0.0
         return "move"
 
-    def _move(self, slot: int) -> str | None:
-        before, self.slot = self.slot, max(0, min(2, slot))
-        self.rolled = 0
+    def move(self, by: int) -> str | None:
+        """Go to another slot, up to the ends; the name of the sound, None if nothing has moved."""
+        before, self.slot = self.slot, max(0, min(len(self.letters) - 1, self.slot + by))
+        self._rolled = 0
         if self.slot == before:
             return None
         return "accept" if self.slot > before else "back"
 
-    def _accept(self, chosen: bool) -> str:
-        if not chosen or rude(self.spelled):
-            self.shaking = 0.0
-            return "refused"
-        self.done = True
-        return "ready"
+    def update(self, seconds: float) -> None:
+        """Let a letter roll."""
+        self._rolling += seconds
+
+
+def draw_letters(
+    screen: pygame.Surface,
+    picker: LetterPicker,
+    xs: Sequence[float],
+    y: float,
+    size: int,
+    pitch: float,
+    color: Color,
+    open_: bool = True,
+) -> None:
+    """Paint the letters round (x, y), `size` px high; a rolling one comes from `pitch` px away.
+
+    `open_`: the letter at the slot is lit, because it can still be turned.
+    """
+    for i, (letter, x) in enumerate(zip(picker.spelled, xs, strict=True)):
+        here = open_ and i == picker.slot
+        if letter != " ":
+            word(letter, size, FOCUS if here else color).draw(screen, x, y + (pitch * picker.roll if here else 0.0))
+
+
+@cached
+def cursor(w: int, h: int, arm: int, corner: int, width: float, arrows: tuple[float, int, float]) -> Lit:
+    """Corners round a letter of w x h px, and the arrows that turn it; round (0, 0).
+
+    `arrows`: px from the middle to an arrow, its size, and how far the glow may reach.
+    """
+    away, r, reach = arrows
+    pane = Pane(-w / 2 - 20, -reach, w + 40, 2 * reach)
+    brackets(pane.hot, -w / 2, -h / 2, w, h, FOCUS, arm, corner, width)
+    for side, name in ((-1, "up"), (1, "down")):
+        icon(pane.hot, name, 0, side * away, r, FOCUS, LINE)
+    return pane.done()

@@ -4,8 +4,8 @@ from collections import deque
 
 import pygame
 
-from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, font
-from pigaming_app.ui.draw.layers import fitted
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, font
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.widgets.caption import plate
 
 STAY = 5.0  # seconds

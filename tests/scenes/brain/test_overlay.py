@@ -16,7 +16,7 @@ from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.attract import Attract, Demonstration
 from pigaming_app.sim.record import digest
-from pigaming_app.ui.draw.layers import fitted
+from pigaming_app.ui.draw.text import fitted
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device

@@ -123,7 +123,7 @@ def test_a_folder_that_cannot_be_written(arcade: Operated, tmp_path: Path) -> No
     arcade.begin()
     arcade.pictures(ResultPage)
     arcade.press(Act.FIRE)
-    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).sentence
+    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
 
 
 def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -134,7 +134,7 @@ def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monk
     arcade.pictures(ResultPage)
     monkeypatch.setattr(store, "keep", full)
     arcade.press(Act.FIRE)
-    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).sentence
+    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
     monkeypatch.undo()
 
 

@@ -10,7 +10,7 @@ pytest.importorskip("cv2")
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.calibration.corner_markers import draw_corners, tiles
-from pigaming_app.scenes.play.runner import LEFT
+from pigaming_app.scenes.views.background import LEFT
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw.pixels import pixels_of
 

@@ -15,7 +15,7 @@ from pigaming_app.scenes.app import App, Options
 from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, PinPage, handle
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
-from pigaming_app.ui.draw.ink import FOCUS
+from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
 from pigaming_app.ui.window import Canvas

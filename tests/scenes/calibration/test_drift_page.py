@@ -14,7 +14,7 @@ from pigaming_app.hardware.emulator.site import EmulatedSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.calibration.drift_page import CheckPage
 from pigaming_app.scenes.calibration.height_page import DISC
-from pigaming_app.scenes.play.runner import LEFT, TOP
+from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 from pigaming_app.ui.input.controls import Controls
 from tests.scenes.measuring import faults, measuring

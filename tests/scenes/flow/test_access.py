@@ -13,7 +13,7 @@ from pigaming_app.scenes.flow.access import ESCAPE, OWNED, TAKE
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import SetupPage
-from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import HUMAN
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.idle_seats import ASK, REST
@@ -421,7 +421,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
 
 
 def ended(arcade: Arcade, brains: str, devices: list[Device]) -> Results:
-    match = MatchScene(arcade.house, setup(brains, 0.02), devices)
+    match = MatchScene(arcade.house, setup(brains, 0.02), devices, game_choice=game_choice)
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, Results))
     return arcade.shown(Results)

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import Options, opened
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
 from pigaming_app.scenes.flow.preload import Backstage
-from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.scenes.lobby.match_setup import SetupPage
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene

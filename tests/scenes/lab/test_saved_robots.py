@@ -45,7 +45,7 @@ def save(arcade: Arcade, name: str) -> None:
 
 
 def spell(page: Naming, name: str) -> None:
-    page.letters = [robots.LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
+    page.picker.letters = [robots.LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
 
 
 def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Arcade) -> None:
@@ -118,7 +118,7 @@ def test_a_mouse_spells_too(arcade: Arcade) -> None:
     page = arcade.shown(Naming)
     spell(page, "AB")
     arcade.click(middle(1), 510 + 160)
-    assert (page.slot, page.name) == (1, "AC")
+    assert (page.picker.slot, page.name) == (1, "AC")
     arcade.click(middle(0), 510 - 160)
     assert page.name == "C", "the letter before A is a blank"
 

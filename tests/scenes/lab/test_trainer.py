@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.scenes.lab import trainer as workshop
-from pigaming_app.scenes.lab.compiler import Compiler
 from pigaming_app.scenes.lab.trainer import FASTEST, Workshop
 from pigaming_app.sim.kernel import can_compile
 
@@ -22,7 +22,7 @@ needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not install
 
 @pytest.fixture
 def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Workshop]:
-    monkeypatch.setattr("pigaming_app.scenes.lab.compiler.PATIENCE", 0)  # other tests keep all cores busy
+    monkeypatch.setattr("pigaming_app.ai.experiments.compiler.PATIENCE", 0)  # other tests keep all cores busy
     compiler = Compiler()
     shop = Workshop(RECIPES[1], 5, compiler=compiler)
     yield shop
@@ -183,7 +183,7 @@ def test_the_process_ends_with_the_arcade_and_is_not_started_again() -> None:
 
 
 def test_without_numba_no_process_is_started(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pigaming_app.scenes.lab.compiler.can_compile", lambda: False)
+    monkeypatch.setattr("pigaming_app.ai.experiments.compiler.can_compile", lambda: False)
     compiler = Compiler(ENDLESS)
     compiler.start()
     assert compiler._process is None
@@ -191,7 +191,7 @@ def test_without_numba_no_process_is_started(monkeypatch: pytest.MonkeyPatch) ->
 
 CRASHING = """
 import sys, time
-from pigaming_app.scenes.lab.compiler import Compiler
+from pigaming_app.ai.experiments.compiler import Compiler
 compiler = Compiler((sys.executable, "-c",
                      "from pigaming_app.ai.experiments.evaluation import exit_with_parent; import time; "
                      "exit_with_parent(); time.sleep(60)"))

@@ -9,8 +9,9 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.match_choice import playable
 from pigaming_app.scenes.lobby import match_setup as setup
-from pigaming_app.scenes.lobby.match_setup import SetupPage, playable, rows
+from pigaming_app.scenes.lobby.match_setup import SetupPage, rows
 from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene

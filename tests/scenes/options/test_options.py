@@ -159,7 +159,7 @@ def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkey
     page = go(arcade, "shake")
     arcade.press(Act.FIRE)
     assert arcade.house.settings.shake is False
-    assert page.sentence == arcade.house.words("app.unsaved")
+    assert page.navigation.sentence == arcade.house.words("app.unsaved")
     arcade.shown(OptionsPage)
 
 

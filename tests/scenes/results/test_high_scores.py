@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import DEAF, STAY, Best, conditions
 from pigaming_app.storage.scores import Table
-from pigaming_app.ui.draw.ink import text_width
+from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act

@@ -9,6 +9,7 @@ import pytest
 
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.scenes.lobby.game_choice import GameChoice
+from pigaming_app.scenes.lobby.scene import game_choice
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.scenes.results.initials import SECONDS, Initials
@@ -48,7 +49,15 @@ def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, 
 def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, teams=(0, 1, 2, 3)) -> Results:
     match = setup(brains, 1.0, teams)
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
-    results = Results(arcade.house, ended, match, devices, MatchScene(arcade.house, match, devices).again, finished)
+    results = Results(
+        arcade.house,
+        ended,
+        match,
+        devices,
+        MatchScene(arcade.house, match, devices).again,
+        finished,
+        game_choice=game_choice,
+    )
     arcade.open(results)
     return results
 
@@ -246,7 +255,7 @@ def test_a_seat_for_which_an_ai_drove_claims_nothing(arcade: Arcade) -> None:
     match = setup("human human off off", 1.0)
     ended = outcome({0: 4, 1: 9}, (1,))
     again = MatchScene(arcade.house, match, KEYS[:2]).again
-    results = Results(arcade.house, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1})
+    results = Results(arcade.house, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1}, game_choice)
     assert [claim.seat for claim in results.claims] == [0]
 
 
@@ -317,7 +326,15 @@ def race(arcade: Arcade, lap: int, whole: int) -> Results:
     ]
     ended = Outcome(tuple(rows), (0,), (((0.0, 0), (30.0, 3)), ((0.0, 0), (30.0, 2)), ((0.0, 0),), ((0.0, 0),)), 60.0)
     devices = [KEYS[0], None, None, None]
-    results = Results(arcade.house, ended, match, devices, MatchScene(arcade.house, match, devices).again, True)
+    results = Results(
+        arcade.house,
+        ended,
+        match,
+        devices,
+        MatchScene(arcade.house, match, devices).again,
+        True,
+        game_choice=game_choice,
+    )
     arcade.open(results)
     return results
 

@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.scenes.robots.marker_discs import DISC, RING, Discs
 from pigaming_app.sim.plant import Sighting
-from pigaming_app.ui.draw.ink import GREY
+from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.input.controls import Controls
 
 LID = 36  # px, radius

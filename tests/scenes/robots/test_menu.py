@@ -56,7 +56,7 @@ def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, tmp_path: Path, 
     arcade.press(Act.FIRE)
     written = tmp_path / "data" / SHEET
     assert written.read_bytes().startswith(b"%PDF")
-    assert str(written) in arcade.shown(RobotsMenu).sentence
+    assert str(written) in arcade.shown(RobotsMenu).navigation.sentence
 
 
 def test_a_sheet_that_cannot_be_written_is_one_sentence(
@@ -65,14 +65,14 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     (tmp_path / "data" / SHEET).mkdir(parents=True)
     go(arcade, RobotsMenu, "sheet")
     arcade.press(Act.FIRE)
-    assert arcade.shown(RobotsMenu).sentence == arcade.house.words("app.unsaved")
+    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.house.words("app.unsaved")
 
     def none() -> bytes:
         raise NoVision(OperatorMessage("no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
     arcade.press(Act.FIRE)
-    assert arcade.shown(RobotsMenu).sentence == arcade.house.words("hardware.no_opencv")
+    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.house.words("hardware.no_opencv")
 
 
 def test_children_in_a_kiosk_do_not_find_it(arcade: Arcade) -> None:

@@ -21,7 +21,7 @@ from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.unavailable import Refused
-from pigaming_app.ui.draw.ink import GREY
+from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act

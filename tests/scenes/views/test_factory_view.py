@@ -31,9 +31,9 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.benchmark.pitanks import Full
 from pigaming_app.scenes.views.factory.next_step import advised
+from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 
 HUMANS = ["human"] * 4

@@ -10,7 +10,6 @@ import pytest
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.race.course import Place, locate
 from pigaming_app.games.race.state import LINES
-from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.benchmark.pitanks import Full
 from pigaming_app.scenes.views.benchmark.race import Busy
 from pigaming_app.scenes.views.particles import MOST
@@ -23,11 +22,12 @@ from pigaming_app.scenes.views.race.ghost_files import Ghost, call, file_of, gho
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import Card, card_bits
 from pigaming_app.scenes.views.race.track import edges, sign_post
-from pigaming_app.scenes.views.sprites.pickups import glyph
+from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import keep
 from pigaming_app.ui.draw.frame_budget import finished
+from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import LANGUAGES, Words
 
 HUMANS = ["human"] * 4
@@ -298,7 +298,7 @@ def test_cards_show_place_lap_and_gap(screen, language, gap):
             state.racers[seat].progress = 2.0 * state.tick - behind
         view.watch(state)
     view.draw(screen, state, 1.0, 0.02)
-    first, second, third = (view.cards.said[x] for x in view.cards.xs)
+    first, second, third = (view.cards.parts.shown[x] for x in view.cards.xs)
     assert (first.place, first.gap) == (1, "")
     assert (second.place, second.lap, second.laps, second.gap) == (2, 4, 5, gap)
     assert third.gap == "+6.0".replace(".", gap[2]), "since the start"

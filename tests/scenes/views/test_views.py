@@ -6,11 +6,11 @@ import pygame
 import pytest
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
-from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.benchmark.pitanks import Busy, Full
 from pigaming_app.scenes.views.particles import MOST
 from pigaming_app.scenes.views.pitanks.hud import layout
 from pigaming_app.scenes.views.preview import preview
+from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw.frame_budget import finished

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from pigaming_app.ui.draw.ink import BLUE, ICONS, LABEL, PLAYERS, WHITE, Ink, Page, badge, hints, icon, shape_points
+from pigaming_app.ui.draw import BLUE, ICONS, LABEL, PLAYERS, WHITE, Ink, Page, badge, hints, icon, shape_points
 
 
 def test_black_stays_black_away_from_ink():

@@ -13,9 +13,9 @@ from pigaming_app.ai import seated
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.benchmark import pitanks as busy
 from pigaming_app.scenes.views.benchmark import race as race_busy
+from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.i18n import Words

@@ -9,8 +9,8 @@ from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_S
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS, star, state_icon
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import BLACK, ICE, LINE, STEEL, THIN, WALL, Color, Ink, Page, cut, dim
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import BLACK, ICE, LINE, STEEL, THIN, WALL, Color, Ink, Page, cut, dim
 from pigaming_app.ui.draw.surface_cache import cached
 
 SLOT = 68  # px

@@ -18,7 +18,7 @@ from pigaming_app.scenes.views.factory.events import (
 from pigaming_app.scenes.views.particles import Moments
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
 from pigaming_app.scenes.views.view import Heard, Taste
-from pigaming_app.ui.draw.ink import ALARM
+from pigaming_app.ui.draw import ALARM
 
 POP = 0.12  # seconds in which a crate that was moved snaps to its size
 

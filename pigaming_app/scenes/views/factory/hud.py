@@ -11,15 +11,14 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.factory.state import DELIVERED, MOST_PALLETS, TEAMS
-from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
-from pigaming_app.scenes.views.pitanks.hud import ALARM_SECONDS, number_bits
+from pigaming_app.scenes.views.background import Bit, Ground
+from pigaming_app.scenes.views.hud_parts import HudParts, number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
-from pigaming_app.scenes.views.sprites.pickups import glyph, number_width
-from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw.ink import ALARM, ICE, LABEL, LINE, MIST, PLAYERS, SUB, TITLE, Ink, badge, cut, dim, icon
+from pigaming_app.ui.draw import ICE, LABEL, LINE, MIST, PLAYERS, SUB, Ink, badge, cut, dim, icon
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import glyph, number_width
 
 Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin round its sprites
 X = (160, 1108)
@@ -31,7 +30,7 @@ class FactoryHud:
 
     def __init__(self, ground: Ground, players: list[str]) -> None:
         self.ground, self.players = ground, players
-        self.said: dict[object, object] = {}
+        self.parts = HudParts(ground)
         self.delivered = [0] * TEAMS
 
     def show(self, state: Any) -> list[int]:
@@ -49,16 +48,8 @@ class FactoryHud:
                 sorted((one.state for one in state.pallets[first : first + MOST_PALLETS] if one.exists), key=order)
             )
             says = state.delivered[team], state.rules.pallets, mates, states
-            if self.said.get(team) != says:
-                box = pygame.Rect(X[team] - 8, 0, W + 16, HUD_HEIGHT)
-                self.ground.bake(box, [*panel_bits(team, *says)])
-                self.said[team] = says
-        left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
-        if self.said.get("clock") != left:
-            text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
-            x = 960 - number_width(text, TITLE) / 2
-            self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 82, color))
-            self.said["clock"] = left
+            self.parts.show(team, says, X[team] - 8, W + 16, partial(panel_bits, team, *says))
+        self.parts.countdown(state, 82)
         return new
 
     def jobs(self) -> Iterator[Callable[[], object]]:

@@ -8,7 +8,7 @@ from pigaming_app.games.factory.workers import fits
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.view import Pose
-from pigaming_app.ui.draw.ink import PLAYERS, dim
+from pigaming_app.ui.draw import PLAYERS, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 
 EVERY = 10  # ticks between two looks

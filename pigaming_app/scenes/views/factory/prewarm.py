@@ -8,9 +8,10 @@ from pigaming_app.scenes.views.factory.next_step import AIMS
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import pickups as things
+from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, TITLE, dim
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.ink import ALARM, ICE, PLAYERS, TITLE, dim
 from pigaming_app.ui.draw.sprites import HEADINGS
+from pigaming_app.ui.draw.text import glyph
 
 
 def jobs(seats: Sequence[int]) -> Iterator[Job]:
@@ -33,7 +34,7 @@ def jobs(seats: Sequence[int]) -> Iterator[Job]:
         yield partial(crates.frozen, part)
     for char in "0123456789:":
         for color in (ICE, ALARM):
-            yield partial(things.glyph, char, TITLE, color)
+            yield partial(glyph, char, TITLE, color)
     for seat in seats:
         yield partial(crates.target, PLAYERS[seat], False)
         yield partial(crates.target, dim(PLAYERS[seat], AIMS), True)

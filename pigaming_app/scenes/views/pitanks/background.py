@@ -9,8 +9,8 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT, TOP, Ground
 from pigaming_app.scenes.views.sprites.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import LINE, PLAYERS, PRE, WALL, Page, cut, dim, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import LINE, PLAYERS, PRE, WALL, Page, cut, dim, shape_points
 from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
 

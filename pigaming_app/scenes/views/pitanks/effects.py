@@ -8,7 +8,7 @@ from pigaming_app.scenes.views.particles import Moments
 from pigaming_app.scenes.views.pitanks.events import Happening
 from pigaming_app.scenes.views.view import Heard, Taste
 from pigaming_app.sim.world import WIDTH
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, PLAYERS, WALL
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
 
 BESIDE = 46.0  # px from a robot to where its scores rise
 

@@ -14,11 +14,10 @@ import pygame
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
+from pigaming_app.scenes.views.hud_parts import EDGE, WIDE, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.scenes.views.sprites.pickups import glyph, number_width, small_icon
-from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw.ink import (
-    ALARM,
+from pigaming_app.scenes.views.sprites.pickups import small_icon
+from pigaming_app.ui.draw import (
     FOCUS,
     ICE,
     LABEL,
@@ -28,9 +27,7 @@ from pigaming_app.ui.draw.ink import (
     STEEL,
     SUB,
     THIN,
-    TITLE,
     WHITE,
-    Color,
     Ink,
     badge,
     cut,
@@ -40,12 +37,10 @@ from pigaming_app.ui.draw.ink import (
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import number_width
 
-Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin round their sprites
-WIDE, SUM_W = 316, 116  # px
+SUM_W = 116  # px
 CELL = 17.75  # px from one cell of the turbo bar to the next
-PLACES = {1: (492,), 2: (492, 1112), 3: (160, 492, 1112), 4: (160, 492, 1112, 1444)}
-ALARM_SECONDS = 10
 
 
 @dataclass(frozen=True)
@@ -71,7 +66,7 @@ def layout(robots: Any) -> tuple[list[Slot], list[Sum]]:
     seats = [i for i, robot in enumerate(robots) if robot.present]
     teams = list(dict.fromkeys(robots[i].team for i in seats))
     if len(teams) != 2 or len(seats) == 2:
-        places = PLACES.get(len(seats), ())
+        places = XS.get(len(seats), ())
         return [Slot(seat, x, WIDE) for seat, x in zip(seats, places, strict=False)], []
     slots: list[Slot] = []
     sums: list[Sum] = []
@@ -92,7 +87,7 @@ class Hud:
     def __init__(self, ground: Ground, state: Any, players: list[str]) -> None:
         self.ground, self.players = ground, players
         self.slots, self.sums = layout(state.robots)
-        self.said: dict[object, object] = {}
+        self.parts = HudParts(ground)
         self.points: dict[int, int] = {}
 
     def show(self, state: Any) -> list[Slot]:
@@ -105,21 +100,12 @@ class Hud:
         for slot in self.slots:
             leads = slot.seat == ahead and not self.sums
             says = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
-            if self.said.get(slot) != says:
-                box = pygame.Rect(slot.x - 4, 0, slot.w + 8, HUD_HEIGHT)
-                self.ground.bake(box, panel_bits(slot, *says))
-                self.said[slot] = says
+            self.parts.show(slot, says, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *says))
         for one in self.sums:
             total = totals[one.team], one.team == ahead
-            if self.said.get(one) != total:
+            if self.parts.changed(one, total):
                 self._bake_sum(one, *total)
-                self.said[one] = total
-        left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
-        if self.said.get("clock") != left:
-            text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
-            x = 960 - number_width(text, TITLE) / 2
-            self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), number_bits(text, TITLE, x, 84, color))
-            self.said["clock"] = left
+        self.parts.countdown(state, 84)
         return changed
 
     def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
@@ -188,16 +174,6 @@ def panel_bits(
         cx = x + slot.w - 42 - 58 * i
         for image, dx, dy in (small_icon(POWERS[power], FOCUS, 15), timer_ring(FOCUS, left, 26, THIN)):
             bits.append((image, (cx + dx, middle - 1 + dy), None))
-    return bits
-
-
-def number_bits(text: str, size: int, x: float, y: float, color: Color) -> list[Bit]:
-    """A number, set in glyphs from x on; y is the middle of its digits."""
-    bits: list[Bit] = []
-    for char in text:
-        (image, dx, dy), advance = glyph(char, size, color)
-        bits.append((image, (round(x + dx), round(y + dy)), None))
-        x += advance
     return bits
 
 

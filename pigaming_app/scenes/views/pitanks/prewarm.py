@@ -9,9 +9,10 @@ from pigaming_app.scenes.views.pitanks.background import wall_sprite
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
 from pigaming_app.ui.draw.sprites import HEADINGS
+from pigaming_app.ui.draw.text import glyph
 
 
 def jobs(state: Any, seats: Sequence[int]) -> Iterator[Job]:
@@ -36,10 +37,10 @@ def _shooting(seats: Sequence[int]) -> Iterator[Job]:
 def _numbers(seats: Sequence[int]) -> Iterator[Job]:
     for char in "0123456789−":
         for seat in seats:
-            yield partial(things.glyph, char, SUB, mix(PLAYERS[seat], WHITE, 0.8))
+            yield partial(glyph, char, SUB, mix(PLAYERS[seat], WHITE, 0.8))
     for char in "0123456789:":
         for color in (ICE, ALARM):
-            yield partial(things.glyph, char, TITLE, color)
+            yield partial(glyph, char, TITLE, color)
     for seat in seats:
         for text in ("+1", "−1"):
             for level in range(things.POPUP_LEVELS, 0, -1):

@@ -6,11 +6,11 @@ import pygame
 
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.hud_parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.pitanks.background import Walled
 from pigaming_app.scenes.views.pitanks.effects import react
 from pigaming_app.scenes.views.pitanks.events import Watcher
 from pigaming_app.scenes.views.pitanks.hud import Hud, pulse
-from pigaming_app.scenes.views.pitanks.hud import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
@@ -18,7 +18,7 @@ from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.view import Heard, Picture, Pose, Taste, Words
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ
-from pigaming_app.ui.draw.ink import FOCUS, THIN
+from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 
 FLASH = 0.06  # seconds

@@ -8,8 +8,8 @@ from pigaming_app.games.race.start import Track
 from pigaming_app.scenes.views.background import LEFT, TOP, Ground
 from pigaming_app.scenes.views.race.track import BADGE, draw_track, edges, sign_post
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import ADD, STEEL, WIDE, Ink
 from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.ink import ADD, STEEL, WIDE, Ink
 from pigaming_app.ui.draw.surface_cache import cached
 
 GLOW = 0.75

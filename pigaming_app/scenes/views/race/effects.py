@@ -12,11 +12,11 @@ from pigaming_app.scenes.views.race.events import Happening
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
-from pigaming_app.scenes.views.sprites.pickups import glyph, number_width
 from pigaming_app.scenes.views.view import Heard, Pose, Taste, Words, decimal
 from pigaming_app.sim.world import WIDTH
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
+from pigaming_app.ui.draw.text import glyph, number_width
 
 SOUNDS = {
     "finish": "finish",

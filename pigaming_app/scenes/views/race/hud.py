@@ -10,18 +10,18 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
-from pigaming_app.scenes.views.background import HUD_HEIGHT, Ground
-from pigaming_app.scenes.views.pitanks.hud import PLACES, H, Y, number_bits
+from pigaming_app.scenes.views.background import Bit, Ground
+from pigaming_app.scenes.views.hud_parts import CLOCK, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
 from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, Card, W, card_bits
-from pigaming_app.scenes.views.sprites.pickups import glyph, number_width
 from pigaming_app.scenes.views.view import Words, decimal
 from pigaming_app.sim.world import DT, HZ
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, Ink
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.ink import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, Ink
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import glyph, number_width
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
 
@@ -33,9 +33,9 @@ class Cards:
         self.ground, self.players, self.words = ground, players, words
         self.gaps = Gaps(state)
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        self.xs = PLACES[len(seats)]
+        self.xs = XS[len(seats)]
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
-        self.said: dict[object, object] = {}
+        self.parts = HudParts(ground)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: which way it went, at which tick
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
@@ -50,14 +50,10 @@ class Cards:
         """Bake what has changed."""
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
             card = self._card(state, seat, i + 1)
-            if self.said.get(x) != card:
-                self.ground.bake(pygame.Rect(x - 8, 0, W + 16, HUD_HEIGHT), card_bits(card, x))
-                self.said[x] = card
+            self.parts.show(x, card, x - 8, W + 16, partial(card_bits, card, x))
         left = _left(state)
         clock = ("left", left) if left is not None else ("time", state.tick // HZ)
-        if self.said.get("clock") != clock:
-            self._bake_clock(*clock)
-            self.said["clock"] = clock
+        self.parts.show("clock", clock, CLOCK.x, CLOCK.w, partial(clock_bits, *clock))
 
     def jobs(self, state: Race) -> Iterator[Job]:
         """The pieces of the cards, each made by one small job."""
@@ -111,14 +107,16 @@ class Cards:
     def _gap(self, state: Race, seat: int) -> float:
         return self.gaps.gap(state, seat) if state.racers[seat].finished else self.gaps.shown[seat]
 
-    def _bake_clock(self, kind: str, seconds: int) -> None:
-        text = f"{seconds // 60}:{seconds % 60:02}" if kind == "time" else str(seconds)
-        lead = 0 if kind == "time" else 76
-        x = 960 - (number_width(text, TITLE) + lead) / 2
-        bits = number_bits(text, TITLE, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
-        if lead:
-            bits.append((small_flag(), (round(x) - 28, Y + H // 2 - 60), None))
-        self.ground.bake(pygame.Rect(820, 0, 280, HUD_HEIGHT), bits)
+
+def clock_bits(kind: str, seconds: int) -> list[Bit]:
+    """The time of the race, or, beside a flag, what the others have left."""
+    text = f"{seconds // 60}:{seconds % 60:02}" if kind == "time" else str(seconds)
+    lead = 0 if kind == "time" else 76
+    x = 960 - (number_width(text, TITLE) + lead) / 2
+    bits = number_bits(text, TITLE, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
+    if lead:
+        bits.append((small_flag(), (round(x) - 28, Y + H // 2 - 60), None))
+    return bits
 
 
 def _left(state: Race) -> int | None:

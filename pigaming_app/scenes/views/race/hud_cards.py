@@ -9,9 +9,8 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.scenes.views.background import Bit
-from pigaming_app.scenes.views.pitanks.hud import WIDE, H, Y, number_bits
-from pigaming_app.scenes.views.sprites.pickups import number_width
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.scenes.views.hud_parts import WIDE, H, Y, number_bits
+from pigaming_app.ui.draw import (
     ALARM,
     BODY,
     FOCUS,
@@ -34,6 +33,7 @@ from pigaming_app.ui.draw.ink import (
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import number_width
 
 W, EDGE = WIDE, 24  # px: width of the cards, margin round their sprites
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # of a time that is better, or worse; a sign says it too

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.scenes.views.race.hud_cards import flag, star, u_turn
 from pigaming_app.scenes.views.race.track import MUD
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BODY,
     FOCUS,

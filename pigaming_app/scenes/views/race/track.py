@@ -11,8 +11,8 @@ from typing import NamedTuple
 from pigaming_app.games.race.course import Course, Place, half_at, leg, locate, spot
 from pigaming_app.games.race.start import BEHIND, Track
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
 from pigaming_app.ui.draw.frame_budget import Steps
-from pigaming_app.ui.draw.ink import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
 
 EDGE: Color = (150, 178, 214)
 MUD: Color = (170, 106, 44)

@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.games.race.state import Race, Racer
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.pitanks.hud import Y
+from pigaming_app.scenes.views.hud_parts import Y
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import Raceway
@@ -23,7 +23,7 @@ from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.scenes.views.view import Heard, Picture, Pose, Taste, Words
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
-from pigaming_app.ui.draw.ink import FOCUS, THIN
+from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
 from pigaming_app.ui.widgets.caption import plate
 

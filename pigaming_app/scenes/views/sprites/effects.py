@@ -5,7 +5,7 @@ import random
 
 import pygame
 
-from pigaming_app.ui.draw.ink import LINE, PLAYERS, WALL, WHITE, Color, Ink, dim, mix, regular
+from pigaming_app.ui.draw import LINE, PLAYERS, WALL, WHITE, Color, Ink, dim, mix, regular
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 

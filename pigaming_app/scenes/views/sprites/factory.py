@@ -9,7 +9,7 @@ import math
 import pygame
 
 from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW, A
-from pigaming_app.ui.draw.ink import ALARM, BLACK, LINE, THIN, WHITE, Color, Ink, Points, cut, dim, regular
+from pigaming_app.ui.draw import ALARM, BLACK, LINE, THIN, WHITE, Color, Ink, Points, cut, dim, regular
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 

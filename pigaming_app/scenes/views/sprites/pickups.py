@@ -1,10 +1,10 @@
-"""What lies in an arena or rises from it: pick-ups, mines, scores, small icons, single glyphs of a number."""
+"""What lies in an arena or rises from it: pick-ups, mines, scores, small icons."""
 
 import math
 
 import pygame
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BLACK,
     FOCUS,
@@ -72,17 +72,3 @@ def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
     out = pygame.transform.smoothscale(dark, (w, h))
     out.blit(ink.lit(0.9), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     return trim(out, w / 2, h / 2)
-
-
-@cached
-def glyph(char: str, size: int, color: Color, glow: float = 0.7) -> tuple[Sprite, float]:
-    """One digit or sign as light, from its left edge and the middle of the capitals, and how far to the next, px."""
-    advance = font("hero", size * 2).size(char)[0] / 2
-    w, h = math.ceil(advance) + 48, size + 56
-    ink = Ink(w, h).text(char, size, 24, h / 2, color, "hero")
-    return trim(ink.lit(glow), 24, h / 2), advance
-
-
-def number_width(text: str, size: int) -> float:
-    """Width of a number set in glyphs, px."""
-    return sum(glyph(char, size, ICE)[1] for char in text)

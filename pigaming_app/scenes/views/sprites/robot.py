@@ -7,7 +7,7 @@ import math
 
 import pygame
 
-from pigaming_app.ui.draw.ink import (
+from pigaming_app.ui.draw import (
     ALARM,
     BLACK,
     ICE,
@@ -23,7 +23,7 @@ from pigaming_app.ui.draw.ink import (
     regular,
     shape_points,
 )
-from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
+from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
 HALF, ARM = 80, 13  # px: what a turned tank covers, and where the middle of that is
@@ -104,3 +104,15 @@ def _back(player: int) -> int:
 
 def _number_size(player: int) -> int:
     return 29 if player == 1 else 34
+
+
+def seat_robot(player: int, angle: float, scale: float = 2.1) -> Sprite:
+    """A robot of seat 0..3, `scale` times as large as in an arena, heading `angle` rad. Blit it premultiplied (PRE)."""
+    return _seat_robot(player, step(angle, HEADINGS), scale)
+
+
+@cached
+def _seat_robot(player: int, turn: int, scale: float) -> Sprite:
+    half = round(84 * scale)
+    ink = Ink(2 * half, 2 * half)
+    return trim(robot(ink, player, half, half, turn * math.tau / HEADINGS, scale).sprite(0.9), half, half)

@@ -3,7 +3,7 @@
 import math
 import random
 
-from pigaming_app.ui.draw.ink import BLACK, HAIR, LINE, WALL, Ink, Point, cut, dim, regular
+from pigaming_app.ui.draw import BLACK, HAIR, LINE, WALL, Ink, Point, cut, dim, regular
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 

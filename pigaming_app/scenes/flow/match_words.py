@@ -5,7 +5,7 @@ from typing import Any
 
 from pigaming_app.games.factory.start import set_rules as factory_rules
 from pigaming_app.games.factory.state import Rules as FactoryRules
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.game import Game, Seat, Setup
 from pigaming_app.games.pitanks.start import set_rules as pitanks_rules
 from pigaming_app.games.pitanks.state import Rules as PiTanksRules
 from pigaming_app.games.race.start import set_rules as race_rules
@@ -15,6 +15,7 @@ from pigaming_app.sim.world import DT, HZ
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 
+FIRES = {"pitanks": "hint_fire", "factory": "hint_lift"}  # text of what FIRE does, in games in which it does something
 RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
     "pitanks": (PiTanksRules, pitanks_rules),
     "factory": (FactoryRules, factory_rules),
@@ -42,6 +43,11 @@ def kept_minutes(settings: Settings, game: str) -> int:
     """The minutes that were chosen last."""
     minutes, rules = settings.choice(game).minutes, games()[game]
     return minutes if minutes in rules.minutes else rules.default_minutes
+
+
+def measure(words: Words, game: Game, minutes: float, goal: int) -> str:
+    """How long a match is: its laps or pallets, or its minutes."""
+    return words(f"setup.count_{game.goal}", count=goal) if game.goal else words("setup.min", minutes=f"{minutes:g}")
 
 
 def numbers(game: str, minutes: float, variant: str) -> dict[str, str]:

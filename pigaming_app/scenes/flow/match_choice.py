@@ -1,0 +1,55 @@
+"""The arenas that can be chosen, and the choice for the next match: what was chosen last is chosen again."""
+
+import logging
+from functools import lru_cache
+
+from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.match_words import measure
+from pigaming_app.sim.arena import Arena, ArenaError
+from pigaming_app.storage.settings import Choice
+
+log = logging.getLogger(__name__)
+
+
+@lru_cache(maxsize=32)
+def load_kept(game: str, name: str) -> Arena:
+    """An arena, read once. Raises ArenaError."""
+    return load(game, name)
+
+
+@lru_cache(maxsize=4)
+def playable(game: str) -> tuple[str, ...]:
+    """The arenas of a game whose files are right; what is wrong with the others goes to the log."""
+    names = []
+    for name in arenas(game):
+        try:
+            load_kept(game, name)
+            names.append(name)
+        except ArenaError as trouble:
+            log.warning("%s", trouble)
+    return tuple(names)
+
+
+def title(arena: Arena, language: str) -> str:
+    """What an arena is called."""
+    return arena.title.get(language, arena.name)
+
+
+def chosen(house: House, game: str) -> Choice:
+    """What was chosen last, or the game's own where that is not there (any more)."""
+    rules, last, names = games()[game], house.settings.choice(game), playable(game)
+    return Choice(
+        arena=last.arena if last.arena in names else names[0],
+        minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
+        variant=last.variant if last.variant in rules.variants else rules.variants[0],
+        goal=last.goal if last.goal in rules.goals else rules.default_goal,
+    )
+
+
+def summary(house: House, game: str) -> str:
+    """Game, minutes or goal, and arena in one line."""
+    words, now = house.words, chosen(house, game)
+    where = title(load_kept(game, now.arena), words.language)
+    return "  ·  ".join((words(f"games.{game}"), measure(words, games()[game], now.minutes, now.goal), where))

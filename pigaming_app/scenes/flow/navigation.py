@@ -1,0 +1,49 @@
+"""Navigation of a page with a list of choices: the focus, the hints, a sentence that fades, the ways out."""
+
+from collections.abc import Callable, Sequence
+
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.widgets.focus import Focus
+
+
+class Navigation:
+    """Part of a page. `idle`: seconds without a press until the title; `stay`: for how many a sentence is shown."""
+
+    def __init__(
+        self,
+        house: House,
+        focus: Focus,
+        hints: Sequence[tuple[Act, str]],
+        idle: float,
+        stay: float = 0.0,
+        voice: Callable[[], Device] | None = None,
+    ) -> None:
+        self.house, self.focus, self.idle, self.stay = house, focus, idle, stay
+        self.prompts = house.prompts(hints, voice=voice)
+        self._sentence, self._left = "", 0.0
+
+    @property
+    def sentence(self) -> str:
+        """The sentence that is shown now; empty if there is none."""
+        return self._sentence if self._left > 0.0 else ""
+
+    def say(self, sentence: str) -> None:
+        """Show a sentence for a while."""
+        self._sentence, self._left = sentence, self.stay
+
+    def on(self, press: Press) -> Turn:
+        """BACK leaves the page; directions and the mouse move the focus."""
+        if press.act is Act.BACK:
+            self.house.sounds.play("back")
+            return Pop()
+        if self.focus.on(press):
+            self.house.sounds.play("move")
+        return None
+
+    def update(self, seconds: float) -> Turn:
+        """Let focus and sentence move on; back to the title after a while without a press."""
+        self.focus.update(seconds)
+        self._left -= seconds
+        return Home() if self.house.idle > self.idle else None

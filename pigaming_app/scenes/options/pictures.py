@@ -1,0 +1,138 @@
+"""The moving picture beside the options that shows what the row in focus means."""
+
+import math
+
+import pygame
+
+from pigaming_app.scenes.views.sprites.robot import seat_robot
+from pigaming_app.ui.draw import ALARM, FOCUS, HAIR, ICE, LABEL, LINE, STEEL, THIN, Color, Ink, cut, dim, icon
+from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw.sprites import Sprite, trim
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.widgets.setting_row import CENTRE
+
+RING_R, RING_STEPS = 150, 24  # px, and pictures of the ring
+
+
+def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> None:
+    """The moving picture in the panel."""
+    x, y = CENTRE
+    since, jolt = seconds % 1.4, 0  # the robot of the picture is hit every 1.4 seconds
+    if name == "flashes" and since < 0.6:
+        _burst(chosen, int(since * 10)).draw(screen, x, y)
+    if name == "shake" and chosen and since < 0.35:
+        jolt = round(12 * math.sin(since * 64) * (1 - since / 0.35))
+    if name in ("flashes", "shake"):
+        stamp(screen, _robot(), x + jolt, y + jolt // 2)
+    else:
+        drawn(name, chosen, seconds).draw(screen, x, y)
+
+
+def ring(screen: pygame.Surface, share: float) -> None:
+    """What is being held down, round the picture in the panel: `share` of the time has passed, 0..1."""
+    image, dx, dy = filling(math.ceil(share * RING_STEPS))
+    screen.blit(image, (CENTRE[0] + dx, CENTRE[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
+
+
+@cached
+def filling(step: int) -> Sprite:
+    """A ring, `step` of RING_STEPS full, round (0, 0)."""
+    half = RING_R + 22
+    ink = Ink(2 * half, 2 * half)
+    ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), ALARM, LINE)
+    return trim(ink.lit(0.8), half, half)
+
+
+def drawn(name: str, chosen: int, seconds: float = 0.0) -> Lit:
+    """The picture of a row at a moment."""
+    if name == "sounds":
+        return _speaker(chosen, int(seconds * 6) % 4)
+    return _note(chosen, int(seconds * 8) % 8) if name == "music" else _drawn(name, chosen, int(seconds * 2) % 2)
+
+
+@cached
+def _robot() -> Sprite:
+    return seat_robot(1, -0.6, 1.8)
+
+
+@cached
+def _burst(strength: int, stage: int) -> Lit:
+    ink = Ink(400, 400).to(200, 200)
+    fade = (1.0 - stage / 6) * (0.25, 0.6, 1.0)[strength]
+    for i in range(12):
+        c, s = math.cos(i * math.tau / 12 + 0.2), math.sin(i * math.tau / 12 + 0.2)
+        near, far = 96 + 8 * stage, 112 + (4 + 8 * strength) + 10 * stage
+        ink.line([(near * c, near * s), (far * c, far * s)], dim(FOCUS, fade), LINE)
+    return Lit(ink.lit(0.5 + 0.5 * strength), (-200, -200))
+
+
+@cached
+def _speaker(loud: int, wave: int) -> Lit:
+    ink = Ink(400, 320).to(200, 160)
+    ink.line([(-92, -26), (-56, -26), (-10, -68), (-10, 68), (-56, 26), (-92, 26)], FOCUS, LINE, True)
+    reach = (loud + 3) // 4  # of three waves
+    for i, r in enumerate((46, 82, 118)):
+        lit = i < reach
+        bright = 1.0 if wave == i or wave == 3 else 0.7
+        ink.arc(-10, 0, r, -0.62, 0.62, dim(FOCUS, bright) if lit else STEEL, LINE)
+    return Lit(ink.lit(1.0), (-200, -160))
+
+
+@cached
+def _note(loud: int, beat: int) -> Lit:
+    """Bars that dance, as high as the music is loud."""
+    ink = Ink(440, 320).to(220, 160)
+    for i in range(8):
+        share = 0.35 + 0.65 * abs(math.sin(1.7 * i + beat * math.pi / 4))
+        cells = round(6 * share * (loud / 10)) if loud else 0
+        for j in range(6):
+            box = cut(-166 + 42 * i, 74 - 30 * j, 30, 22, 5)
+            if j < cells:
+                ink.fill(box, FOCUS)
+            else:
+                ink.line(box, dim(STEEL, 0.7), HAIR, True)
+    return Lit(ink.lit(0.7), (-220, -160))
+
+
+@cached
+def _drawn(name: str, chosen: int, beat: int) -> Lit:
+    ink = Ink(480, 340).to(240, 170)
+    if name == "language":
+        for i, said in enumerate(("EN", "PT")):
+            lit: Color = FOCUS if i == chosen else STEEL
+            x, y = (-88, -40) if i == 0 else (72, 40)
+            _bubble(ink, x, y, -1 if i == 0 else 1, lit)
+            ink.text(said, LABEL, x, y, lit, "head", "c")
+    elif name in ("display", "fullscreen"):
+        _monitor(ink, bool(chosen) if name == "fullscreen" else False, beat)
+    elif name == "padtest":
+        icon(ink, "pad", 0, 10, 130, FOCUS, LINE)
+        if beat:
+            ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)
+    elif name == "robots":
+        ink.ring(0, 0, 104, FOCUS, LINE).line(cut(-46, -46, 92, 92, 4), ICE, LINE, True)
+        ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)
+        for y in (-118, 118):
+            ink.line([(-34, y), (34, y)], FOCUS, LINE)
+        ink.line([(122, -22), (146, 0), (122, 22)], FOCUS, LINE)
+    elif name == "reset":
+        icon(ink, "crown", 0, 0, 96, FOCUS, LINE)
+        ink.line([(-120, 96), (120, -96)], ICE, LINE)
+    else:
+        ink.arc(0, 6, 84, -math.pi / 2 + 0.5, 1.5 * math.pi - 0.5, FOCUS, LINE)
+        ink.line([(0, -110), (0, -10)], FOCUS, LINE)
+    return Lit(ink.lit(0.9), (-240, -170))
+
+
+def _bubble(ink: Ink, x: float, y: float, side: int, color: Color) -> None:
+    w, h = 150, 96
+    ink.line(cut(x - w / 2, y - h / 2, w, h, 16), color, LINE, True)
+    ink.line([(x + side * 30, y + h / 2), (x + side * 56, y + h / 2 + 30), (x + side * 56, y + h / 2)], color, LINE)
+
+
+def _monitor(ink: Ink, full: bool, beat: int) -> None:
+    ink.line(cut(-150, -104, 300, 184, 16), ICE, LINE, True)
+    ink.line([(-60, 120), (60, 120)], ICE, LINE).line([(0, 80), (0, 120)], ICE, LINE)
+    w, h = (264, 148) if full else (150, 84)
+    ink.line(cut(-w / 2, -12 - h / 2, w, h, 10), FOCUS, LINE if beat else THIN, True)

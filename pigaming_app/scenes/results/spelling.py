@@ -1,0 +1,77 @@
+"""The initials that one player spells: the model, without drawing or sounds."""
+
+from pigaming_app.storage.scores import LETTERS
+from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.widgets.letter_picker import LetterPicker
+from pigaming_app.ui.widgets.word_filter import HARMLESS, rude
+
+SHAKE = 0.5  # seconds for which refused letters shake
+
+
+class Spelling:
+    """Up and down turn a letter, FIRE goes on and accepts the last one, START accepts all, BACK goes back.
+
+    FIRE accepts only letters of which one was turned, so that hammering on it does not fill the tables with AAA.
+    """
+
+    def __init__(self) -> None:
+        self.picker = LetterPicker(LETTERS, 3 * LETTERS[0])
+        self.turned = self.done = False
+        self.shaking = SHAKE
+
+    @property
+    def spelled(self) -> str:
+        """The letters as they are now."""
+        return self.picker.spelled
+
+    @property
+    def taken(self) -> str | None:
+        """The letters that enter the tables when time is up; None: nobody has chosen any."""
+        if not (self.done or self.turned):
+            return None
+        return HARMLESS if rude(self.spelled) else self.spelled
+
+    @property
+    def refused(self) -> bool:
+        """The letters have just been refused."""
+        return self.shaking < SHAKE
+
+    @property
+    def last(self) -> bool:
+        """The last letter is being chosen."""
+        return self.picker.slot == len(self.picker.letters) - 1
+
+    def on(self, act: Act) -> str | None:
+        """Answer a press of the player; the name of the sound that follows."""
+        match act:
+            case Act.BACK | Act.LEAVE if self.done:
+                self.done = False
+                return "back"
+            case _ if self.done:
+                return None
+            case Act.UP | Act.DOWN:
+                self.turned = True
+                return self.picker.turn(-1 if act is Act.UP else 1)
+            case Act.LEFT | Act.BACK | Act.LEAVE:
+                return self.picker.move(-1)
+            case Act.RIGHT:
+                return self.picker.move(1)
+            case Act.FIRE if not self.last:
+                return self.picker.move(1)
+            case Act.FIRE:
+                return self._accept(self.turned)
+            case Act.START:
+                return self._accept(True)
+        return None
+
+    def update(self, seconds: float) -> None:
+        """Let letters roll and shake."""
+        self.picker.update(seconds)
+        self.shaking += seconds
+
+    def _accept(self, chosen: bool) -> str:
+        if not chosen or rude(self.spelled):
+            self.shaking = 0.0
+            return "refused"
+        self.done = True
+        return "ready"

@@ -1,0 +1,54 @@
+"""What the HUDs of all games share: panels that are baked into the background when they change, numbers, the clock."""
+
+from collections.abc import Callable, Hashable, Iterable
+from typing import Any
+
+import pygame
+
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
+from pigaming_app.sim.world import HZ
+from pigaming_app.ui.draw import ALARM, ICE, TITLE, Color
+from pigaming_app.ui.draw.text import glyph, number_width
+
+Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin round their sprites
+WIDE = 316  # px of a panel
+XS = {1: (492,), 2: (492, 1112), 3: (160, 492, 1112), 4: (160, 492, 1112, 1444)}  # px: left edges, by their number
+ALARM_SECONDS = 10
+CLOCK = pygame.Rect(820, 0, 280, HUD_HEIGHT)
+
+
+class HudParts:
+    """The parts of a HUD on a background; a part is baked when its content changes."""
+
+    def __init__(self, ground: Ground) -> None:
+        self.ground = ground
+        self.shown: dict[Hashable, object] = {}
+
+    def changed(self, part: Hashable, content: object) -> bool:
+        """Whether a part has to be baked anew; from now on it counts as baked."""
+        if self.shown.get(part) == content:
+            return False
+        self.shown[part] = content
+        return True
+
+    def show(self, part: Hashable, content: object, x: int, w: int, bits: Callable[[], Iterable[Bit]]) -> None:
+        """Bake the pieces of a part over the whole height of the HUD, from x on, w px wide, if its content changed."""
+        if self.changed(part, content):
+            self.ground.bake(pygame.Rect(x, 0, w, HUD_HEIGHT), [*bits()])
+
+    def countdown(self, state: Any, y: float) -> None:
+        """The time that is left of a match, its digits round y px."""
+        left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
+        text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
+        x = 960 - number_width(text, TITLE) / 2
+        self.show("clock", left, CLOCK.x, CLOCK.w, lambda: number_bits(text, TITLE, x, y, color))
+
+
+def number_bits(text: str, size: int, x: float, y: float, color: Color) -> list[Bit]:
+    """A number, set in glyphs from x on; y is the middle of its digits."""
+    bits: list[Bit] = []
+    for char in text:
+        (image, dx, dy), advance = glyph(char, size, color)
+        bits.append((image, (round(x + dx), round(y + dy)), None))
+        x += advance
+    return bits

@@ -1,0 +1,14 @@
+"""How each game looks while it is played."""
+
+from collections.abc import Callable
+from typing import Any
+
+from pigaming_app.scenes.views.factory.view import FactoryView
+from pigaming_app.scenes.views.pitanks.view import PiTanksView
+from pigaming_app.scenes.views.race.view import RaceView
+from pigaming_app.scenes.views.view import Picture, Taste, Words
+from pigaming_app.sim.arena import Arena
+
+View = Callable[[Arena, Any, list[str], Taste, Words | None], Picture]
+
+VIEWS: dict[str, View] = {"pitanks": PiTanksView, "factory": FactoryView, "race": RaceView}
