@@ -213,7 +213,7 @@ def _print_figures(figures: dict[str, Any], indent: str = "") -> None:
 
 def _bench_robots() -> dict[str, Any]:
     """The proof of the robot loop; says on the way what it found, on standard error."""
-    from pigaming_app.hardware.vision.markers import NoVision, opencv
+    from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
     from pigaming_app.jobs.bench.robots import Unproven, measure, reached
 
     def note(line: str) -> None:
@@ -222,7 +222,7 @@ def _bench_robots() -> dict[str, Any]:
     try:
         opencv()
         figures = measure(note)
-    except (NoVision, Unproven) as reason:
+    except (OpenCVMissing, Unproven) as reason:
         raise Wrong(str(reason)) from None
     missed = [key for key, good in reached(figures).items() if not good]
     note(f"not reached: {', '.join(missed)}" if missed else "everything is reached")

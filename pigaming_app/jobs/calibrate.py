@@ -64,12 +64,12 @@ def _write(path: Path, edge: float) -> int:
 def _prove(arguments: argparse.Namespace) -> int:
     """Let the wizard run by itself."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
-    from pigaming_app.hardware.vision.markers import NoVision, opencv
+    from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
     from pigaming_app.jobs.calibrate_unattended import calibrate
 
     try:
         opencv()
-    except NoVision as missing:
+    except OpenCVMissing as missing:
         raise NotCalibrated(english().explained(missing.message)) from None
     told = calibrate(arguments.emulate, arguments.robot)
     if arguments.json:

@@ -13,7 +13,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession, unfit
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, unfit
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.storage.parsing import reason as reason_of
 from pigaming_app.storage.settings import Settings, folders
@@ -40,7 +40,7 @@ def run(arguments: Namespace) -> int:
 
 def record(arguments: Namespace) -> dict[str, Any]:
     """Let the robots dance for a while on an empty mat, and write the run."""
-    from pigaming_app.hardware.recordings import Recorder
+    from pigaming_app.hardware.recordings import RecordingWriter
     from pigaming_app.storage.safe_files import check_target
 
     if arguments.emulate is None and (reason := unfit(Settings.load(folders().config)[0])):
@@ -49,11 +49,11 @@ def record(arguments: Namespace) -> dict[str, Any]:
     try:
         session = new_session(arguments.emulate, arguments.camera, arguments.port)
         rig = session.open()
-    except NoRobots as trouble:
+    except RobotsUnavailable as trouble:
         raise NotDone(english().explained(trouble.message)) from None
     try:
         present = _present(session, rig)
-        recorder = Recorder(arguments.file, session.mm, arguments.emulate is not None)
+        recorder = RecordingWriter(arguments.file, session.mm, arguments.emulate is not None)
         try:
             rig.recorder = recorder
             _dance(session, rig, present, arguments.seconds)
@@ -84,13 +84,13 @@ def _present(session: RobotSession, rig: Any) -> list[int]:
 def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) -> None:
     """Let them drive for a while. Raises NotDone."""
     from pigaming_app.hardware.control.real_plant import RealPlant
-    from pigaming_app.hardware.sysid.excitation import Dance
+    from pigaming_app.hardware.sysid.excitation import ExcitationPattern
     from pigaming_app.sim.world import DT, World
 
     world: Any = World()
     for i in present:
         world.robots[i].present = 1
-    plant, dance, begun, stuck = RealPlant(world, rig, present), Dance(), rig.clock(), 0
+    plant, dance, begun, stuck = RealPlant(world, rig, present), ExcitationPattern(), rig.clock(), 0
     while rig.clock() - begun < seconds:
         plant.drive(dance.twists(rig.clock(), plant.sense()), DT)
         session.tick()
@@ -104,7 +104,7 @@ def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) 
 def identify(arguments: Namespace) -> dict[str, Any]:
     """Find the drivetrains, keep them, tell and draw how good they are."""
     from pigaming_app.hardware.session.store import load_robots, robots_file
-    from pigaming_app.hardware.sysid.evaluate import HORIZONS, TooShort, measure
+    from pigaming_app.hardware.sysid.evaluate import HORIZONS, RecordingTooShort, measure
     from pigaming_app.sim.drivetrain import DrivetrainError, tell
     from pigaming_app.storage.safe_files import NotSaved, keep
 
@@ -116,7 +116,7 @@ def identify(arguments: Namespace) -> dict[str, Any]:
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
         keep(out, tell(drivetrains))
-    except TooShort as trouble:
+    except RecordingTooShort as trouble:
         raise NotDone(english().explained(trouble.message)) from None
     except (NotSaved, DrivetrainError) as trouble:
         raise NotDone(str(trouble)) from None
@@ -171,18 +171,18 @@ def replay(arguments: Namespace) -> dict[str, Any]:
 
 
 def _load(file: Path) -> Any:
-    from pigaming_app.hardware.recordings import RunError, load
+    from pigaming_app.hardware.recordings import RecordingError, load
 
     try:
         return load(file)
-    except RunError as trouble:
+    except RecordingError as trouble:
         raise NotDone(str(trouble)) from None
 
 
 def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
-    from pigaming_app.hardware.sysid.plots import NoPlots, draw
+    from pigaming_app.hardware.sysid.plots import PlotsUnavailable, draw
 
     try:
         return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
-    except NoPlots as missing:
+    except PlotsUnavailable as missing:
         return [english().explained(missing.message)]

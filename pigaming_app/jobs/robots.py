@@ -6,7 +6,7 @@ from argparse import Namespace
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.ui.i18n import english
 
@@ -51,11 +51,11 @@ def look(arguments: Namespace) -> dict[str, Any]:
     }
     try:
         session = new_session(arguments.emulate, arguments.camera, arguments.port)
-    except NoRobots as trouble:
+    except RobotsUnavailable as trouble:
         raise NotThere(english().explained(trouble.message)) from None
     try:
         return {**told, **_looked(session, arguments)}
-    except NoRobots as trouble:
+    except RobotsUnavailable as trouble:
         reason = english().explained(trouble.message)
         if arguments.pair or arguments.latency:
             raise NotThere(f"Robots can only be moved where they are seen. {reason}") from None
@@ -72,13 +72,13 @@ def _heard(session: RobotSession) -> dict[str, Any]:
 
 
 def _looked(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
-    """What is heard and seen; then the robots move, if that was asked for. Raises NoRobots, NotThere."""
+    """What is heard and seen; then the robots move, if that was asked for. Raises RobotsUnavailable, NotThere."""
     rig, told = session.open(), dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
         session.tick()
         rig.pump()
     seen = rig.sense()
-    told["radio"], told["eyes"] = _sentence(rig.link.trouble), _sentence(rig.eye.trouble)
+    told["radio"], told["eyes"] = _sentence(rig.link.trouble), _sentence(rig.camera.trouble)
     told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if told["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
@@ -113,7 +113,7 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
 
 def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any]]:
     """Spin each robot in turn; remember who is who unless it is unclear."""
-    from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+    from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
     from pigaming_app.hardware.session.store import save_radios
     from pigaming_app.storage.safe_files import NotSaved
 
@@ -121,7 +121,7 @@ def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any
     while not pairing.tick():
         session.tick()
     rig.channels = pairing.channels
-    if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
+    if kept and {one.case for one in pairing.findings} <= {PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT}:
         try:
             save_radios(pairing.channels)
         except NotSaved as trouble:
@@ -134,9 +134,9 @@ def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any
 
 def _late(session: RobotSession, rig: "Rig", robot: int) -> dict[str, Any]:
     """Shake one robot."""
-    from pigaming_app.hardware.commissioning.latency import Shake
+    from pigaming_app.hardware.commissioning.latency import LatencyTest
 
-    shake = Shake(rig, robot)
+    shake = LatencyTest(rig, robot)
     while not shake.tick():
         session.tick()
     found = shake.result()

@@ -23,14 +23,14 @@ SAID = (
 )
 
 
-class NoSheet(OperatorError):
+class MarkerSheetError(OperatorError):
     """Markers that fit neither on the page nor on a robot."""
 
 
 def sheet(edge: float = MARKER) -> bytes:
-    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60). Raises NoVision, NoSheet."""
+    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60). Raises NoVision, MarkerSheetError."""
     if not 20.0 <= edge <= 60.0:
-        raise NoSheet(OperatorMessage("marker_edge", edge=f"{edge:g}"))
+        raise MarkerSheetError(OperatorMessage("marker_edge", edge=f"{edge:g}"))
     return _pdf("\n".join([*_markers(edge), *_ruler(), *_words()]))
 
 

@@ -102,13 +102,13 @@ class RobotsMenu:
     def _write(self) -> None:
         """Write the page with the markers where the user's files are, and say where."""
         from pigaming_app.hardware.calibration.marker_sheet import sheet
-        from pigaming_app.hardware.vision.markers import NoVision
+        from pigaming_app.hardware.vision.markers import OpenCVMissing
 
         path, words = folders().data / SHEET, self.house.words
         try:
             write(path, sheet())
             self.sentence = words("robots.written", path=path)
-        except NoVision as missing:
+        except OpenCVMissing as missing:
             log.warning("%s", english().explained(missing.message))
             self.sentence = words.sentence(missing.message)
         except NotSaved as trouble:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.messages import paragraph
 from pigaming_app.scenes.flow.stack import Pop, Turn
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from pigaming_app.scenes.robots.match_scene import RealMatch
 
 LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
-GOOD = (Case.FITS, Case.SWAPPED, Case.ABSENT)
+GOOD = (PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT)
 TITLE_Y, PROMPTS_Y, SAID_Y = 42, 102, 480  # px
 
 
