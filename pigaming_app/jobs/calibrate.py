@@ -9,7 +9,7 @@ from typing import Any
 
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.jobs.options import path, real, whole
-from pigaming_app.ui.i18n import english
+from pigaming_app.ui.i18n import english, in_every_language
 
 
 class NotCalibrated(Exception):
@@ -54,7 +54,7 @@ def _write(path: Path, edge: float) -> int:
         raise NotCalibrated(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     try:
         check_target(path)
-        write(path, sheet(edge))
+        write(path, sheet(edge, in_every_language("sheet.print", "sheet.cut")))
     except OperatorError as trouble:
         raise NotCalibrated(english().explained(trouble.message)) from None
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")

@@ -71,7 +71,7 @@ BOARD_IDS = tuple(range(FIRST_ID, FIRST_ID + COLUMNS * ROWS))
 
 
 class BoardSamples:
-    """What the camera sees of a board. Raises NoVision where OpenCV is missing."""
+    """What the camera sees of a board. Raises OpenCVMissing where OpenCV is missing."""
 
     def __init__(self) -> None:
         self._markers = MarkerDetector(BOARD_IDS)

@@ -1,6 +1,6 @@
 """Looking through a camera beside the pictures of the arcade: what it sees, and whether its calibration still holds.
 
-Each is a Worker: it opens the camera, works bit by bit, and lets go of it.
+Each is a BackgroundWorker: it opens the camera, works bit by bit, and lets go of it.
 """
 
 from collections.abc import Callable
@@ -119,7 +119,7 @@ class DriftCheck(CameraTask):
     """Whether a calibration still holds: how far the four corner markers are from where it says that they are seen.
 
     `load` reads the calibration for a camera with pictures of so many px, or raises CalibrationError. `marker_mm` is
-    the apparent size of the marker of a robot at `SPOT`: far from its true size, the width of the mat was measured wrongly.
+    the apparent size of the marker of a robot at `SPOT`: far from its true size, the mat's width was measured wrongly.
     """
 
     def __init__(self, site: CalibrationSite, number: int, load: Callable[[tuple[int, int]], GroundPlane]) -> None:

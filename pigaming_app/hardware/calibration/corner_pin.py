@@ -38,7 +38,7 @@ class CornerPinError(OperatorError):
 
 
 class CornerPin:
-    """The picture in these corners, in windows of any size. Raises CornerPinError; NoVision where OpenCV is missing."""
+    """The picture in these corners, in windows of any size. Raises CornerPinError, OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float]) -> None:
         if crooked(corners):
@@ -52,7 +52,7 @@ class CornerPin:
 
 
 class PerspectiveWarp:
-    """A picture of the canvas in these corners, in a window of `size` px. Raises NoVision."""
+    """A picture of the canvas in these corners, in a window of `size` px. Raises OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float], size: tuple[int, int] = CANVAS) -> None:
         self._cv = opencv()

@@ -24,7 +24,7 @@ PLACES = ((80, 84), (1840, 84), (1840, 996), (80, 996))  # canvas px: their midd
 
 
 class DriftMonitor:
-    """The drift of one calibration. Raises NoVision where OpenCV is missing."""
+    """The drift of one calibration. Raises OpenCVMissing where OpenCV is missing."""
 
     def __init__(self, ground: GroundPlane) -> None:
         self.ground = ground

@@ -41,7 +41,7 @@ class CalibrationSite(Protocol):
     def cameras(self) -> list[CameraInfo]: ...
 
     def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
-        """Use a camera that locks its exposure when it has settled; `fresh`: having found it anew. Raises NoVision."""
+        """Use a camera that locks its exposure once it has settled; `fresh`: found anew. Raises OpenCVMissing."""
 
     def advance(self, seconds: float) -> None: ...
 
@@ -69,7 +69,7 @@ class RealCalibrationSite:
         return cameras()
 
     def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
-        """Use a camera. Raises NoVision."""
+        """Use a camera. Raises OpenCVMissing."""
         return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh)
 
     def advance(self, seconds: float) -> None:

@@ -52,7 +52,7 @@ class Residuals:
 def solve(
     seen: Mapping[int, Points], board: CalibrationBoard, size: tuple[int, int], width_mm: float, display: str
 ) -> GroundPlane:
-    """The ground on which the board's corners are seen where `Look.corners` says. The camera's place is a guess.
+    """The plane on which the board's corners appear as in `BoardSamples.corners`. The camera's place is a guess.
 
     `size`: of the camera's pictures, px; `width_mm`: of the arena on the mat. Raises CalibrationError.
     """

@@ -23,7 +23,7 @@ SEEN = 0.3  # s within which a marker must have been seen
 
 
 class PairingCase(StrEnum):
-    """What came of spinning the robot of one radio. The texts are pairing.CASE."""
+    """What came of spinning the robot of one radio. The texts are fleet.case_CASE."""
 
     FITS = "fits"  # the marker has the radio's own number
     SWAPPED = "swapped"  # another marker turned: it is driven by this radio from now on

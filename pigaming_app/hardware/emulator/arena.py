@@ -33,7 +33,7 @@ RESTLESS = 6.0  # s between two steps of the exposure
 
 
 class EmulatedArena:
-    """The mat and all that is around it. `camera` is an Eye, `radio` a Port, `faults` what goes wrong.
+    """The mat and all that is around it. `camera` is a CameraSource, `radio` a SerialPort, `faults` what goes wrong.
 
     `unrest` is the size of the exposure steps that come by themselves, as a share; `begin` is the time (s) at which
     the clock starts; `refresh` is the painter's: 1 paints every picture whole.

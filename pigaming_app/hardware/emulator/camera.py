@@ -34,7 +34,7 @@ class Exposure(NamedTuple):
 
 
 class EmulatedCamera:
-    """An Eye over the emulated mat."""
+    """A CameraSource over the emulated mat."""
 
     def __init__(self, painter: SceneRenderer, pace: FrameTiming, clock: Clock, seed: int) -> None:
         self.painter, self.pace, self.clock = painter, pace, clock

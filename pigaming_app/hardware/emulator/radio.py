@@ -1,7 +1,7 @@
 """The emulated radio: a serial line to an XBee, the air, and on every robot another XBee on another serial line.
 
 Bytes take their time on each line (ten bits at the baud rate), packets theirs in the air, where they are lost, doubled
-and late. The computer's end is a Port. Everything happens in the time of the clock that is handed in.
+and late. The computer's end is a SerialPort. Everything happens in the time of the clock that is handed in.
 """
 
 from collections import deque
@@ -40,7 +40,7 @@ MODERATE = RadioChannel(loss=0.005, doubled=0.005, broken=0.002)
 
 
 class EmulatedRadio:
-    """The computer's end of the radio, a Port. `dead`: nothing goes through; `unplugged`: the port is gone."""
+    """The computer's end of the radio, a SerialPort. `dead`: nothing goes through; `unplugged`: the port is gone."""
 
     def __init__(self, firmwares: list[Firmware], air: RadioChannel, clock: Clock, seed: int) -> None:
         self.firmwares, self.air, self.clock = firmwares, air, clock

@@ -67,7 +67,7 @@ class EmulatedSession:
 
     @property
     def arena(self) -> "EmulatedArena":
-        """The arena, made and calibrated when it is first needed; then its time passes. Raises NoRobots."""
+        """The arena, made and calibrated when it is first needed; then its time passes. Raises RobotsUnavailable."""
         if self._arena is None:
             from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
 
@@ -84,7 +84,7 @@ class EmulatedSession:
 
     @property
     def ground(self) -> "GroundPlane":
-        """The calibration of the wizard, or else the one that was made with the arena. Raises NoRobots."""
+        """The calibration of the wizard, or else the one that was made with the arena. Raises RobotsUnavailable."""
         from pigaming_app.hardware.calibration.ground_plane import CalibrationError
         from pigaming_app.hardware.session import store
 

@@ -69,7 +69,7 @@ def new_rig(
     camera: "CameraSource", link: "Link", ground: "GroundPlane", clock: "Clock", drivetrains: "Sequence[Drivetrain]",
     tracker: "type[Tracker] | None" = None,
 ) -> "Rig":  # fmt: skip
-    """A rig whose tracker also measures the drift of the camera. Raises NoVision."""
+    """A rig whose tracker also measures the drift of the camera. Raises OpenCVMissing."""
     from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.tracking.tracker import Tracker

@@ -29,7 +29,7 @@ MARGIN, ASTRAY = 6.0, 200.0  # how far from its prediction a marker is looked fo
 
 
 class Tracker:
-    """The robots 0 to 3. Times are of `clock`; poses in arena px and rad. Raises NoVision where OpenCV is missing."""
+    """The robots 0 to 3. Times are of `clock`; poses in arena px and rad. Raises OpenCVMissing."""
 
     def __init__(
         self,

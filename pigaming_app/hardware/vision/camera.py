@@ -1,7 +1,6 @@
 """A camera, read by a thread that keeps the newest picture and throws the rest away.
 
-Whether it is well is judged by the age of its newest picture: drivers repeat, block and lie. What is wrong is one
-sentence in `trouble`; a camera that comes back is used again. Exposure, white balance, gain and focus are locked once
+Health is the age of the newest picture: drivers repeat, block and lie. `trouble` is the fault as a message; a camera that comes back is used again. Exposure, white balance, gain and focus are locked once
 they have settled, because what a camera corrects by itself looks to the tracker as if the arena had changed.
 """
 
@@ -33,9 +32,9 @@ class CaptureSettings(NamedTuple):
 
 
 class Camera:
-    """The camera with this number, an Eye. What goes wrong is said in `trouble`. Use it in a `with`, or close it.
+    """The camera with this number. `trouble` is its fault, if there is one. Use it in a `with`, or close it.
 
-    `open_capture` makes a `cv2.VideoCapture`. Raises NoVision where OpenCV is missing.
+    `open_capture` makes a `cv2.VideoCapture`. Raises OpenCVMissing.
     """
 
     def __init__(

@@ -35,7 +35,7 @@ log = logging.getLogger("pigaming")
 
 
 class RealMatch(MatchScene):
-    """A match in which the robots of the seats `real` are real ones. Raises NoRobots where they cannot be used."""
+    """A match in which the robots of the seats `real` are real ones. Raises RobotsUnavailable."""
 
     def __init__(
         self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: RobotSession

@@ -13,7 +13,7 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.i18n import english
+from pigaming_app.ui.i18n import english, in_every_language
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import rows
 from pigaming_app.ui.widgets import setting_row as dials
@@ -106,7 +106,7 @@ class RobotsMenu:
 
         path, words = folders().data / SHEET, self.house.words
         try:
-            write(path, sheet())
+            write(path, sheet(notes=in_every_language("sheet.print", "sheet.cut")))
             self.sentence = words("robots.written", path=path)
         except OpenCVMissing as missing:
             log.warning("%s", english().explained(missing.message))
