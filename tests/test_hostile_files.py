@@ -23,11 +23,11 @@ from pigaming_app.games.replay import ReplayError
 from pigaming_app.games.setup import choose
 from pigaming_app.hardware import recordings as runs
 from pigaming_app.hardware.calibration import ground_plane as ground
-from pigaming_app.hardware.calibration.ground_plane import NoGround
-from pigaming_app.hardware.recordings import RunError
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError
+from pigaming_app.hardware.recordings import RecordingError
 from pigaming_app.hardware.session.store import load as load_calibration
 from pigaming_app.hardware.session.store import load_robots
-from pigaming_app.hardware.sysid.evaluate import TooShort, measure
+from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, measure
 from pigaming_app.hardware.sysid.evaluate import replay as replay_run
 from pigaming_app.jobs import replay_files
 from pigaming_app.scenes.lab import table_files
@@ -91,7 +91,7 @@ def test_calibrations(tmp_path):
         kept = tomllib.loads(toml(one))
         path.write_text(toml({**one, "check": ground._check(kept)}), encoding="utf-8")
         with np.errstate(all="raise", under="ignore"):
-            used += refused_or_used(lambda: load_calibration(path).fixes([], 0.0), NoGround)
+            used += refused_or_used(lambda: load_calibration(path).fixes([], 0.0), CalibrationError)
     assert used > 50
 
 
@@ -116,7 +116,7 @@ def test_runs(tmp_path):
         for one in random.Random(number).sample(list(mutated(lines[number])), 80):
             changed = [*packed[:number], json.dumps(one), *packed[number + 1 :]]
             path.write_text("\n".join(changed))
-            used += refused_or_used(lambda: runs.load(path), RunError)
+            used += refused_or_used(lambda: runs.load(path), RecordingError)
     assert used > 20
 
 
@@ -136,7 +136,7 @@ def test_runs(tmp_path):
 def test_a_run_with_a_line_that_no_robot_drives_is_refused(tmp_path, line):
     path = tmp_path / "run.jsonl"
     path.write_text("\n".join(json.dumps(one) for one in (*run_lines(50), line, run_lines(1)[1])))
-    with pytest.raises(RunError):
+    with pytest.raises(RecordingError):
         runs.load(path)
 
 
@@ -153,7 +153,7 @@ def test_what_is_accepted_as_a_run_is_measured_and_replayed(tmp_path):
                 lines[number]["time"] = chance.uniform(-100.0, 100.0)
         path.write_text("\n".join(map(json.dumps, lines)))
         run = runs.load(path)
-        refused_or_used(lambda run=run: measure(run), TooShort)
+        refused_or_used(lambda run=run: measure(run), RecordingTooShort)
         replay_run(run, [NOMINAL] * 4)
 
 
@@ -267,8 +267,8 @@ def test_a_table_with_a_hostile_header_is_refused(tmp_path, header):
 READERS = {
     "arena.toml": (lambda path: load_arena("pitanks", str(path)), ArenaError),
     "robots.toml": (load_robots, DrivetrainError),
-    "calibration.toml": (load_calibration, NoGround),
-    "run.jsonl": (runs.load, RunError),
+    "calibration.toml": (load_calibration, CalibrationError),
+    "run.jsonl": (runs.load, RecordingError),
     "a.replay": (replay_files.load, ReplayError),
     "a.npz": (table_files.load, TableError),
 }

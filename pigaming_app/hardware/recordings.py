@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.signals import Fix, Wheels
+from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.parsing import json_of, one_line, read, reason, shown
@@ -31,12 +31,12 @@ Told = tuple[float, list[list[float]]]  # s, the shares of both wheels of every 
 Sight = tuple[float, float, float, float]  # s, px, px, rad
 
 
-class RunError(ValueError):
+class RecordingError(ValueError):
     """A file that is not a run; one line with file, line and reason."""
 
 
 @dataclass(frozen=True)
-class Course:
+class RobotRecording:
     """What one robot was told, (k,) and (k, 2), and where it was seen, (m,) and (m, 3): px, px, rad without jumps."""
 
     told_at: Floats
@@ -44,22 +44,22 @@ class Course:
     seen_at: Floats
     poses: Floats
 
-    def between(self, begin: float, end: float) -> "Course":
+    def between(self, begin: float, end: float) -> "RobotRecording":
         """What was seen in this time, with all that was told."""
         seen = (self.seen_at >= begin) & (self.seen_at < end)
-        return Course(self.told_at, self.wheels, self.seen_at[seen], self.poses[seen])
+        return RobotRecording(self.told_at, self.wheels, self.seen_at[seen], self.poses[seen])
 
 
 @dataclass(frozen=True)
-class Run:
+class Recording:
     """A recorded run: a course for every robot that was seen often enough to tell something."""
 
     mm: float  # of an arena px on the mat
-    courses: dict[int, Course]
+    courses: dict[int, RobotRecording]
     emulated: bool = False
 
 
-class Recorder:
+class RecordingWriter:
     """Writes a run, line by line; the file appears when it is closed. Raises OSError."""
 
     def __init__(self, path: Path, mm: float, emulated: bool = False) -> None:
@@ -67,7 +67,7 @@ class Recorder:
         self._seq = 0
         self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
 
-    def sent(self, time: float, wheels: Sequence[Wheels | None]) -> None:
+    def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
         """The robots are told this."""
         self._seq += 1
         self._write({"kind": "sent", "time": time, "seq": self._seq, "wheels": [one and list(one) for one in wheels]})
@@ -93,13 +93,13 @@ class Recorder:
         self._draft.write(f"{json.dumps(line, separators=(',', ':'))}\n".encode())
 
 
-def load(path: Path, fewest: int = 50) -> Run:
-    """The run in a file; robots that were seen in fewer than `fewest` pictures are left out. Raises RunError."""
+def load(path: Path, fewest: int = 50) -> Recording:
+    """The run in a file; robots that were seen in fewer than `fewest` pictures are left out. Raises RecordingError."""
     try:
         lines = read(path, MOST_BYTES).splitlines()
     except OSError as error:
-        raise RunError(f"{path.name}: cannot be read ({reason(error)})") from None
-    run = _Lines()
+        raise RecordingError(f"{path.name}: cannot be read ({reason(error)})") from None
+    run = _RecordingLines()
     for number, line in enumerate(lines, 1):
         try:
             run.take_in(json_of(line))
@@ -107,19 +107,19 @@ def load(path: Path, fewest: int = 50) -> Run:
             if number == len(lines) and number > 1:
                 break  # a run that broke off in the middle of a line
             told = f"{type(error).__name__} {error}" if isinstance(error, KeyError) else str(error)
-            raise RunError(one_line(f"{path.name}: line {number}: not a line of a run ({told})")) from None
+            raise RecordingError(one_line(f"{path.name}: line {number}: not a line of a run ({told})")) from None
         if number == 1 and not run.mm:
-            raise RunError(f"{path.name}: not a run of PiGaming")
+            raise RecordingError(f"{path.name}: not a run of PiGaming")
     courses = {robot: _course(robot, run.told, fixes) for robot, fixes in enumerate(run.seen) if len(fixes) >= fewest}
     if not courses or not run.told:
-        raise RunError(f"{path.name}: too little was seen or sent to tell anything from it")
+        raise RecordingError(f"{path.name}: too little was seen or sent to tell anything from it")
     times = [*(time for time, _ in run.told), *(fix[0] for fixes in run.seen for fix in fixes)]
     if max(times) - min(times) > LONGEST:
-        raise RunError(f"{path.name}: its times are more than {LONGEST:g} s apart")
-    return Run(run.mm, courses, run.emulated)
+        raise RecordingError(f"{path.name}: its times are more than {LONGEST:g} s apart")
+    return Recording(run.mm, courses, run.emulated)
 
 
-class _Lines:
+class _RecordingLines:
     """What the lines of a run hold: `told` of all robots, `seen` of each, and the scale once its head was there."""
 
     def __init__(self) -> None:
@@ -168,10 +168,10 @@ def _number(value: Any, low: float, high: float) -> float:
     return float(value)
 
 
-def _course(robot: int, told: list[Told], fixes: list[Sight]) -> Course:
+def _course(robot: int, told: list[Told], fixes: list[Sight]) -> RobotRecording:
     seen = np.array(sorted(fixes))
     seen = seen[np.concatenate(([True], np.diff(seen[:, 0]) > 0.0))]
     poses = np.column_stack([seen[:, 1], seen[:, 2], np.unwrap(seen[:, 3])])
     told = sorted(told, key=lambda one: one[0])
     wheels = np.array([one[robot] for _, one in told])
-    return Course(np.array([time for time, _ in told]), wheels, seen[:, 0], poses)
+    return RobotRecording(np.array([time for time, _ in told]), wheels, seen[:, 0], poses)

@@ -16,7 +16,7 @@ Clock = Callable[[], float]  # s
 Image = NDArray[np.uint8]  # (height, width), grey
 
 
-class Frame(NamedTuple):
+class CameraFrame(NamedTuple):
     """One picture of the mat."""
 
     image: Image
@@ -24,20 +24,20 @@ class Frame(NamedTuple):
     number: int
 
 
-class Eye(Protocol):
+class CameraSource(Protocol):
     """A camera. Its health is the age of its newest frame, never the word of the driver."""
 
     @property
     def trouble(self) -> OperatorMessage | None:
         """What is wrong with it; None: nothing."""
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """The newest frame that was not given out before, or None."""
 
     def close(self) -> None: ...
 
 
-class Mark(NamedTuple):
+class DetectedMarker(NamedTuple):
     """A marker as the camera sees it."""
 
     number: int
@@ -54,7 +54,7 @@ class Fix(NamedTuple):
     captured: float  # s
 
 
-class Wheels(NamedTuple):
+class WheelCommand(NamedTuple):
     """What one robot's motors are told, as shares of full speed in [-1, 1]."""
 
     left: float
@@ -70,7 +70,7 @@ class Telemetry(NamedTuple):
     heard: float  # s, when it was heard
 
 
-class Port(Protocol):
+class SerialPort(Protocol):
     """The part of a serial port that the link uses, as pyserial has it. When the peer is gone, all raise OSError."""
 
     @property

@@ -12,15 +12,15 @@ PERIOD = 0.005  # s between two bits of work
 log = logging.getLogger("pigaming")
 
 
-class Worker:
+class BackgroundWorker:
     """Subclasses give `step`, one bit of work, and `end`, which lets go of what they hold."""
 
     def __init__(self) -> None:
         self._closing = threading.Event()
         self._thread: threading.Thread | None = None
-        self._before: Worker | None = None
+        self._before: BackgroundWorker | None = None
 
-    def start(self, before: "Worker | None" = None) -> Self:
+    def start(self, before: "BackgroundWorker | None" = None) -> Self:
         """Work in a thread until close(), but not before another one has ended, which may hold the same camera."""
         self._before = before
         self._thread = threading.Thread(target=self._run, name=type(self).__name__.lower(), daemon=True)

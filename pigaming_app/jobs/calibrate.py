@@ -6,9 +6,11 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from pigaming_app.hardware.messages import OperatorError
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.options import display, mat_settings, path, real, shared
 from pigaming_app.jobs.refusal import Refusal, refused, require
+from pigaming_app.ui.i18n import in_every_language
 
 
 def options(parser: ArgumentParser) -> None:
@@ -46,7 +48,7 @@ def _write(path: Path, edge: float) -> int:
         raise Refusal(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     with refused(OperatorError, ValueError):
         check_target(path)
-        write(path, sheet(edge))
+        write(path, sheet(edge, in_every_language("sheet.print", "sheet.cut")))
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")
     return 0
 
@@ -54,10 +56,10 @@ def _write(path: Path, edge: float) -> int:
 def _prove(arguments: Namespace) -> int:
     """Calibrate the emulated arena unattended."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
-    from pigaming_app.hardware.vision.markers import NoVision, opencv
+    from pigaming_app.hardware.vision.markers import opencv
     from pigaming_app.jobs.calibrate_unattended import calibrate
 
-    with refused(NoVision):
+    with refused(OpenCVMissing):
         opencv()
     result = calibrate(arguments.emulate, arguments.robot)
     if arguments.json:

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.ground_plane import Ground
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane
 from pigaming_app.hardware.emulator.arena import ARENA_AT
-from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.scenes.calibration.result_page import ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
@@ -34,7 +34,7 @@ class Operator:
     """Presses the buttons of the wizard; `robot`: the camera height is measured by a robot on projected outlines."""
 
     def __init__(self, seed: int, robot: bool = False) -> None:
-        self.site, self.robot = EmulatedSite(seed), robot
+        self.site, self.robot = EmulatedCalibrationSite(seed), robot
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         canvas.watchers.append(lambda window: self.site.see(pixels_of(window)))
         self.house = House(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
@@ -106,7 +106,7 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
         operator.close()
 
 
-def _compared(ground: Ground, site: EmulatedSite) -> dict[str, float]:
+def _compared(ground: GroundPlane, site: EmulatedCalibrationSite) -> dict[str, float]:
     """Errors against ground truth on the mat and at the height of the lids, mm."""
     optics = site.arena.optics
     places = np.array(GRID, dtype=np.float64)

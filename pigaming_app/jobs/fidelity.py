@@ -8,7 +8,10 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession, unfit
+from pigaming_app.hardware.recordings import RecordingError
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, unfit
+from pigaming_app.hardware.sysid.evaluate import RecordingTooShort
+from pigaming_app.hardware.sysid.plots import PlotsUnavailable
 from pigaming_app.jobs.options import mat_settings, path, shared, whole
 from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.jobs.sessions import new_session
@@ -49,19 +52,19 @@ def run(arguments: Namespace) -> int:
 
 def record(arguments: Namespace) -> dict[str, Any]:
     """Drive the robots for a while on an empty mat, and write their commands and poses. Raises Refusal or NotSaved."""
-    from pigaming_app.hardware.recordings import Recorder
+    from pigaming_app.hardware.recordings import RecordingWriter
     from pigaming_app.storage.safe_files import check_target
 
     if arguments.emulate is None and (problem := unfit(Settings.load(folders().config)[0])):
         raise Refusal(english().explained(problem))
     require("hardware")
     check_target(arguments.file)
-    with refused(NoRobots):
+    with refused(RobotsUnavailable):
         session = new_session(arguments.emulate, arguments.camera, arguments.port)
         rig = session.open()
     try:
         present = _present(session, rig)
-        recorder = Recorder(arguments.file, session.mm, arguments.emulate is not None)
+        recorder = RecordingWriter(arguments.file, session.mm, arguments.emulate is not None)
         try:
             rig.recorder = recorder
             _dance(session, rig, present, arguments.seconds)
@@ -92,13 +95,13 @@ def _present(session: RobotSession, rig: Any) -> list[int]:
 def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) -> None:
     """Drive these robots for so many s. Raises Refusal."""
     from pigaming_app.hardware.control.real_plant import RealPlant
-    from pigaming_app.hardware.sysid.excitation import Dance
+    from pigaming_app.hardware.sysid.excitation import ExcitationPattern
     from pigaming_app.sim.world import DT, World
 
     world: Any = World()
     for i in present:
         world.robots[i].present = 1
-    plant, dance, begun, stuck = RealPlant(world, rig, present), Dance(), rig.clock(), 0
+    plant, dance, begun, stuck = RealPlant(world, rig, present), ExcitationPattern(), rig.clock(), 0
     while rig.clock() - begun < seconds:
         plant.drive(dance.twists(rig.clock(), plant.sense()), DT)
         session.tick()
@@ -112,13 +115,13 @@ def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) 
 def identify(arguments: Namespace) -> dict[str, Any]:
     """Identify and save the drivetrains; compare the simulator with and without them. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.session.store import load_robots, robots_file
-    from pigaming_app.hardware.sysid.evaluate import HORIZONS, TooShort, measure
+    from pigaming_app.hardware.sysid.evaluate import HORIZONS, measure
     from pigaming_app.sim.drivetrain import DrivetrainError, tell
     from pigaming_app.storage.safe_files import keep
 
     run = _load(arguments.file)
     out = arguments.out or robots_file(run.emulated)
-    with refused(TooShort, DrivetrainError):
+    with refused(RecordingTooShort, DrivetrainError):
         verdicts = measure(run)
         drivetrains = list(load_robots(out))
         for verdict in verdicts:
@@ -173,16 +176,16 @@ def replay(arguments: Namespace) -> dict[str, Any]:
 
 
 def _load(file: Path) -> Any:
-    from pigaming_app.hardware.recordings import RunError, load
+    from pigaming_app.hardware.recordings import load
 
-    with refused(RunError):
+    with refused(RecordingError):
         return load(file)
 
 
 def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
-    from pigaming_app.hardware.sysid.plots import NoPlots, draw
+    from pigaming_app.hardware.sysid.plots import draw
 
-    with refused(NoPlots):
+    with refused(PlotsUnavailable):
         return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
 
 

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.jobs.options import mat_settings, shared
 from pigaming_app.jobs.refusal import Refusal, refused, require, sentence
 from pigaming_app.jobs.sessions import new_session
@@ -56,11 +56,11 @@ def look(arguments: Namespace) -> dict[str, Any]:
         "ports": [found._asdict() for found in ports()],
         "cameras": [known._asdict() for known in cameras()],
     }
-    with refused(NoRobots):
+    with refused(RobotsUnavailable):
         session = new_session(arguments.emulate, arguments.camera, arguments.port)
     try:
         return {**told, **_looked(session, arguments)}
-    except NoRobots as trouble:
+    except RobotsUnavailable as trouble:
         if arguments.pair or arguments.latency:
             raise Refusal(f"Robots move only in view of the camera. {sentence(trouble)}") from None
         return {**told, **_heard(session), "eyes": sentence(trouble)}
@@ -76,13 +76,13 @@ def _heard(session: RobotSession) -> dict[str, Any]:
 
 
 def _looked(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
-    """The status by radio and camera; then pairing and latency on request. Raises NoRobots or Refusal."""
+    """The status by radio and camera; then pairing and latency on request. Raises RobotsUnavailable or Refusal."""
     rig, told = session.open(), dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
         session.tick()
         rig.pump()
     seen = rig.sense()
-    told["radio"], told["eyes"] = _sentence(rig.link.trouble), _sentence(rig.eye.trouble)
+    told["radio"], told["eyes"] = _sentence(rig.link.trouble), _sentence(rig.camera.trouble)
     told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if told["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
@@ -117,14 +117,14 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
 
 def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any]]:
     """Spin each robot in turn; the pairing is saved if it is unambiguous. Raises Refusal."""
-    from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+    from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
     from pigaming_app.hardware.session.store import save_radios
 
     pairing = Pairing(rig)
     while not pairing.tick():
         session.tick()
     rig.channels = pairing.channels
-    if kept and {one.case for one in pairing.findings} <= {Case.FITS, Case.SWAPPED, Case.ABSENT}:
+    if kept and {one.case for one in pairing.findings} <= {PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT}:
         save_radios(pairing.channels)
     return [
         {"radio": one.channel + 1, "marker": None if one.marker is None else one.marker + 1, "case": str(one.case)}
@@ -134,9 +134,9 @@ def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any
 
 def _late(session: RobotSession, rig: "Rig", robot: int) -> dict[str, Any]:
     """The latency of one robot, in ms; None where it did not move or was hardly seen."""
-    from pigaming_app.hardware.commissioning.latency import Shake
+    from pigaming_app.hardware.commissioning.latency import LatencyTest
 
-    shake = Shake(rig, robot)
+    shake = LatencyTest(rig, robot)
     while not shake.tick():
         session.tick()
     found = shake.result()

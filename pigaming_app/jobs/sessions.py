@@ -7,7 +7,7 @@ UNREST = 0.15  # size of the exposure steps of the emulated camera, as a share
 
 
 def emulated_session(seed: int) -> RobotSession:
-    """The emulated arena of a seed, with all robots in sight. Raises NoRobots."""
+    """The emulated arena of a seed, with all robots in sight. Raises RobotsUnavailable."""
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
     session = EmulatedSession(seed, live=False, unrest=UNREST)
@@ -30,5 +30,5 @@ def real_session(camera: int | None = None, port: str | None = None) -> RobotSes
 
 
 def new_session(emulate: int | None, camera: int | None, port: str | None) -> RobotSession:
-    """The emulated session of a seed, or the real one. Raises NoRobots."""
+    """The emulated session of a seed, or the real one. Raises RobotsUnavailable."""
     return emulated_session(emulate) if emulate is not None else real_session(camera, port)

@@ -22,7 +22,7 @@ import pygame
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
-from pigaming_app.hardware.session.robot_session import NoRobots
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
@@ -366,7 +366,7 @@ def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSessio
     try:
         mat.open()  # now, while nobody waits for a picture; it is closed until somebody plays
         mat.close()
-    except NoRobots as trouble:
+    except RobotsUnavailable as trouble:
         print(f"PiGaming: {english().explained(trouble.message)}", file=sys.stderr)
     return mat
 

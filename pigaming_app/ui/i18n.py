@@ -77,6 +77,11 @@ def english() -> Words:
     return Words("en")
 
 
+def in_every_language(*keys: str) -> list[str]:
+    """The texts of these keys, one language after the other."""
+    return [Words(language)(key) for language in LANGUAGES for key in keys]
+
+
 def texts(language: str) -> dict[str, str]:
     """Every text of a language by its key. Raises OSError or ValueError for a file that is missing or broken."""
     file = ASSETS / "text" / f"{language}.toml"

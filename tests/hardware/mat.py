@@ -10,7 +10,7 @@ import numpy as np
 
 from pigaming_app.hardware.control.kinematics import NEW
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
-from pigaming_app.hardware.signals import Fix, Frame, Telemetry
+from pigaming_app.hardware.signals import CameraFrame, Fix, Telemetry
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
 from pigaming_app.sim.plant import Sighting
 
@@ -87,7 +87,7 @@ class Mat:
         while len(self.past) > 1 and self.past[0][0] < self.now - LATE - 1e-9:
             self.past.popleft()
         self.pictures += 1
-        return Frame(np.full((1, 1), self.pictures % 251, dtype=np.uint8), self.past[0][0], self.pictures)
+        return CameraFrame(np.full((1, 1), self.pictures % 251, dtype=np.uint8), self.past[0][0], self.pictures)
 
     def close(self):
         self.closed = True

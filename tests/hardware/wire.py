@@ -64,11 +64,11 @@ class Radio(Wire):
         super().write(data)
         for one in self._frames.feed(data):
             match packets.decode(one):
-                case packets.Send(number, packets.BROADCAST, packet):
+                case packets.TransmitRequest(number, packets.BROADCAST, packet):
                     self.drives += [(self.time(), drive_from(found)) for found in PacketDecoder().feed(packet)]
-                    self.say(packets.Outcome(number, self.status))
-                case packets.Ask(number, "AP", b""):
-                    self.say(packets.Answer(number, "AP", 0, bytes((self.ap,))))
+                    self.say(packets.TransmitStatus(number, self.status))
+                case packets.ATCommand(number, "AP", b""):
+                    self.say(packets.ATResponse(number, "AP", 0, bytes((self.ap,))))
         return len(data)
 
     def say(self, message):

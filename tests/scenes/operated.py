@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.flow.stack import Scene
@@ -25,7 +25,7 @@ class Operated(Arcade):
         super().__init__(controls)
         self.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         self.site = site
-        if isinstance(site, EmulatedSite):
+        if isinstance(site, EmulatedCalibrationSite):
             self.house.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
 
     def picture(self, covered: bool = False) -> None:

@@ -1,7 +1,7 @@
 """The boards that are projected to calibrate: 7 x 5 markers over the whole canvas, and a second board to verify.
 
-A `Look` gathers what the camera sees of a board in several pictures. The second board has its markers elsewhere, so
-that an error there is an error of the calibration and not what the solver has fitted away.
+`BoardSamples` are a board's markers in several pictures. The second board has its markers elsewhere, so that an error
+there is an error of the calibration and not what the solver has fitted away.
 """
 
 from collections.abc import Mapping
@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.ground_plane import NoGround, Points
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Points
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import Frame, Image
-from pigaming_app.hardware.vision.markers import Markers, opencv
+from pigaming_app.hardware.signals import CameraFrame, Image
+from pigaming_app.hardware.vision.markers import MarkerDetector, opencv
 
 CANVAS = (1920, 1080)
 ARENA_AT = (160.0, 140.0)  # of the arena's corner on the canvas
@@ -26,7 +26,7 @@ LIGHT = 235  # of the board's ground: below full, so that a camera is less likel
 
 
 @dataclass(frozen=True)
-class Board:
+class CalibrationBoard:
     """A board with its middle at `middle` and its markers' centres `pitch` apart, all in canvas px."""
 
     middle: tuple[float, float]
@@ -65,21 +65,21 @@ class Board:
         }
 
 
-BOARD = Board((960.0, 540.0), (270.0, 208.0))
-HELD_OUT = Board((976.0, 553.0), (238.0, 182.0))  # every marker at least 16 px beside its place on the first
+BOARD = CalibrationBoard((960.0, 540.0), (270.0, 208.0))
+HELD_OUT = CalibrationBoard((976.0, 553.0), (238.0, 182.0))  # every marker at least 16 px beside its place on the first
 BOARD_IDS = tuple(range(FIRST_ID, FIRST_ID + COLUMNS * ROWS))
 
 
-class Look:
-    """What the camera sees of a board. Raises NoVision where OpenCV is missing."""
+class BoardSamples:
+    """What the camera sees of a board. Raises OpenCVMissing where OpenCV is missing."""
 
     def __init__(self) -> None:
-        self._markers = Markers(BOARD_IDS)
+        self._markers = MarkerDetector(BOARD_IDS)
         self._seen: dict[int, list[Points]] = {}
         self.frames = 0
         self.size = (0, 0)  # of the pictures
 
-    def add(self, frame: Frame) -> int:
+    def add(self, frame: CameraFrame) -> int:
         """Look at one more picture; how many markers of the board are in it."""
         self.frames += 1
         self.size = (frame.image.shape[1], frame.image.shape[0])
@@ -94,15 +94,15 @@ class Look:
         return self.frames >= FRAMES
 
     def corners(self) -> Mapping[int, Points]:
-        """The mean corners of the markers seen in at least half of the pictures, camera px. Raises NoGround."""
+        """The mean corners of the markers seen in at least half of the pictures, camera px. Raises CalibrationError."""
         often = {number: np.array(seen) for number, seen in self._seen.items() if 2 * len(seen) >= self.frames}
         if len(often) < ENOUGH:
-            raise NoGround(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=ENOUGH))
+            raise CalibrationError(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=ENOUGH))
         if missing := _empty_corners(often):
-            raise NoGround(OperatorMessage(missing))
+            raise CalibrationError(OperatorMessage(missing))
         shake = float(np.median([seen.std(axis=0).max() for seen in often.values()]))
         if shake > SHAKE:
-            raise NoGround(OperatorMessage("moves", shake=f"{shake:.1f}"))
+            raise CalibrationError(OperatorMessage("moves", shake=f"{shake:.1f}"))
         return {number: np.median(seen, axis=0) for number, seen in often.items()}
 
 

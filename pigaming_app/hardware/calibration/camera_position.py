@@ -1,7 +1,7 @@
 """Where the camera hangs: the point of the mat straight under it, and its height. The lids of the robots need it.
 
-Two ways. With a ruler: the operator measures the height, and the point follows from how the mat looks (`hung`). Or
-a robot stands on four projected outlines, and how far the camera sees it beside each says both (`stood`).
+`height_by_ruler`: the operator measures the height, and the point follows from how the mat looks. `height_by_robot`: a
+robot stands on four projected outlines, and how far the camera sees it beside each gives both.
 """
 
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from math import exp, log, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Points, project
 from pigaming_app.hardware.calibration.least_squares import least_squares
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision.markers import opencv
@@ -24,50 +24,52 @@ UNLIKE = 20.0  # mm by which the mat may look other than from there: the image o
 Matrix = NDArray[np.float64]
 
 
-def hung(ground: Ground, height: float) -> Ground:
+def height_by_ruler(ground: GroundPlane, height: float) -> GroundPlane:
     """The ground with its camera `height` mm above the mat, as measured, and the foot point that follows.
 
     Fits the camera's turn, its foot and a focal length (not calibrated, only used here) to how the plane of the mat is
-    seen. Raises NoGround.
+    seen. Raises CalibrationError.
     """
     if not LOWEST <= height <= HIGHEST:
         limits = {"low": f"{LOWEST:.0f}", "high": f"{HIGHEST:.0f}"}
-        raise NoGround(OperatorMessage("height", height=f"{height:.0f}", **limits))
+        raise CalibrationError(OperatorMessage("height", height=f"{height:.0f}", **limits))
     x, y = np.meshgrid(np.linspace(0.0, WIDTH, 5), np.linspace(0.0, HEIGHT, 4))
-    view = _View(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
+    view = _PinholeModel(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
     first = min((view.start(focal) for focal in np.geomspace(*FOCAL, 24)), key=view.cost)
     best = least_squares(view.misses, first).at
     if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > UNLIKE:
-        raise NoGround(OperatorMessage("other_height", height=f"{height:.0f}"))
+        raise CalibrationError(OperatorMessage("other_height", height=f"{height:.0f}"))
     return replace(
         ground, foot=(float(best[3] * 1000.0 / ground.mm), float(best[4] * 1000.0 / ground.mm)), height=height
     )
 
 
-def stood(ground: Ground, places: Sequence[tuple[float, float]], seen: Sequence[tuple[float, float]]) -> Ground:
+def height_by_robot(
+    ground: GroundPlane, places: Sequence[tuple[float, float]], seen: Sequence[tuple[float, float]]
+) -> GroundPlane:
     """The ground with the camera's place by a robot that stood at `places`, arena px, seen at `seen`, camera px.
 
     What is `lid` mm above p is seen over C + (p - C) s, s = H / (H - lid): linear in s and in (1 - s) C. Raises
-    NoGround.
+    CalibrationError.
     """
     there, apparent = np.array(places, dtype=np.float64), ground.on_mat(np.array(seen, dtype=np.float64))
     if len(there) < 2 or float(there.std(axis=0).max()) < 100.0:
-        raise NoGround(OperatorMessage("places"))
+        raise CalibrationError(OperatorMessage("places"))
     away = there - there.mean(axis=0)
     grown = float((away * (apparent - apparent.mean(axis=0))).sum() / (away * away).sum())
     if not ground.lid / HIGHEST < grown - 1.0 < ground.lid / (LOWEST - ground.lid):
-        raise NoGround(OperatorMessage("beside"))
+        raise CalibrationError(OperatorMessage("beside"))
     foot = (apparent.mean(axis=0) - grown * there.mean(axis=0)) / (1.0 - grown)
     return replace(ground, foot=(float(foot[0]), float(foot[1])), height=ground.lid * grown / (grown - 1.0))
 
 
-class _View:
+class _PinholeModel:
     """How a pinhole `height` mm over the mat would see places on it (mm), against how they are seen.
 
     Six numbers are a camera: its turn as a rotation vector, its foot in m, the logarithm of its focal length in widths.
     """
 
-    def __init__(self, ground: Ground, places: Points, height: float) -> None:
+    def __init__(self, ground: GroundPlane, places: Points, height: float) -> None:
         self.places, self.height = places, height
         self.matrix = _mat_to_rays(ground)
         self.rays = project(self.matrix, places)
@@ -95,7 +97,7 @@ class _View:
         return float(misses @ misses)
 
 
-def _mat_to_rays(ground: Ground) -> Matrix:
+def _mat_to_rays(ground: GroundPlane) -> Matrix:
     """The homography from mm on the mat to straightened camera px round the lens's centre, in widths."""
     back = np.linalg.inv(np.array(ground.plane).reshape(3, 3))
     (x, y), width = ground.lens.centre, ground.lens.size[0]

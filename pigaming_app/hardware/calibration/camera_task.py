@@ -1,6 +1,6 @@
 """Looking through a camera beside the pictures of the arcade: what it sees, and whether its calibration still holds.
 
-Each is a Worker: it opens the camera, works bit by bit, and lets go of it.
+Each is a BackgroundWorker: it opens the camera, works bit by bit, and lets go of it.
 """
 
 from collections.abc import Callable
@@ -9,13 +9,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.drift import Drift
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
-from pigaming_app.hardware.calibration.site import Site
+from pigaming_app.hardware.calibration.drift import DriftMonitor
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
+from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import Eye, Frame, Image
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers, NoVision, opencv
-from pigaming_app.hardware.worker import Worker, log
+from pigaming_app.hardware.signals import CameraFrame, CameraSource, Image
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, OpenCVMissing, opencv
+from pigaming_app.hardware.worker import BackgroundWorker, log
 
 BLIND = 6.0  # s without a picture after which it is given up
 SMALL = (520, 292)  # px of the picture that shows what the camera sees
@@ -27,20 +27,22 @@ NO_PICTURE = OperatorMessage("no_picture")
 BROKEN = OperatorMessage("broken")
 
 
-class Looking(Worker):
+class CameraTask(BackgroundWorker):
     """Opens a camera and hands on its pictures. A camera has one user at a time: the next one waits for it."""
 
-    users: ClassVar[dict[tuple[str, int], Worker]] = {}  # the last user of each camera, by the site's name and number
+    users: ClassVar[
+        dict[tuple[str, int], BackgroundWorker]
+    ] = {}  # the last user of each camera, by the site's name and number
 
     locks = True  # whether the camera locks its exposure: to measure, but not just to look
     fresh = False  # whether it finds it anew; else it stays as the calibration has left it, which is what matches need
 
-    def __init__(self, site: Site, number: int) -> None:
+    def __init__(self, site: CalibrationSite, number: int) -> None:
         super().__init__()
         self.site, self.number = site, number
         self.trouble: OperatorMessage | None = None
         self.small: Image | None = None  # the newest picture, as small as it is shown
-        self._eye: Eye | None = None
+        self._eye: CameraSource | None = None
         self._since = self._newest = inf  # s: when it was opened, when the newest picture came
 
     def begin(self) -> None:
@@ -56,7 +58,7 @@ class Looking(Worker):
             self._since = self._newest = now
             try:
                 self._eye = self.site.open(self.number, self.locks, self.fresh)
-            except NoVision as missing:
+            except OpenCVMissing as missing:
                 self.give_up(missing.message)
                 return
         frame = self._eye.newest()
@@ -67,7 +69,7 @@ class Looking(Worker):
         else:
             self.idle(now - self._newest, self._eye.trouble)
 
-    def look(self, frame: Frame) -> None:
+    def look(self, frame: CameraFrame) -> None:
         """A new picture."""
 
     def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
@@ -87,19 +89,19 @@ class Looking(Worker):
             self._eye.close()
 
 
-class Preview(Looking):
+class CameraPreview(CameraTask):
     """What a camera sees: `small`, its `size` in px and how many pictures a second; or what is wrong with it."""
 
     locks = False
 
-    def __init__(self, site: Site, number: int) -> None:
+    def __init__(self, site: CalibrationSite, number: int) -> None:
         super().__init__(site, number)
         self.size = (0, 0)
         self.rate = 0.0
         self.count = 0
         self._counted = (inf, 0)
 
-    def look(self, frame: Frame) -> None:
+    def look(self, frame: CameraFrame) -> None:
         self.size, self.trouble = (frame.image.shape[1], frame.image.shape[0]), None
         self.count += 1
         now, (since, before) = self.site.clock(), self._counted
@@ -113,29 +115,29 @@ class Preview(Looking):
             self.give_up(trouble or NO_PICTURE)
 
 
-class Checking(Looking):
+class DriftCheck(CameraTask):
     """Whether a calibration still holds: how far the four corner markers are from where it says that they are seen.
 
-    `load` makes the ground for a camera with pictures of so many px, or raises NoGround. `marker_mm` is how large the
-    marker of a robot at `SPOT` seems: far from its true size, the width of the mat was measured wrongly.
+    `load` reads the calibration for a camera with pictures of so many px, or raises CalibrationError. `marker_mm` is
+    the apparent size of the marker of a robot at `SPOT`: far from its true size, the mat's width was measured wrongly.
     """
 
-    def __init__(self, site: Site, number: int, load: Callable[[tuple[int, int]], Ground]) -> None:
+    def __init__(self, site: CalibrationSite, number: int, load: Callable[[tuple[int, int]], GroundPlane]) -> None:
         super().__init__(site, number)
-        self.drift: Drift | None = None
+        self.drift: DriftMonitor | None = None
         self.mm: float | None = None  # None: not yet known
         self.marker_mm: float | None = None
         self._load = load
-        self._robots: Markers | None = None
+        self._robots: MarkerDetector | None = None
         self._searched = -inf
 
-    def look(self, frame: Frame) -> None:
+    def look(self, frame: CameraFrame) -> None:
         if self.trouble is not None:
             return
         try:
             if self.drift is None:
-                self.drift = Drift(self._load((frame.image.shape[1], frame.image.shape[0])))
-        except NoGround as trouble:
+                self.drift = DriftMonitor(self._load((frame.image.shape[1], frame.image.shape[0])))
+        except CalibrationError as trouble:
             self.give_up(trouble.message)
             return
         self.drift.see(frame)
@@ -144,9 +146,9 @@ class Checking(Looking):
             self._searched = frame.captured
             self._measure(frame, self.drift.ground)
 
-    def _measure(self, frame: Frame, ground: Ground) -> None:
+    def _measure(self, frame: CameraFrame, ground: GroundPlane) -> None:
         """How large the marker of a robot on the spot seems."""
-        self._robots = self._robots or Markers(ROBOT_IDS)
+        self._robots = self._robots or MarkerDetector(ROBOT_IDS)
         self.marker_mm = None
         for mark in self._robots.everywhere(frame.image):
             away = ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT)

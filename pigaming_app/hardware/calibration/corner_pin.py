@@ -33,26 +33,26 @@ def crooked(corners: Sequence[float]) -> bool:
     return bool(turns.min() < LEAST * CANVAS[0] * LEAST * CANVAS[1])
 
 
-class NoPin(OperatorError):
+class CornerPinError(OperatorError):
     """No picture fits into these corners."""
 
 
 class CornerPin:
-    """The picture in these corners, in windows of any size. Raises NoPin; NoVision where OpenCV is missing."""
+    """The picture in these corners, in windows of any size. Raises CornerPinError, OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float]) -> None:
         if crooked(corners):
-            raise NoPin(OperatorMessage("corners"))
+            raise CornerPinError(OperatorMessage("corners"))
         opencv()
         self.corners = tuple(corners)
 
-    def fit(self, size: tuple[int, int]) -> "Warp":
+    def fit(self, size: tuple[int, int]) -> "PerspectiveWarp":
         """The same corners in a window of `size` px."""
-        return Warp(self.corners, size)
+        return PerspectiveWarp(self.corners, size)
 
 
-class Warp:
-    """A picture of the canvas in these corners, in a window of `size` px. Raises NoVision."""
+class PerspectiveWarp:
+    """A picture of the canvas in these corners, in a window of `size` px. Raises OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float], size: tuple[int, int] = CANVAS) -> None:
         self._cv = opencv()

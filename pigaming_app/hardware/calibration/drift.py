@@ -10,9 +10,9 @@ from math import hypot
 import numpy as np
 
 from pigaming_app.hardware.calibration.boards import ARENA_AT, LIGHT
-from pigaming_app.hardware.calibration.ground_plane import Ground, Points
-from pigaming_app.hardware.signals import Frame, Image, Mark
-from pigaming_app.hardware.vision.markers import CORNER_IDS, Markers, Spot, mean_edge, opencv
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
+from pigaming_app.hardware.signals import CameraFrame, DetectedMarker, Image
+from pigaming_app.hardware.vision.markers import CORNER_IDS, MarkerDetector, SearchWindow, mean_edge, opencv
 
 WARN, PAUSE = 5.0, 15.0  # mm
 PICTURES = 10  # whose median counts
@@ -23,12 +23,12 @@ EDGE, QUIET = 84, 16  # canvas px: of a marker, and of the light round it
 PLACES = ((80, 84), (1840, 84), (1840, 996), (80, 996))  # canvas px: their middles, in the margins beside the arena
 
 
-class Drift:
-    """The drift of one calibration. Raises NoVision where OpenCV is missing."""
+class DriftMonitor:
+    """The drift of one calibration. Raises OpenCVMissing where OpenCV is missing."""
 
-    def __init__(self, ground: Ground) -> None:
+    def __init__(self, ground: GroundPlane) -> None:
         self.ground = ground
-        self._markers = Markers(CORNER_IDS)
+        self._markers = MarkerDetector(CORNER_IDS)
         self._places = {
             number: place - np.array(ARENA_AT) for number, place in zip(CORNER_IDS, _centres(), strict=True)
         }
@@ -37,7 +37,7 @@ class Drift:
         self._misses: dict[int, deque[Points]] = {number: deque(maxlen=PICTURES) for number in CORNER_IDS}
         self._looked = self._sought = self._searched = float("-inf")
 
-    def see(self, frame: Frame) -> None:
+    def see(self, frame: CameraFrame) -> None:
         """Look at a picture, if it is time to."""
         if frame.captured - self._looked < PERIOD - 1e-6:
             return
@@ -46,7 +46,7 @@ class Drift:
         found += self._further(frame, [number for number in CORNER_IDS if number not in {m.number for m in found}])
         self.note(found)
 
-    def note(self, marks: list[Mark]) -> None:
+    def note(self, marks: list[DetectedMarker]) -> None:
         """Take in the corner markers of one picture."""
         if not marks:
             return
@@ -61,7 +61,7 @@ class Drift:
         full = [np.median(misses, axis=0) for misses in self._misses.values() if len(misses) == PICTURES]
         return max((hypot(x, y) * self.ground.mm for x, y in full), default=0.0)
 
-    def _further(self, frame: Frame, missing: list[int]) -> list[Mark]:
+    def _further(self, frame: CameraFrame, missing: list[int]) -> list[DetectedMarker]:
         """Those that are not where they were: near there at first, and from time to time everywhere."""
         if not missing or frame.captured - self._sought < SEEK:
             return []
@@ -75,17 +75,17 @@ class Drift:
             found += self._markers.glance(frame.image, edge, known, dim=False)
         return self._markers.exact(frame.image, found)
 
-    def _outline(self, number: int) -> Mark:
+    def _outline(self, number: int) -> DetectedMarker:
         """A corner marker as the calibration says that it is seen."""
         half = EDGE / 2.0
         square = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
-        return Mark(number, self.ground.seen_at(self._places[number] + square))
+        return DetectedMarker(number, self.ground.seen_at(self._places[number] + square))
 
 
-def _spot(mark: Mark) -> Spot:
+def _spot(mark: DetectedMarker) -> SearchWindow:
     """Where to look for a marker that was there."""
     (x, y), edge = mark.corners.mean(axis=0).tolist(), mean_edge(mark.corners)
-    return Spot(x, y, 1.3 * edge, edge)
+    return SearchWindow(x, y, 1.3 * edge, edge)
 
 
 def corner_markers() -> list[tuple[int, int, Image]]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
-from pigaming_app.hardware.signals import Fix, Mark
+from pigaming_app.hardware.signals import DetectedMarker, Fix
 from pigaming_app.sim.toml_table import Table, Wrong
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.storage.parsing import ParseError, shown, toml_of
@@ -28,12 +28,12 @@ SKEW_TOLERANCE = 1.18  # longest edge by shortest: more is a marker that is tilt
 Points = NDArray[np.float64]  # (n, 2)
 
 
-class NoGround(OperatorError):
+class CalibrationError(OperatorError):
     """A calibration that is missing, or cannot be used."""
 
 
 @dataclass(frozen=True)
-class Ground:
+class GroundPlane:
     """One calibration: from camera px to arena px. The camera hangs `height` mm above the point `foot` (arena px)."""
 
     display: str  # what it was made on, as `Canvas.displays` names it
@@ -73,7 +73,7 @@ class Ground:
         apparent = foot + (places - foot) * (self.height / (self.height - height))
         return self.lens.bend(project(self._back, apparent))  # type: ignore[attr-defined]
 
-    def fixes(self, marks: Sequence[Mark], captured: float) -> list[Fix | str]:
+    def fixes(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix | str]:
         """Where the robots with these markers are; or why one cannot be a marker on a robot: `size` or `tilted`."""
         if not marks:
             return []
@@ -82,7 +82,7 @@ class Ground:
         found = zip(marks, corners.tolist(), strict=True)
         return [self._fix(mark.number, corner, captured) for mark, corner in found]
 
-    def edge_mm(self, mark: Mark) -> float:
+    def edge_mm(self, mark: DetectedMarker) -> float:
         """The edge of a marker on a lid, mm: another than the printed one says that the mat was measured wrongly."""
         corners = self.at_height(mark.corners, self.lid).tolist()
         return sum(_edges(corners)) / 4.0 * self.mm
@@ -108,7 +108,7 @@ def project(matrix: NDArray[np.float64], points: Points) -> Points:
     return np.asarray(flat[:, :2] / flat[:, 2:])
 
 
-def written(ground: Ground) -> str:
+def written(ground: GroundPlane) -> str:
     """The text of a calibration's file."""
     import tomli_w
 
@@ -116,29 +116,29 @@ def written(ground: Ground) -> str:
     return tomli_w.dumps({**entries, "check": _check(entries)})
 
 
-def read(text: str, display: str | None = None, camera: tuple[int, int] | None = None) -> Ground:
-    """The calibration that a file holds; one of another display or camera size is refused. Raises NoGround."""
+def read(text: str, display: str | None = None, camera: tuple[int, int] | None = None) -> GroundPlane:
+    """The calibration that a file holds; one of another display or camera size is refused. Raises CalibrationError."""
     try:
         entries = toml_of(text)
     except ParseError as error:
-        raise NoGround(OperatorMessage("damaged", detail=error)) from error
+        raise CalibrationError(OperatorMessage("damaged", detail=error)) from error
     if entries.get("version") != VERSION:
-        raise NoGround(OperatorMessage("version", theirs=shown(entries.get("version")), ours=VERSION))
+        raise CalibrationError(OperatorMessage("version", theirs=shown(entries.get("version")), ours=VERSION))
     check = entries.pop("check", None)
     if check != _check(entries):
-        raise NoGround(OperatorMessage("changed"))
+        raise CalibrationError(OperatorMessage("changed"))
     try:
         ground = _ground(Table(entries))
     except (Wrong, np.linalg.LinAlgError) as wrong:
-        raise NoGround(OperatorMessage("damaged", detail=wrong)) from wrong
+        raise CalibrationError(OperatorMessage("damaged", detail=wrong)) from wrong
     if display is not None and ground.display != display:
-        raise NoGround(OperatorMessage("other_display", theirs=ground.display, ours=display))
+        raise CalibrationError(OperatorMessage("other_display", theirs=ground.display, ours=display))
     if camera is not None and ground.lens.size != camera:
-        raise NoGround(misfit(ground, camera))
+        raise CalibrationError(misfit(ground, camera))
     return ground
 
 
-def misfit(ground: Ground, camera: tuple[int, int]) -> OperatorMessage:
+def misfit(ground: GroundPlane, camera: tuple[int, int]) -> OperatorMessage:
     """Why pictures of this size cannot be used with a calibration."""
     theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
     return OperatorMessage("other_camera", theirs=theirs, ours=ours)
@@ -155,7 +155,7 @@ def _plain(value: object) -> object:
     return [_plain(inner) for inner in value] if isinstance(value, list | tuple) else value
 
 
-def _ground(table: Table) -> Ground:
+def _ground(table: Table) -> GroundPlane:
     lens = table.table("lens")
     width, height = lens.numbers("size", 2, 16, 16384)
     plane = table.numbers("plane", 9, -1e6, 1e6)
@@ -169,7 +169,7 @@ def _ground(table: Table) -> Ground:
     lid, above = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
     if lid >= above:
         raise table.wrong("lid", "as high as the camera")
-    return Ground(
+    return GroundPlane(
         display,
         Lens((int(width), int(height)), lens.number("k1"), lens.number("k2"), (cx, cy)),
         plane,

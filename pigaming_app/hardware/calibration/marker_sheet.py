@@ -3,7 +3,7 @@
 A marker is 50 mm wide with one white cell round it, and is cut out along the grey line; its triangle points ahead.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -15,27 +15,24 @@ PAGE = (210.0, 297.0)  # mm, A4
 POINT = 72.0 / 25.4  # PDF's unit in a mm
 CELLS = 6  # of a marker with its black rim; one more all round is white
 RULER = 100.0  # mm
-SAID = (
-    "Print at 100 %, without fitting to the page: the ruler must measure 100 mm. Matt paper.",
-    "Cut along the grey lines, keep the white rim; glue flat on the lid, the triangle's side ahead.",
-    "Imprimir a 100 %, sem ajustar à página: a régua tem de medir 100 mm. Papel mate.",
-    "Cortar pelas linhas cinzentas, com a margem branca; colar liso na tampa, o triângulo para a frente.",
-)
 
 
-class NoSheet(OperatorError):
+class MarkerSheetError(OperatorError):
     """Markers that fit neither on the page nor on a robot."""
 
 
-def sheet(edge: float = MARKER) -> bytes:
-    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60). Raises NoVision, NoSheet."""
+def sheet(edge: float = MARKER, notes: Sequence[str] = ()) -> bytes:
+    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60), and a line for each of `notes`.
+
+    Raises OpenCVMissing, MarkerSheetError.
+    """
     if not 20.0 <= edge <= 60.0:
-        raise NoSheet(OperatorMessage("marker_edge", edge=f"{edge:g}"))
-    return _pdf("\n".join([*_markers(edge), *_ruler(), *_words()]))
+        raise MarkerSheetError(OperatorMessage("marker_edge", edge=f"{edge:g}"))
+    return _pdf("\n".join([*_markers(edge), *_ruler(), *_words(notes)]))
 
 
 def cells(number: int) -> "np.ndarray[tuple[int, int], np.dtype[np.bool_]]":
-    """Which of the 6 x 6 cells of a marker are black. Raises NoVision."""
+    """Which of the 6 x 6 cells of a marker are black. Raises OpenCVMissing."""
     cv = opencv()
     words = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
     return np.asarray(cv.aruco.generateImageMarker(words, number, CELLS) < 128)
@@ -66,9 +63,9 @@ def _ruler() -> Iterator[str]:
         yield _text(left + mm - 1.0, y + 4.5, 8, str(mm))
 
 
-def _words() -> Iterator[str]:
+def _words(notes: Sequence[str]) -> Iterator[str]:
     yield _text(20.0, 22.0, 16, "PiGaming")
-    for i, said in enumerate(SAID):
+    for i, said in enumerate(notes):
         yield _text(20.0, 270.0 + 5.0 * i, 9, said)
 
 

@@ -7,15 +7,15 @@ from math import inf
 from typing import Protocol
 
 from pigaming_app.hardware.calibration.ground_plane import LID
-from pigaming_app.hardware.signals import Clock, Eye
+from pigaming_app.hardware.signals import CameraSource, Clock
 from pigaming_app.hardware.vision.camera import SETTLE, Camera
-from pigaming_app.hardware.vision.discovery import Known, cameras
+from pigaming_app.hardware.vision.discovery import CameraInfo, cameras
 
 SETTLED = 2.6  # s after which a real camera has locked its exposure
 
 
 @dataclass(frozen=True)
-class Measures:
+class Measurements:
     """What the operator measures, all in mm: the arena's width on the mat, the camera's and the lids' height above it.
 
     Without a camera's height (0), a robot that stands on outlines tells it.
@@ -26,7 +26,7 @@ class Measures:
     lid: float = LID
 
 
-class Site(Protocol):
+class CalibrationSite(Protocol):
     """A mat with a projector and cameras. `stepped`: its time is made up, and passes only in `advance`."""
 
     name: str
@@ -35,13 +35,13 @@ class Site(Protocol):
     settle: float  # s until an opened camera's pictures can be used
 
     @property
-    def measures(self) -> Measures:
+    def measures(self) -> Measurements:
         """Something to begin with."""
 
-    def cameras(self) -> list[Known]: ...
+    def cameras(self) -> list[CameraInfo]: ...
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Eye:
-        """Use a camera that locks its exposure when it has settled; `fresh`: having found it anew. Raises NoVision."""
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
+        """Use a camera that locks its exposure once it has settled; `fresh`: found anew. Raises OpenCVMissing."""
 
     def advance(self, seconds: float) -> None: ...
 
@@ -52,24 +52,24 @@ class Site(Protocol):
         """A person is asked to put a robot there, arena px."""
 
 
-class RealSite:
+class RealCalibrationSite:
     """The world. `open_capture` makes a `cv2.VideoCapture`."""
 
     name = "real"
     stepped = False
     settle = SETTLED
-    measures = Measures()
+    measures = Measurements()
 
     def __init__(self, open_capture: Callable[[int], object] | None = None) -> None:
         self.clock: Clock = time.monotonic
         self._open_capture = open_capture
 
-    def cameras(self) -> list[Known]:
+    def cameras(self) -> list[CameraInfo]:
         """The cameras that are plugged in."""
         return cameras()
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> Eye:
-        """Use a camera. Raises NoVision."""
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
+        """Use a camera. Raises OpenCVMissing."""
         return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh)
 
     def advance(self, seconds: float) -> None:

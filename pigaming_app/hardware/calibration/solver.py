@@ -1,4 +1,4 @@
-"""From what a camera sees of a board to a `Ground`: homography and lens together, by Levenberg-Marquardt.
+"""From what a camera sees of a board to a `GroundPlane`: homography and lens together, by Levenberg-Marquardt.
 
 The residual is where a corner is seen less where the model says that it is seen, in camera px; robust against a few
 wrong markers by leaving out those that fit far worse than the rest. HARDWARE.md has why k1 and k2 belong to it.
@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.boards import ENOUGH, Board
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, Points, project
+from pigaming_app.hardware.calibration.boards import ENOUGH, CalibrationBoard
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Points, project
 from pigaming_app.hardware.calibration.least_squares import least_squares
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.messages import OperatorMessage
@@ -49,16 +49,18 @@ class Residuals:
         return OperatorMessage("inaccurate", **errors, need_mean=MEAN_MM, need_most=f"{MAX_MM:.0f}")
 
 
-def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width_mm: float, display: str) -> Ground:
-    """The ground on which the board's corners are seen where `Look.corners` says. The camera's place is a guess.
+def solve(
+    seen: Mapping[int, Points], board: CalibrationBoard, size: tuple[int, int], width_mm: float, display: str
+) -> GroundPlane:
+    """The plane on which the board's corners appear as in `BoardSamples.corners`. The camera's place is a guess.
 
-    `size`: of the camera's pictures, px; `width_mm`: of the arena on the mat. Raises NoGround.
+    `size`: of the camera's pictures, px; `width_mm`: of the arena on the mat. Raises CalibrationError.
     """
     truth = board.corners
     numbers = [number for number in seen if number in truth]
     for _ in range(3):
         if len(numbers) < ENOUGH:
-            raise NoGround(OperatorMessage("wrong_board"))
+            raise CalibrationError(OperatorMessage("wrong_board"))
         places, points = _stacked(truth, numbers), _stacked(seen, numbers)
         found = _fit(places, points, size)
         errors = np.abs(_model(found, places, size) - points).reshape(len(numbers), -1).max(axis=1)
@@ -69,7 +71,7 @@ def solve(seen: Mapping[int, Points], board: Board, size: tuple[int, int], width
     return _as_ground(found, size, width_mm, display)
 
 
-def verify(ground: Ground, seen: Mapping[int, Points], board: Board) -> Residuals:
+def verify(ground: GroundPlane, seen: Mapping[int, Points], board: CalibrationBoard) -> Residuals:
     """How well the ground explains a board, which should be another than the one it was solved from."""
     truth = board.corners
     numbers = [number for number in seen if number in truth]
@@ -79,18 +81,18 @@ def verify(ground: Ground, seen: Mapping[int, Points], board: Board) -> Residual
     return Residuals(places, misses, float(errors.mean()), float(errors.max()))
 
 
-def verified(ground: Ground, residuals: Residuals) -> Ground:
-    """The ground with the errors of its verification noted. Raises NoGround where they are too large."""
+def verified(ground: GroundPlane, residuals: Residuals) -> GroundPlane:
+    """The ground with the errors of its verification noted. Raises CalibrationError where they are too large."""
     if not residuals.accepted:
-        raise NoGround(residuals.verdict)
+        raise CalibrationError(residuals.verdict)
     return replace(ground, mean_mm=residuals.mean_mm, max_mm=residuals.max_mm)
 
 
 def homography(places: Points, points: Points) -> Vector:
-    """The 3 x 3 homography from places to points, both (n, 2), n >= 4. Raises NoGround where there is none."""
+    """The 3 x 3 homography from places to points, both (n, 2), n >= 4. Raises CalibrationError where there is none."""
     matrix, _ = opencv().findHomography(places, points)
     if matrix is None:
-        raise NoGround(OperatorMessage("wrong_board"))
+        raise CalibrationError(OperatorMessage("wrong_board"))
     return np.asarray(matrix, np.float64)
 
 
@@ -120,14 +122,14 @@ def _lens(found: Vector, size: tuple[int, int]) -> Lens:
     return Lens(size, float(found[8]), float(found[9]), centre)
 
 
-def _as_ground(found: Vector, size: tuple[int, int], width_mm: float, display: str) -> Ground:
+def _as_ground(found: Vector, size: tuple[int, int], width_mm: float, display: str) -> GroundPlane:
     lens = _lens(found, size)
     (x, y), width = lens.centre, size[0]
     to_units = np.array([[1.0 / width, 0.0, -x / width], [0.0, 1.0 / width, -y / width], [0.0, 0.0, 1.0]])
     plane = np.diag([1000.0, 1000.0, 1.0]) @ np.linalg.inv(np.append(found[:8], 1.0).reshape(3, 3)) @ to_units
     plane /= plane[2, 2]
     middle = project(plane, np.array([lens.centre]))[0]
-    return Ground(
+    return GroundPlane(
         display,
         lens,
         tuple(float(value) for value in plane.reshape(-1)),

@@ -12,7 +12,7 @@ import numpy as np
 
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.recordings import Floats
-from pigaming_app.hardware.signals import Fix, Wheels
+from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, ROBOTS
 
@@ -37,7 +37,7 @@ class Latency(NamedTuple):
         return self.acts + self.picture
 
 
-class Shake:
+class LatencyTest:
     """Shakes one robot; `tick` every 1/50 s until it says that all is done, then `result`."""
 
     def __init__(self, rig: Rig, robot: int) -> None:
@@ -56,8 +56,8 @@ class Shake:
                 share = SHARE if i % 2 else -SHARE
                 break
             time -= length
-        wheels: list[Wheels | None] = [None] * ROBOTS
-        wheels[self.robot] = Wheels(share, -share)
+        wheels: list[WheelCommand | None] = [None] * ROBOTS
+        wheels[self.robot] = WheelCommand(share, -share)
         self.rig.pump()
         self.rig.tell(wheels)
         done = self._ticks * DT > sum(SHAKES) + 0.5
@@ -85,7 +85,7 @@ class Shake:
                 best = min(best, (float(rest @ rest), float(delay), float(lag)))
         return Latency(best[1], float(np.mean(arrived - captured)), best[2])
 
-    def sent(self, time: float, wheels: Sequence[Wheels | None]) -> None:
+    def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
         """The robots are told this."""
         one = wheels[self.robot]
         self._sent.append((time, one.left if one else 0.0))

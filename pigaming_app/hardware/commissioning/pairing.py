@@ -10,7 +10,7 @@ from math import hypot
 from typing import NamedTuple
 
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import DT, ROBOTS
 
@@ -22,8 +22,8 @@ ASTRAY = 25.0  # px that a robot may move while it spins
 SEEN = 0.3  # s within which a marker must have been seen
 
 
-class Case(StrEnum):
-    """What came of spinning the robot of one radio. The texts are pairing.CASE."""
+class PairingCase(StrEnum):
+    """What came of spinning the robot of one radio. The texts are fleet.case_CASE."""
 
     FITS = "fits"  # the marker has the radio's own number
     SWAPPED = "swapped"  # another marker turned: it is driven by this radio from now on
@@ -34,12 +34,12 @@ class Case(StrEnum):
     ABSENT = "absent"  # nobody was heard at this radio
 
 
-class Finding(NamedTuple):
+class PairingFinding(NamedTuple):
     """What came of one radio."""
 
     channel: int  # the radio, from 0
     marker: int | None
-    case: Case
+    case: PairingCase
 
 
 class Pairing:
@@ -47,11 +47,11 @@ class Pairing:
 
     def __init__(self, rig: Rig, channels: Sequence[int] | None = None) -> None:
         self.rig = rig
-        self.findings: list[Finding] = []
+        self.findings: list[PairingFinding] = []
         heard = [one for one in range(ROBOTS) if one in rig.link.telemetry]
         self._todo = list(heard if channels is None else channels)
         absent = [one for one in range(ROBOTS) if one not in self._todo]
-        self.findings += [Finding(channel, None, Case.ABSENT) for channel in absent if channels is None]
+        self.findings += [PairingFinding(channel, None, PairingCase.ABSENT) for channel in absent if channels is None]
         self._ticks = 0
         self._turned = [0.0] * ROBOTS
         self._doubled: set[int] = set()
@@ -84,7 +84,9 @@ class Pairing:
         self._watch(counts=time > REST)
         if self._astray is not None and time < REST + SPIN:
             self._ticks, time = round((REST + SPIN) / DT), REST + SPIN + DT
-        self.rig.tell_one(self._todo[0], Wheels(SHARE, -SHARE) if REST < time <= REST + SPIN else Wheels(0.0, 0.0))
+        self.rig.tell_one(
+            self._todo[0], WheelCommand(SHARE, -SHARE) if REST < time <= REST + SPIN else WheelCommand(0.0, 0.0)
+        )
         if time >= REST + SPIN + BRAKE:
             self.findings.append(self._judged(self._todo.pop(0)))
             self._ticks, self._turned, self._doubled = 0, [0.0] * ROBOTS, set()
@@ -104,17 +106,17 @@ class Pairing:
                     if hypot(seen.x - x, seen.y - y) > ASTRAY:
                         self._astray = robot
 
-    def _judged(self, channel: int) -> Finding:
+    def _judged(self, channel: int) -> PairingFinding:
         turned = [robot for robot in range(ROBOTS) if self._turned[robot] > TURNED]
         moved = [robot for robot in range(ROBOTS) if abs(self._turned[robot]) > STILL]
         if self._doubled:
-            return Finding(channel, None, Case.TWICE)
+            return PairingFinding(channel, None, PairingCase.TWICE)
         if len(moved) > 1:
-            return Finding(channel, None, Case.SEVERAL)
+            return PairingFinding(channel, None, PairingCase.SEVERAL)
         if self._astray is not None or (moved and not turned):
-            return Finding(channel, moved[0] if self._astray is None else self._astray, Case.WIRED)
+            return PairingFinding(channel, moved[0] if self._astray is None else self._astray, PairingCase.WIRED)
         if not turned:
-            return Finding(channel, None, Case.NONE)
+            return PairingFinding(channel, None, PairingCase.NONE)
         if turned[0] in [one.marker for one in self.findings]:
-            return Finding(channel, None, Case.TWICE)
-        return Finding(channel, turned[0], Case.FITS if turned[0] == channel else Case.SWAPPED)
+            return PairingFinding(channel, None, PairingCase.TWICE)
+        return PairingFinding(channel, turned[0], PairingCase.FITS if turned[0] == channel else PairingCase.SWAPPED)

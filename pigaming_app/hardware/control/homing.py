@@ -30,7 +30,7 @@ EASE = 0.99  # share of the push that is left after each tick in which it moves
 REST: Twist = (0.0, 0.0)
 
 
-class Place(NamedTuple):
+class HomingProgress(NamedTuple):
     """How far a robot is from where it shall begin."""
 
     robot: int
@@ -47,7 +47,7 @@ class Homing:
     def __init__(self, world: World, goals: Mapping[int, Pose]) -> None:
         self.world: Any = world
         self.goals = dict(goals)
-        self.places: list[Place] = []
+        self.places: list[HomingProgress] = []
         self._floors = [floor_with(world, berth) for berth in BERTHS]
         self._ways: dict[int, list[Point]] = {}
         self._aside: set[int] = set()  # robots that have made room
@@ -78,12 +78,12 @@ class Homing:
             self._feel(robot, poses[robot], told[robot])
         return told
 
-    def _placed(self, robot: int, pose: Pose | None) -> Place:
+    def _placed(self, robot: int, pose: Pose | None) -> HomingProgress:
         """Who is there stays, even if it is moved a little; who was carried off begins anew."""
         goal = self.goals[robot]
         if pose is None:
             self._forget(robot)
-            return Place(robot, goal, 1e9, pi, False, False)
+            return HomingProgress(robot, goal, 1e9, pi, False, False)
         distance, turn = apart(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
         slack = 2.0 if robot in self._home else 1.0
         there = distance < AT * slack and turn < FACING * slack
@@ -92,7 +92,7 @@ class Homing:
             self._home.add(robot)
         else:
             self._home.discard(robot)
-        return Place(robot, goal, distance, turn, there, robot in self._ways)
+        return HomingProgress(robot, goal, distance, turn, there, robot in self._ways)
 
     def _forget(self, robot: int) -> None:
         self._ways.pop(robot, None)

@@ -7,13 +7,13 @@ that a robot goes straight that is asked to. The radio knows 63 levels of speed 
 
 from math import copysign
 
-from pigaming_app.hardware.control.motion_model import Wear
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.control.motion_model import WheelCorrection
+from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.drivetrain import Drivetrain, shares, twist
 from pigaming_app.sim.plant import Twist
 
 LEVELS = 63  # of speed, each way: packets.STOP
-NEW = Wear(1.0, 1.0, 1.0, 0.0, 0.0)  # wheels that do as they are told
+NEW = WheelCorrection(1.0, 1.0, 1.0, 0.0, 0.0)  # wheels that do as they are told
 WEAKEST, STRONGEST = 0.8, 1.25  # gains that are made up for; beyond, something else is wrong
 
 
@@ -25,23 +25,23 @@ class Kinematics:
         self.wear = NEW
         self._carry = [0.0, 0.0]
 
-    def wheels(self, asked: Twist) -> Wheels:
+    def wheels(self, asked: Twist) -> WheelCommand:
         """What to tell the wheels, on the levels that the radio knows."""
         linear, half = asked[0], 0.5 * self.drivetrain.base * asked[1] / _kept(self.wear.turning)
         left, right = self._told(linear + half, self.wear.left), self._told(linear - half, self.wear.right)
         told = shares(self.drivetrain, 0.5 * (left + right), (left - right) / self.drivetrain.base)
-        return Wheels(self._level(0, told[0]), self._level(1, told[1]))
+        return WheelCommand(self._level(0, told[0]), self._level(1, told[1]))
 
-    def stand(self) -> Wheels:
+    def stand(self) -> WheelCommand:
         """What to tell the wheels so that they stand."""
         self._carry = [0.0, 0.0]
-        return Wheels(0.0, 0.0)
+        return WheelCommand(0.0, 0.0)
 
-    def comes_to(self, wheels: Wheels) -> Twist:
+    def comes_to(self, wheels: WheelCommand) -> Twist:
         """The speed at which wheels without wear end up that are told this: what the tracker starts from."""
         return twist(self.drivetrain, *wheels)
 
-    def goes(self, wheels: Wheels) -> Twist:
+    def goes(self, wheels: WheelCommand) -> Twist:
         """The speed at which these wheels end up that are told this."""
         linear, angular = self.comes_to(wheels)
         half = 0.5 * self.drivetrain.base * angular

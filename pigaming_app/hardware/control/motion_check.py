@@ -41,7 +41,7 @@ MEMORY = 1.5  # s for which commands are kept
 EASE = 0.5  # of the time astray that is forgiven for every second in which nothing can be judged
 
 
-class Contradiction(NamedTuple):
+class MotionMismatch(NamedTuple):
     """How a robot's motion contradicts its commands."""
 
     astray: float = 0.0  # s for which it has moved as no command explains
@@ -49,7 +49,7 @@ class Contradiction(NamedTuple):
     leaving: bool = False  # astray, and on its way out of the arena: there is no time to wait
 
 
-class Sent(NamedTuple):
+class WheelTravel(NamedTuple):
     """Up to a time: how far the model of each wheel has turned (px), and how far the weakest such wheel has."""
 
     time: float
@@ -59,7 +59,7 @@ class Sent(NamedTuple):
     weak_right: float
 
 
-class Sight(NamedTuple):
+class PoseSample(NamedTuple):
     """Where a robot was seen; the heading without jumps."""
 
     time: float
@@ -68,11 +68,11 @@ class Sight(NamedTuple):
     heading: float
 
 
-class Obedience:
+class MotionCheck:
     """Judges all robots by what they are told (`sent`) and where they are seen (`seen`)."""
 
     def __init__(self, drivetrains: Sequence[Drivetrain]) -> None:
-        self._watches = [Watch(one) for one in drivetrains]
+        self._watches = [RobotMotionCheck(one) for one in drivetrains]
 
     def sent(self, now: float, twists: Sequence[Twist | None]) -> None:
         """The wheels are told from now on what comes to these twists, px/s and rad/s; None: off."""
@@ -89,22 +89,22 @@ class Obedience:
         for watch in self._watches if robot is None else [self._watches[robot]]:
             watch.forget()
 
-    def contradiction(self, robot: int) -> Contradiction:
+    def contradiction(self, robot: int) -> MotionMismatch:
         """How its motion contradicts its commands now."""
         return self._watches[robot].contradiction
 
 
-class Watch:
+class RobotMotionCheck:
     """One robot."""
 
     def __init__(self, drivetrain: Drivetrain) -> None:
         self.drivetrain = drivetrain
-        self.contradiction = Contradiction()
+        self.contradiction = MotionMismatch()
         self._told = (0.0, 0.0)  # px/s of the wheels
         self._turning = [0.0, 0.0]  # px/s: the model's wheels, lagged
         self._weak = [0.0, 0.0]
-        self._sent: deque[Sent] = deque()
-        self._sights: deque[Sight] = deque()
+        self._sent: deque[WheelTravel] = deque()
+        self._sights: deque[PoseSample] = deque()
 
     def sent(self, now: float, twist: Twist) -> None:
         """Remember a command; up to now the one before it held."""
@@ -119,11 +119,11 @@ class Watch:
             return
         if sights and not 0.0 < fix.captured - sights[-1].time < GAP:
             sights.clear()
-            self.contradiction = Contradiction()
+            self.contradiction = MotionMismatch()
         heading = fix.heading
         if sights:
             heading = sights[-1].heading + (heading - sights[-1].heading + pi) % tau - pi
-        sights.append(Sight(fix.captured, fix.x, fix.y, heading))
+        sights.append(PoseSample(fix.captured, fix.x, fix.y, heading))
         while fix.captured - sights[0].time > LONG + 0.15:
             sights.popleft()
         if len(sights) > 2:
@@ -131,7 +131,7 @@ class Watch:
 
     def forget(self) -> None:
         """Judge anew."""
-        self.contradiction, self._told = Contradiction(), (0.0, 0.0)
+        self.contradiction, self._told = MotionMismatch(), (0.0, 0.0)
         self._sights.clear()
         self._sent.clear()
 
@@ -139,7 +139,7 @@ class Watch:
         """Let the model's wheels turn up to now."""
         if not self._sent:
             self._turning, self._weak = [0.0, 0.0], [0.0, 0.0]
-            self._sent.append(Sent(now, 0.0, 0.0, 0.0, 0.0))
+            self._sent.append(WheelTravel(now, 0.0, 0.0, 0.0, 0.0))
             return
         last = self._sent[-1]
         dt = now - last.time
@@ -152,7 +152,7 @@ class Watch:
                 goal = max(0.0, abs(told) - weaker) * (1.0 if told > 0.0 else -1.0)
                 ways.append(goal * dt + (speeds[wheel] - goal) * (1.0 - kept) * self.drivetrain.lag)
                 speeds[wheel] = goal + (speeds[wheel] - goal) * kept
-        self._sent.append(Sent(now, *(sum(pair) for pair in zip(last[1:], ways, strict=True))))
+        self._sent.append(WheelTravel(now, *(sum(pair) for pair in zip(last[1:], ways, strict=True))))
         while now - self._sent[1].time > MEMORY:
             self._sent.popleft()
 
@@ -164,14 +164,14 @@ class Watch:
         held = self._since(LONG)
         stuck = newest.time - held.time if self._stuck(held, newest) else 0.0
         seconds = old.astray + dt if astray else 0.0 if astray is False else max(0.0, old.astray - EASE * dt)
-        self.contradiction = Contradiction(seconds, stuck, leaving)
+        self.contradiction = MotionMismatch(seconds, stuck, leaving)
 
-    def _since(self, seconds: float) -> Sight:
+    def _since(self, seconds: float) -> PoseSample:
         """The sight that is about so old."""
         until = self._sights[-1].time - seconds + 1e-6
         return next((one for one in reversed(self._sights) if one.time <= until), self._sights[0])
 
-    def _astray(self, since: Sight, now: Sight) -> bool | None:
+    def _astray(self, since: PoseSample, now: PoseSample) -> bool | None:
         """Whether no wheel as they come goes this way; None: it hardly moved and hardly should have."""
         left, right, side = self._turned(since, now)
         ways = self._told_ways(since, now)
@@ -185,7 +185,7 @@ class Watch:
                 return True
         return abs(side) > SIDEWAYS + SHARE * most or _turned_against(left, right, ways)
 
-    def _stuck(self, since: Sight, now: Sight) -> bool:
+    def _stuck(self, since: PoseSample, now: PoseSample) -> bool:
         """Whether a wheel stands that even the weakest would have turned."""
         turned = self._turned(since, now)
         ways = self._told_ways(since, now)
@@ -197,7 +197,7 @@ class Watch:
                     return True
         return False
 
-    def _leaves(self, since: Sight, now: Sight) -> bool:
+    def _leaves(self, since: PoseSample, now: PoseSample) -> bool:
         """Whether it goes out of the arena, or farther out, as no command explains, and soon could not stop before."""
         dt = now.time - since.time
         if dt <= 0.0:
@@ -214,12 +214,12 @@ class Watch:
                 return True
         return False
 
-    def _told_ways(self, since: Sight, now: Sight) -> list[tuple[float, float, float, float]]:
+    def _told_ways(self, since: PoseSample, now: PoseSample) -> list[tuple[float, float, float, float]]:
         """How far the wheels must have turned between two sights, by how late they hear."""
         lates = [self.drivetrain.dead_time + late for late in LATENESS]
         return [self._told_way(since.time - late, now.time - late) for late in lates]
 
-    def _turned(self, since: Sight, now: Sight) -> tuple[float, float, float]:
+    def _turned(self, since: PoseSample, now: PoseSample) -> tuple[float, float, float]:
         """How far the wheels have turned between two sights, and how far the robot went sideways, px."""
         dx, dy, turn = now.x - since.x, now.y - since.y, now.heading - since.heading
         middle = since.heading + 0.5 * turn

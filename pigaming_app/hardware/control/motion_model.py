@@ -4,7 +4,7 @@ from math import copysign, cos, exp, sin
 from typing import NamedTuple
 
 
-class Wear(NamedTuple):
+class WheelCorrection(NamedTuple):
     """What one robot's wheels make of what they are told, besides their drivetrain."""
 
     left: float  # gain
@@ -14,7 +14,7 @@ class Wear(NamedTuple):
     stiction: float  # px/s that a wheel is slower than it is told, and below which it stands
 
 
-class Rolling:
+class MotionState:
     """A pose in arena px and rad; how fast the wheels turn, in px/s before their gains; which way they turn, lagged."""
 
     __slots__ = ("heading", "left", "left_way", "right", "right_way", "x", "y")
@@ -23,13 +23,13 @@ class Rolling:
         self.x, self.y, self.heading = x, y, heading
         self.left = self.right = self.left_way = self.right_way = 0.0
 
-    def copy(self) -> "Rolling":
+    def copy(self) -> "MotionState":
         """Another one like this."""
-        other = Rolling(self.x, self.y, self.heading)
+        other = MotionState(self.x, self.y, self.heading)
         other.left, other.right, other.left_way, other.right_way = self.left, self.right, self.left_way, self.right_way
         return other
 
-    def roll(self, left: float, right: float, wear: Wear, base: float, lag: float, dt: float) -> None:
+    def roll(self, left: float, right: float, wear: WheelCorrection, base: float, lag: float, dt: float) -> None:
         """Drive for `dt` s with the wheels told to run at `left`, `right` px/s; `base` in px.
 
         Exact for the motors; the way is an arc with the mean speeds of the step.

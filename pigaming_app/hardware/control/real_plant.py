@@ -8,12 +8,12 @@ from collections.abc import Collection, Iterable, Sequence
 from math import exp
 from typing import Any
 
-from pigaming_app.hardware.control.homing import Homing, Place
-from pigaming_app.hardware.control.rig import Rig, Snapshot
-from pigaming_app.hardware.control.safety import Does, Fault, Safety
-from pigaming_app.hardware.control.start_pattern import Greeting
+from pigaming_app.hardware.control.homing import Homing, HomingProgress
+from pigaming_app.hardware.control.rig import Rig, RobotSnapshot
+from pigaming_app.hardware.control.safety import Fault, Response, Safety
+from pigaming_app.hardware.control.start_pattern import StartPattern
 from pigaming_app.hardware.control.virtual_walls import clipped, coasting, limits
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
 
@@ -34,8 +34,8 @@ class RealPlant:
         self.motion: list[Twist] = [REST] * ROBOTS  # px/s and rad/s, when what was said last begins to act
         self._pushed = [0.0] * ROBOTS  # px/s, what was asked of each robot last
         self._homing: Homing | None = None
-        self._greeting = Greeting()
-        self._snapshot: Snapshot | None = None  # of this tick, until it is driven by
+        self._greeting = StartPattern()
+        self._snapshot: RobotSnapshot | None = None  # of this tick, until it is driven by
         self._left_at: list[float | None] = [None] * ROBOTS  # s, when a robot left the arena
 
     @property
@@ -44,7 +44,7 @@ class RealPlant:
         return self.safety.faults
 
     @property
-    def places(self) -> list[Place]:
+    def places(self) -> list[HomingProgress]:
         """How far the robots that take their places are; empty once all have."""
         return self._homing.places if self._homing else []
 
@@ -118,7 +118,7 @@ class RealPlant:
         found = enumerate(self._look().now)
         return {i: (one.x, one.y, one.heading) for i, one in found if one.age < FORGOTTEN}
 
-    def _look(self) -> Snapshot:
+    def _look(self) -> RobotSnapshot:
         """The robots at the beginning of a tick."""
         self.rig.pump()
         self._snapshot = self.rig.snapshot()
@@ -136,7 +136,7 @@ class RealPlant:
         """Stop the robots and let go of the hardware."""
         self.rig.close()
 
-    def _judge(self, seen: Snapshot) -> list[Does]:
+    def _judge(self, seen: RobotSnapshot) -> list[Response]:
         """What safety says of every robot."""
         now, outside = self.rig.clock(), dict[int, float]()
         for i, sighting in enumerate(seen.now):
@@ -148,7 +148,7 @@ class RealPlant:
         signs = self.rig.signs(outside, seen)
         return self.safety.judge([signs.get(i) for i in range(ROBOTS)], now)
 
-    def _ahead(self, snapshot: Snapshot) -> list[Pose]:
+    def _ahead(self, snapshot: RobotSnapshot) -> list[Pose]:
         """Where every robot, real or not, comes to rest if it is told to stop now."""
         trains = [one.drivetrain for one in self.rig.kinematics]
         poses = []
@@ -165,16 +165,16 @@ class RealPlant:
         return bool(simulated) or seen.age < FORGOTTEN
 
     def _wheels(
-        self, robot: int, asked: Twist, held: Does, ahead: Sequence[Pose], solid: Sequence[int]
-    ) -> Wheels | None:
+        self, robot: int, asked: Twist, held: Response, ahead: Sequence[Pose], solid: Sequence[int]
+    ) -> WheelCommand | None:
         """What one robot is told: nothing, to stand, or what walls and safety leave of what was asked."""
-        if robot not in self.real or not self.world.robots[robot].present or held == Does.OFF:
+        if robot not in self.real or not self.world.robots[robot].present or held == Response.OFF:
             return None
         kinematics = self.rig.kinematics[robot]
-        if held == Does.STOP:
+        if held == Response.STOP:
             self._pushed[robot] = 0.0
             return kinematics.stand()
-        if held == Does.HALF:
+        if held == Response.HALF:
             asked = (0.5 * asked[0], 0.5 * asked[1])
         x, y, _ = ahead[robot]
         others = [(ahead[i][0], ahead[i][1]) for i in solid if i != robot]
@@ -183,7 +183,7 @@ class RealPlant:
         self._pushed[robot] = left[0]
         return kinematics.wheels(left)
 
-    def _roll(self, robot: int, wheels: Wheels | None, dt: float) -> None:
+    def _roll(self, robot: int, wheels: WheelCommand | None, dt: float) -> None:
         """Follow the motors: how fast the robot will go when the next command acts."""
         kinematics = self.rig.kinematics[robot]
         goal = kinematics.goes(wheels) if wheels else REST

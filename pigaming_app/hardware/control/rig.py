@@ -1,4 +1,4 @@
-"""The hardware of one arena, put together: a camera's eye, a tracker and a link, on one clock.
+"""The hardware of one arena, put together: a camera, a tracker and a link, on one clock.
 
 `pump` does what there is to do now: look at the newest picture, let the link talk. In the arena a thread does that
 (`start`); in simulated time whoever owns the time does. What a robot is told goes through `tell`, which also lets the
@@ -14,12 +14,12 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
-from pigaming_app.hardware.control.motion_check import Obedience
-from pigaming_app.hardware.control.motion_model import Wear
-from pigaming_app.hardware.control.safety import Signs
+from pigaming_app.hardware.control.motion_check import MotionCheck
+from pigaming_app.hardware.control.motion_model import WheelCorrection
+from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
-from pigaming_app.hardware.signals import Clock, Eye, Fix, Frame, Image, Telemetry, Wheels
+from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Fix, Image, Telemetry, WheelCommand
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.world import DT, ROBOTS
@@ -36,7 +36,7 @@ GREETING = 0.5  # s after which every robot in reach has heard of this rig, and 
 log = logging.getLogger("pigaming")
 
 
-class Follows(Protocol):
+class TrackerPort(Protocol):
     """The part of a tracker that a rig uses."""
 
     looked: float  # s, when the newest picture was taken that was looked at
@@ -48,7 +48,7 @@ class Follows(Protocol):
 
     def sent(self, time: float, twists: Sequence[Twist | None]) -> None: ...
 
-    def see(self, frame: Frame) -> Sequence[Fix]: ...
+    def see(self, frame: CameraFrame) -> Sequence[Fix]: ...
 
     def sense(self, now: float) -> list[Sighting]: ...
 
@@ -56,10 +56,10 @@ class Follows(Protocol):
 
     def doubled(self) -> set[int]: ...
 
-    def wear(self, robot: int) -> Wear: ...
+    def wear(self, robot: int) -> WheelCorrection: ...
 
 
-class Talks(Protocol):
+class LinkPort(Protocol):
     """The part of a link that a rig uses."""
 
     @property
@@ -68,7 +68,7 @@ class Talks(Protocol):
     @property
     def trouble(self) -> OperatorMessage | None: ...
 
-    def send(self, wheels: Sequence[Wheels | None]) -> None: ...
+    def send(self, wheels: Sequence[WheelCommand | None]) -> None: ...
 
     def pump(self) -> None: ...
 
@@ -77,7 +77,7 @@ class Talks(Protocol):
     def close(self) -> None: ...
 
 
-class Snapshot(NamedTuple):
+class RobotSnapshot(NamedTuple):
     """All robots at one time, and each when a command that is sent then begins to act."""
 
     time: float  # s
@@ -86,10 +86,10 @@ class Snapshot(NamedTuple):
     later: list[Sighting]
 
 
-class Notes(Protocol):
+class Recorder(Protocol):
     """Who wants to know all that is sent and seen."""
 
-    def sent(self, time: float, wheels: Sequence[Wheels | None]) -> None: ...
+    def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None: ...
 
     def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None: ...
 
@@ -101,20 +101,20 @@ class Rig:
 
     def __init__(
         self,
-        eye: Eye,
-        tracker: Follows,
-        link: Talks,
+        camera: CameraSource,
+        tracker: TrackerPort,
+        link: LinkPort,
         clock: Clock,
         drivetrains: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS,
         drift: Callable[[], float] = lambda: 0.0,
     ) -> None:
-        self.eye, self.tracker, self.link, self.clock = eye, tracker, link, clock
+        self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
         self.kinematics = [Kinematics(one) for one in drivetrains]
-        self.obedience = Obedience(drivetrains)
+        self.motion_check = MotionCheck(drivetrains)
         self._dead_times = [one.dead_time for one in drivetrains]
         self._channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # mm by which the corner markers have moved
-        self.recorder: Notes | None = None
+        self.recorder: Recorder | None = None
         self._begun = clock()
         self._deaf_since: dict[int, float] = {}  # s, by robot
         self._image: Image | None = None  # the newest
@@ -131,7 +131,7 @@ class Rig:
     def channels(self, channels: Sequence[int]) -> None:
         self._channels = channels
         with self._lock:
-            self.obedience.forget()
+            self.motion_check.forget()
 
     def pump(self) -> None:
         """Look at the newest picture, if there is a new one, and let the link do its part. Idle while a thread runs."""
@@ -139,52 +139,52 @@ class Rig:
             self._look()
             self.link.pump()
 
-    def snapshot(self) -> Snapshot:
+    def snapshot(self) -> RobotSnapshot:
         """One prediction of all robots for one tick: whoever drives judges, clips and steers by it."""
         with self._lock:
             now = self.clock()
-            return Snapshot(now, self.tracker.looked, *self.tracker.predict(now, self._dead_times))
+            return RobotSnapshot(now, self.tracker.looked, *self.tracker.predict(now, self._dead_times))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
         """Where the robots are now, or will be so many seconds ahead if nothing else is said to them."""
         with self._lock:
             return self.tracker.sense(self.clock() + ahead)
 
-    def tell(self, wheels: Sequence[Wheels | None]) -> None:
+    def tell(self, wheels: Sequence[WheelCommand | None]) -> None:
         """Tell every robot what to do from now on; None: motors off."""
-        sent: list[Wheels | None] = [None] * ROBOTS
+        sent: list[WheelCommand | None] = [None] * ROBOTS
         for robot, one in enumerate(wheels):
             sent[self.channels[robot]] = one
         twists = [one and self.kinematics[i].comes_to(one) for i, one in enumerate(wheels)]
         now = self.clock()
         with self._lock:
             self.tracker.sent(now, twists)
-            self.obedience.sent(now, twists)
+            self.motion_check.sent(now, twists)
             if self.recorder:
                 self.recorder.sent(now, wheels)
                 self.recorder.believed(now, self.tracker.sense(now))
         self.link.send(sent)
         self.pump()
 
-    def tell_one(self, channel: int, wheels: Wheels) -> None:
+    def tell_one(self, channel: int, wheels: WheelCommand) -> None:
         """Tell the robot of one radio what to do, whichever marker it wears; the others are off."""
-        sent: list[Wheels | None] = [None] * ROBOTS
+        sent: list[WheelCommand | None] = [None] * ROBOTS
         sent[channel] = wheels
         with self._lock:
-            self.obedience.forget()
+            self.motion_check.forget()
         self.link.send(sent)
         self.pump()
 
     def forget(self, robot: int) -> None:
         """Judge anew from now on whether this robot does as it is told."""
         with self._lock:
-            self.obedience.forget(robot)
+            self.motion_check.forget(robot)
 
     def telemetry(self, robot: int) -> Telemetry | None:
         """What a robot said last."""
         return self.link.telemetry.get(self.channels[robot])
 
-    def signs(self, outside: Mapping[int, float], seen: Snapshot) -> dict[int, Signs]:
+    def signs(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
         """The signs of these robots, which have been outside the arena for so many seconds.
 
         A verdict lasts one tick, so ages are extrapolated by one tick.
@@ -192,18 +192,18 @@ class Rig:
         now, gone, drift = self.clock(), self.link.trouble is not None, self.drift()
         with self._lock:
             looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
-            contradictions = [self.obedience.contradiction(robot) for robot in range(ROBOTS)]
+            contradictions = [self.motion_check.contradiction(robot) for robot in range(ROBOTS)]
         found = {}
         for robot, seconds in outside.items():
             report, age = self.telemetry(robot), seen.now[robot].age
-            found[robot] = Signs(
+            found[robot] = Health(
                 picture=now - max(looked, self._begun) + DT,
                 unseen=age + DT if seen.looked > seen.time - age + 1e-6 else 0.0,
                 refused=refused.get(robot, ""),
                 doubled=robot in doubled,
                 outside=seconds,
                 silence=now - (report.heard if report else self._begun),
-                battery=report.battery if report else Signs().battery,
+                battery=report.battery if report else Health().battery,
                 refuses=report is not None and bool(report.flags & EMPTY),
                 deaf=self._deaf(robot, report),
                 astray=contradictions[robot].astray,
@@ -237,7 +237,7 @@ class Rig:
         self._closing.set()
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join(timeout=1.0)
-        self.eye.close()
+        self.camera.close()
 
     def _run(self) -> None:
         pause = PERIOD
@@ -250,7 +250,7 @@ class Rig:
                 pause = AGAIN
 
     def _look(self) -> None:
-        frame = self.eye.newest()
+        frame = self.camera.newest()
         if frame is None:
             return
         before, self._image = self._image, frame.image
@@ -258,7 +258,7 @@ class Rig:
             return  # a driver that hands out the same picture again: real ones differ by their noise
         with self._lock:
             fixes = self.tracker.see(frame)
-            self.obedience.seen(fixes)
+            self.motion_check.seen(fixes)
             for robot, kinematics in enumerate(self.kinematics):
                 kinematics.wear = self.tracker.wear(robot)
             if self.recorder:

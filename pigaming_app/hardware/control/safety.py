@@ -15,7 +15,7 @@ IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker is not believe
 CALM = 0.5  # s for which a sign must be good before its fault is gone
 
 
-class Does(IntEnum):
+class Response(IntEnum):
     """What a rule does to a robot; of several that apply, the highest holds."""
 
     WARN = 0  # nothing but say so
@@ -25,7 +25,7 @@ class Does(IntEnum):
     OFF = 4  # motors off
 
 
-class Signs(NamedTuple):
+class Health(NamedTuple):
     """How things stand with one robot; what concerns all is said to each."""
 
     picture: float = 0.0  # s, age of the newest picture
@@ -33,7 +33,7 @@ class Signs(NamedTuple):
     refused: str = ""  # why a marker with its number was lately not believed: see Tracker.refused
     doubled: bool = False  # its marker was seen twice at once
     outside: float = 0.0  # s for which it has been outside the arena
-    astray: float = 0.0  # s for which it has moved as no command explains: see obedience
+    astray: float = 0.0  # s for which it has moved as no command explains: see motion_check
     stuck: float = 0.0  # s for which it has stood though it was told to move
     leaving: bool = False  # astray on its way out of the arena
     silence: float = 0.0  # s since it was heard
@@ -46,42 +46,44 @@ class Signs(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Rule:
+class SafetyRule:
     """One line of the table: when `sign` is so bad, do this, to the robot or to everyone."""
 
     name: str  # its text: faults.NAME
-    bad: Callable[[Signs], bool]
-    does: Does
+    bad: Callable[[Health], bool]
+    does: Response
     everyone: bool = False
     pauses: bool = False
     lasts: bool = False  # until somebody has looked: see Safety.forgive. Meanwhile nobody moves
 
 
-def _disobeys(signs: Signs) -> bool:
+def _disobeys(signs: Health) -> bool:
     """Whether a robot does not do as it is told; one that stands and was not heard lately may just be switched off."""
     return signs.leaving or signs.astray > 0.4 or (signs.stuck > 0.4 and signs.silence < 0.35)
 
 
 RULES = (
-    Rule("stopped", lambda s: s.stopped, Does.STOP, everyone=True, pauses=True),
-    Rule("radio", lambda s: s.unlinked, Does.STOP, everyone=True, pauses=True),
-    Rule("camera", lambda s: s.picture > 0.200, Does.STOP, everyone=True, pauses=True),
-    Rule("drift", lambda s: s.drift > 15.0, Does.STOP, everyone=True, pauses=True),
-    Rule("twice", lambda s: s.doubled, Does.STOP, pauses=True),
-    Rule("held", lambda s: s.unseen > 1.000 and s.refused in IN_A_HAND, Does.STOP, pauses=True),
-    Rule("lost", lambda s: s.unseen > 1.000 and s.refused not in (*IN_A_HAND, BEYOND), Does.STOP, pauses=True),
-    Rule("disobeys", _disobeys, Does.STOP, pauses=True, lasts=True),
-    Rule("unseen", lambda s: s.unseen > 0.250, Does.STOP),
-    Rule("unseen", lambda s: s.unseen > 0.100, Does.HALF),
-    Rule("empty", lambda s: s.battery < 4.0 or s.refuses, Does.OFF, pauses=True),
-    Rule("silent", lambda s: s.silence > 1.0, Does.OFF, pauses=True),
-    Rule("deadman", lambda s: s.deaf > 0.5, Does.STOP, pauses=True),
-    Rule("deadman", lambda s: s.deaf > 0.0, Does.WARN),
-    Rule("outside", lambda s: s.unseen > 1.000 and s.refused == BEYOND, Does.STOP, pauses=True),
-    Rule("outside", lambda s: s.outside > 3.0, Does.INWARD, pauses=True),
-    Rule("outside", lambda s: s.outside > 0.0, Does.INWARD),
-    Rule("low", lambda s: s.battery < 4.4, Does.WARN),
-    Rule("drifts", lambda s: s.drift > 5.0, Does.WARN, everyone=True),
+    SafetyRule("stopped", lambda s: s.stopped, Response.STOP, everyone=True, pauses=True),
+    SafetyRule("radio", lambda s: s.unlinked, Response.STOP, everyone=True, pauses=True),
+    SafetyRule("camera", lambda s: s.picture > 0.200, Response.STOP, everyone=True, pauses=True),
+    SafetyRule("drift", lambda s: s.drift > 15.0, Response.STOP, everyone=True, pauses=True),
+    SafetyRule("twice", lambda s: s.doubled, Response.STOP, pauses=True),
+    SafetyRule("held", lambda s: s.unseen > 1.000 and s.refused in IN_A_HAND, Response.STOP, pauses=True),
+    SafetyRule(
+        "lost", lambda s: s.unseen > 1.000 and s.refused not in (*IN_A_HAND, BEYOND), Response.STOP, pauses=True
+    ),
+    SafetyRule("disobeys", _disobeys, Response.STOP, pauses=True, lasts=True),
+    SafetyRule("unseen", lambda s: s.unseen > 0.250, Response.STOP),
+    SafetyRule("unseen", lambda s: s.unseen > 0.100, Response.HALF),
+    SafetyRule("empty", lambda s: s.battery < 4.0 or s.refuses, Response.OFF, pauses=True),
+    SafetyRule("silent", lambda s: s.silence > 1.0, Response.OFF, pauses=True),
+    SafetyRule("deadman", lambda s: s.deaf > 0.5, Response.STOP, pauses=True),
+    SafetyRule("deadman", lambda s: s.deaf > 0.0, Response.WARN),
+    SafetyRule("outside", lambda s: s.unseen > 1.000 and s.refused == BEYOND, Response.STOP, pauses=True),
+    SafetyRule("outside", lambda s: s.outside > 3.0, Response.INWARD, pauses=True),
+    SafetyRule("outside", lambda s: s.outside > 0.0, Response.INWARD),
+    SafetyRule("low", lambda s: s.battery < 4.4, Response.WARN),
+    SafetyRule("drifts", lambda s: s.drift > 5.0, Response.WARN, everyone=True),
 )
 
 
@@ -90,7 +92,7 @@ class Fault(NamedTuple):
 
     name: str
     robot: int | None  # None: all of them
-    does: Does
+    does: Response
     pauses: bool
     since: float  # s
 
@@ -101,8 +103,8 @@ class Safety:
     def __init__(self) -> None:
         self.stopped = False
         self.faults: list[Fault] = []  # what is wrong now, worst first, each once
-        self._lasting: set[tuple[Rule, int]] = set()
-        self._bad: dict[tuple[Rule, int | None], tuple[float, float]] = {}  # since when, and when last
+        self._lasting: set[tuple[SafetyRule, int]] = set()
+        self._bad: dict[tuple[SafetyRule, int | None], tuple[float, float]] = {}  # since when, and when last
 
     def all_stop(self) -> None:
         """Stop every robot until `release`."""
@@ -132,10 +134,10 @@ class Safety:
         """Whether the match must wait."""
         return any(fault.pauses for fault in self.faults)
 
-    def judge(self, signs: Sequence[Signs | None], now: float) -> list[Does]:
+    def judge(self, signs: Sequence[Health | None], now: float) -> list[Response]:
         """What holds for each robot, and what is wrong in `faults`. None: not a real robot, or not in the match."""
         real = {robot: sign._replace(stopped=self.stopped) for robot, sign in enumerate(signs) if sign is not None}
-        held = [Does.WARN] * len(signs)
+        held = [Response.WARN] * len(signs)
         self.faults = []
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
@@ -160,7 +162,7 @@ class Safety:
             if fault.pauses and not any(rule.lasts for rule in RULES if rule.name == fault.name):
                 self._lasting = {key for key in self._lasting if fault.robot not in (None, key[1])}
 
-    def _since(self, rule: Rule, robot: int | None, bad: bool, now: float) -> float | None:
+    def _since(self, rule: SafetyRule, robot: int | None, bad: bool, now: float) -> float | None:
         """Since when a rule has been in force; None: it is not. One that pauses outlasts its sign by CALM."""
         since, last = self._bad.get((rule, robot), (now, now))
         if bad:

@@ -1,6 +1,6 @@
 """How real robots begin: each turns to and fro in a pattern of its own, so that a fault is found before they drive.
 
-A robot whose lid, wires or wheels are wrong turns in another pattern than its commands; see obedience.
+A robot whose lid, wires or wheels are wrong turns in another pattern than its commands; see motion_check.
 """
 
 from collections.abc import Collection
@@ -13,7 +13,7 @@ SLOT = round(0.7 * HZ)  # ticks of a turn
 PATTERNS = ((1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (-1.0, -1.0))  # by robot
 
 
-class Greeting:
+class StartPattern:
     """Lets every robot turn twice, from when it is first seen."""
 
     def __init__(self) -> None:

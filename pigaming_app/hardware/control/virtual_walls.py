@@ -19,7 +19,7 @@ SHARED = 0.5 * GAMMA  # between two robots, each of which may come nearer
 SPARE = 4.0  # px before a wall at which it counts as reached: what a pose may be wrong by
 
 
-class Limit(NamedTuple):
+class SpeedLimit(NamedTuple):
     """Towards (nx, ny), a unit vector, a robot may not drive faster than `speed` px/s."""
 
     nx: float
@@ -39,7 +39,7 @@ def coasting(pose: Pose, motion: Twist, lag: float) -> Pose:
     return x + way * cos(middle), y + way * sin(middle), heading + turn
 
 
-def limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]] = ()) -> list[Limit]:
+def limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]] = ()) -> list[SpeedLimit]:
     """What holds a robot at (x, y) back: the arena's edges, the walls that still stand, the others' centres."""
     found = [
         _limit(-1.0, 0.0, x - RADIUS),
@@ -64,7 +64,7 @@ def limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]]
     return found
 
 
-def clipped(pose: Pose, asked: Twist, held: Sequence[Limit], lag: float = LAG) -> Twist:
+def clipped(pose: Pose, asked: Twist, held: Sequence[SpeedLimit], lag: float = LAG) -> Twist:
     """What is left of a twist under these limits: less speed along the heading, the turn as it is asked for.
 
     A turn counts as far as it goes before the motors have answered, so that a robot that swings its nose into a wall
@@ -84,5 +84,5 @@ def clipped(pose: Pose, asked: Twist, held: Sequence[Limit], lag: float = LAG) -
     return sign * speed if speed else 0.0, angular
 
 
-def _limit(nx: float, ny: float, gap: float, rate: float = GAMMA) -> Limit:
-    return Limit(nx, ny, max(0.0, rate * (gap - SPARE)))
+def _limit(nx: float, ny: float, gap: float, rate: float = GAMMA) -> SpeedLimit:
+    return SpeedLimit(nx, ny, max(0.0, rate * (gap - SPARE)))

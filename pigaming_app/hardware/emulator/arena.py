@@ -12,14 +12,14 @@ from threading import Lock
 
 import numpy as np
 
-from pigaming_app.hardware.emulator.camera import EmulatedCamera, Pace
-from pigaming_app.hardware.emulator.faults import Faults
+from pigaming_app.hardware.emulator.camera import EmulatedCamera, FrameTiming
+from pigaming_app.hardware.emulator.faults import FaultInjector
 from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.objects import Placing
 from pigaming_app.hardware.emulator.optics import CANVAS, Optics
-from pigaming_app.hardware.emulator.radio import Air, EmulatedRadio
-from pigaming_app.hardware.emulator.renderer import Painter, Scene
-from pigaming_app.hardware.emulator.robots import STEP, Robot, drawn, part
+from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
+from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
+from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, drawn, part
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
 
@@ -33,7 +33,7 @@ RESTLESS = 6.0  # s between two steps of the exposure
 
 
 class EmulatedArena:
-    """The mat and all that is around it. `camera` is an Eye, `radio` a Port, `faults` what goes wrong.
+    """The mat and all that is around it. `camera` is a CameraSource, `radio` a SerialPort, `faults` what goes wrong.
 
     `unrest` is the size of the exposure steps that come by themselves, as a share; `begin` is the time (s) at which
     the clock starts; `refresh` is the painter's: 1 paints every picture whole.
@@ -42,8 +42,8 @@ class EmulatedArena:
     def __init__(
         self,
         seed: int = 1,
-        pace: Pace | None = None,
-        air: Air | None = None,
+        pace: FrameTiming | None = None,
+        air: RadioChannel | None = None,
         refresh: int = 1,
         unrest: float = 0.0,
         begin: float = 0.0,
@@ -52,12 +52,12 @@ class EmulatedArena:
         self.ticks, self.begin = 0, begin  # ticks of STEP
         self.optics = Optics()
         self.robots = [
-            Robot(drawn(random), *self._on_mat(pose), Random(f"{seed} {i}")) for i, pose in enumerate(STARTS)
+            EmulatedRobot(drawn(random), *self._on_mat(pose), Random(f"{seed} {i}")) for i, pose in enumerate(STARTS)
         ]
         self.firmwares = [Firmware(robot, i + 1) for i, robot in enumerate(self.robots)]
-        self.radio = EmulatedRadio(self.firmwares, air or Air(), self.clock, seed)
-        self.camera = EmulatedCamera(Painter(self.optics, seed, refresh), pace or Pace(), self.clock, seed)
-        self.faults = Faults(self)
+        self.radio = EmulatedRadio(self.firmwares, air or RadioChannel(), self.clock, seed)
+        self.camera = EmulatedCamera(SceneRenderer(self.optics, seed, refresh), pace or FrameTiming(), self.clock, seed)
+        self.faults = FaultInjector(self)
         self.gain = 1.0  # of the exposure
         self.cleared = False  # whether the robots are off the mat, where the camera does not see them
         self.ran = [float("-inf")] * len(self.robots)  # s, when a robot's motors were last given anything
@@ -127,7 +127,7 @@ class EmulatedArena:
         if now >= self.camera.due:
             self.camera.expose(self._scene(now), now - 0.5 * STEP * (OPEN - 1))
 
-    def _scene(self, now: float) -> Scene:
+    def _scene(self, now: float) -> CameraScene:
         if now >= self._next_gain:
             self._next_gain += RESTLESS
             self._own_gain = 1.0 + self._unrest * self._restless.uniform(-1.0, 1.0)
@@ -135,4 +135,4 @@ class EmulatedArena:
         for i in range(0 if self.cleared else len(self.robots)):
             things += self.faults.things(i, tuple(moment[i] for moment in self._past))
         gain = self.gain * self._own_gain
-        return Scene(self._shown, tuple(things), (now - self.begin) / LIGHT_TURN, gain, self.camera.exposed)
+        return CameraScene(self._shown, tuple(things), (now - self.begin) / LIGHT_TURN, gain, self.camera.exposed)

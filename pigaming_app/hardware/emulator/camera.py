@@ -10,14 +10,14 @@ from math import ceil
 from random import Random
 from typing import NamedTuple
 
-from pigaming_app.hardware.emulator.renderer import Painter, Scene
-from pigaming_app.hardware.signals import Clock, Frame
+from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
+from pigaming_app.hardware.signals import CameraFrame, Clock
 
 UNTAKEN = 4  # pictures kept that have arrived and that nobody has taken
 
 
 @dataclass(frozen=True)
-class Pace:
+class FrameTiming:
     """How the camera delivers."""
 
     fps: float = 60.0
@@ -29,14 +29,14 @@ class Pace:
 class Exposure(NamedTuple):
     """A picture under way."""
 
-    scene: Scene
+    scene: CameraScene
     arrives: float  # s
 
 
 class EmulatedCamera:
-    """An Eye over the emulated mat."""
+    """A CameraSource over the emulated mat."""
 
-    def __init__(self, painter: Painter, pace: Pace, clock: Clock, seed: int) -> None:
+    def __init__(self, painter: SceneRenderer, pace: FrameTiming, clock: Clock, seed: int) -> None:
         self.painter, self.pace, self.clock = painter, pace, clock
         self.due = clock()  # s, when the next exposure ends
         self.frozen = self.stuck = self.gone = False
@@ -46,9 +46,9 @@ class EmulatedCamera:
         self._random = Random(f"camera {seed}")
         # While nobody takes pictures, only the newest are kept: those still in transit and a few that have arrived.
         self._under_way: deque[Exposure] = deque(maxlen=ceil(2.0 * pace.fps * pace.delay) + UNTAKEN)
-        self.last: Frame | None = None  # the newest that was given out
+        self.last: CameraFrame | None = None  # the newest that was given out
 
-    def expose(self, scene: Scene, middle: float) -> None:
+    def expose(self, scene: CameraScene, middle: float) -> None:
         """The shutter closes; `middle` (s) is the middle of the time that it was open."""
         pace, random = self.pace, self._random
         self.exposed += 1
@@ -70,7 +70,7 @@ class EmulatedCamera:
         except IndexError:  # none is under way, or it was taken just now
             return 0.0
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """The newest picture that arrived by now and was not given out before, or None."""
         taken = self._taken = None
         while self._under_way and self._under_way[0].arrives <= self.clock():
@@ -81,9 +81,9 @@ class EmulatedCamera:
         self._taken = self.clock()
         captured = taken.arrives - self.pace.delay
         if self.stuck and self.last is not None:
-            self.last = Frame(self.last.image, captured, taken.scene.number)
+            self.last = CameraFrame(self.last.image, captured, taken.scene.number)
         else:
-            self.last = Frame(self.painter.paint(taken.scene), captured, taken.scene.number)
+            self.last = CameraFrame(self.painter.paint(taken.scene), captured, taken.scene.number)
         return self.last
 
     def close(self) -> None:

@@ -12,8 +12,8 @@ from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.objects import (
     BODY_HEIGHT,
     LID_HEIGHT,
+    FlatObject,
     Placing,
-    Thing,
     body,
     card,
     hand,
@@ -22,7 +22,7 @@ from pigaming_app.hardware.emulator.objects import (
 )
 from pigaming_app.hardware.emulator.optics import Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio
-from pigaming_app.hardware.emulator.robots import Robot
+from pigaming_app.hardware.emulator.robots import EmulatedRobot
 
 FAULTS = {
     "camera_frozen": "no picture arrives any more, though the camera is there",
@@ -64,7 +64,7 @@ Taken = tuple[float, Placing]  # s, mm, mm, rad: when the fault began, and where
 class FaultyArena(Protocol):
     """The parts of an arena that can fail."""
 
-    robots: list[Robot]
+    robots: list[EmulatedRobot]
     firmwares: list[Firmware]
     radio: EmulatedRadio
     camera: EmulatedCamera
@@ -74,7 +74,7 @@ class FaultyArena(Protocol):
     def clock(self) -> float: ...
 
 
-class Faults:
+class FaultInjector:
     """The faults that are on: `switch` changes that, `tick` and `things` let them do what they do."""
 
     def __init__(self, arena: FaultyArena) -> None:
@@ -150,22 +150,24 @@ class Faults:
                 return sum(pair) - robot
         return robot
 
-    def things(self, robot: int, poses: tuple[Placing, ...]) -> list[Thing]:
+    def things(self, robot: int, poses: tuple[Placing, ...]) -> list[FlatObject]:
         """What the camera sees of a robot with these poses, faults and all."""
         height = self._arena.robots[robot].height
         x, y, _ = poses[-1]
         if robot in self._robots["upside_down"]:
-            return [Thing(underside(), LID_HEIGHT + height, poses)]
+            return [FlatObject(underside(), LID_HEIGHT + height, poses)]
         seen = [
-            Thing(body(), BODY_HEIGHT + height, poses[-1:], dull=True),
-            Thing(lid(self._worn(robot)), LID_HEIGHT + height, poses),
+            FlatObject(body(), BODY_HEIGHT + height, poses[-1:], dull=True),
+            FlatObject(lid(self._worn(robot)), LID_HEIGHT + height, poses),
         ]
         if robot in self._robots["marker_covered"]:
-            seen.append(Thing(hand(), LID_HEIGHT + 30.0, poses[-1:], HAND))
+            seen.append(FlatObject(hand(), LID_HEIGHT + 30.0, poses[-1:], HAND))
         if height:
-            seen.append(Thing(hand(), BODY_HEIGHT + height, ((x + 45.0, y + 45.0, -0.8),), HAND))
+            seen.append(FlatObject(hand(), BODY_HEIGHT + height, ((x + 45.0, y + 45.0, -0.8),), HAND))
         if robot in self._robots["marker_twice"]:
             _, (x, y, heading) = self._robots["marker_twice"][robot]
             away = hypot(x, y) or 1.0
-            seen.append(Thing(card(robot), 0.0, ((x * (1 - 300.0 / away), y * (1 - 300.0 / away), heading + 1.0),)))
+            seen.append(
+                FlatObject(card(robot), 0.0, ((x * (1 - 300.0 / away), y * (1 - 300.0 / away), heading + 1.0),))
+            )
         return seen

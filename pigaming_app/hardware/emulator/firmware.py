@@ -4,7 +4,7 @@ Drive: `D0 seq enable L1 R1 L2 R2 L3 R3 L4 R4 chk`, speeds 0..126 with 63 for st
 `D4 addr seq flags mvLo7 mvHi7 chk`. The check is a CRC-8 of all bytes before it, without its top bit.
 """
 
-from pigaming_app.hardware.emulator.robots import Robot
+from pigaming_app.hardware.emulator.robots import EmulatedRobot
 
 DRIVE, REPORT = 0xD0, 0xD4
 DRIVE_BYTES = 12
@@ -18,7 +18,7 @@ STOPPED, LOW, EMPTY = 1, 2, 4  # flags
 class Firmware:
     """The controller of one robot. `address` is 1 to 4."""
 
-    def __init__(self, robot: Robot, address: int) -> None:
+    def __init__(self, robot: EmulatedRobot, address: int) -> None:
         self.robot, self.address = robot, address
         self.mute = False  # whether its reports get lost
         self.heard = -1e9  # s, when the last valid packet ended

@@ -24,7 +24,7 @@ Share = NDArray[np.float32]
 Placing = tuple[float, float, float]  # mm, mm, rad
 
 
-class Thing(NamedTuple):
+class FlatObject(NamedTuple):
     """A print at a height, with the poses that it had while the shutter was open."""
 
     look: Print

@@ -22,7 +22,7 @@ COARSE = 4  # px between the rays that are found by iteration
 
 
 @dataclass(frozen=True)
-class Lens:
+class TrueLens:
     """A camera over the mat: where it hangs, what it looks at, and its glass."""
 
     eye: tuple[float, float, float] = (90.0, 270.0, 2480.0)  # mm, with its height
@@ -37,8 +37,8 @@ class Lens:
 class Optics:
     """The maps between canvas, mat and sensor."""
 
-    def __init__(self, lens: Lens | None = None) -> None:
-        self.lens = lens or Lens()
+    def __init__(self, lens: TrueLens | None = None) -> None:
+        self.lens = lens or TrueLens()
         self.turn = _look_at(self.lens)
         rim = np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]]) - 0.5  # whole numbers are middles of px
         self.to_mat = _homography(rim, CORNERS)
@@ -78,7 +78,7 @@ class Optics:
         )
 
 
-def _look_at(lens: Lens) -> Floats:
+def _look_at(lens: TrueLens) -> Floats:
     """The rotation from mat (z down) to camera (x right, y down, z ahead)."""
     ahead = np.array([lens.aim[0] - lens.eye[0], lens.aim[1] - lens.eye[1], lens.eye[2]])
     ahead /= np.linalg.norm(ahead)
@@ -89,7 +89,7 @@ def _look_at(lens: Lens) -> Floats:
     return np.stack([cosine * right + sine * down, cosine * down - sine * right, ahead])
 
 
-def _distorted(lens: Lens, rays: Floats) -> Floats:
+def _distorted(lens: TrueLens, rays: Floats) -> Floats:
     """Rays (n, 2), as x/z and y/z, to px: Brown's model (Brown 1971, as OpenCV's documentation writes it)."""
     x, y = rays[:, 0], rays[:, 1]
     (k1, k2, k3), (p1, p2) = lens.radial, lens.tangential
@@ -101,7 +101,7 @@ def _distorted(lens: Lens, rays: Floats) -> Floats:
 
 
 @lru_cache(maxsize=2)
-def _rays(lens: Lens, turn: bytes) -> Map:
+def _rays(lens: TrueLens, turn: bytes) -> Map:
     """For every px of the sensor, the ray through it: how far it goes right and down for each mm it goes down to the
     mat, (1080, 1920, 2)."""
     import cv2

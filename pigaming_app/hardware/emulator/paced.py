@@ -17,7 +17,7 @@ OVERDUE = 0.02  # s for which a picture may wait to be looked at
 MOST = 0.1  # s that are caught up after a hold-up
 
 
-class Paced:
+class PacedArena:
     """Lets an arena's time pass in a thread until close(). Up to `limit` (s of its clock), and while it is `watched`
     no faster than its pictures are taken.
     """

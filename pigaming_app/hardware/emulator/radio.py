@@ -1,7 +1,7 @@
 """The emulated radio: a serial line to an XBee, the air, and on every robot another XBee on another serial line.
 
 Bytes take their time on each line (ten bits at the baud rate), packets theirs in the air, where they are lost, doubled
-and late. The computer's end is a Port. Everything happens in the time of the clock that is handed in.
+and late. The computer's end is a SerialPort. Everything happens in the time of the clock that is handed in.
 """
 
 from collections import deque
@@ -23,7 +23,7 @@ PARAMETERS = {b"MY": 2, b"ID": 2, b"CH": 1, b"DB": 1, b"NI": 0, b"VR": 2, b"AP":
 
 
 @dataclass(frozen=True)
-class Air:
+class RadioChannel:
     """How well packets come through."""
 
     mode: int = API_ESCAPED
@@ -36,20 +36,20 @@ class Air:
     garbage: float = 0.0  # bytes of rubbish a second on the computer's line and on each robot's
 
 
-MODERATE = Air(loss=0.005, doubled=0.005, broken=0.002)
+MODERATE = RadioChannel(loss=0.005, doubled=0.005, broken=0.002)
 
 
 class EmulatedRadio:
-    """The computer's end of the radio, a Port. `dead`: nothing goes through; `unplugged`: the port is gone."""
+    """The computer's end of the radio, a SerialPort. `dead`: nothing goes through; `unplugged`: the port is gone."""
 
-    def __init__(self, firmwares: list[Firmware], air: Air, clock: Clock, seed: int) -> None:
+    def __init__(self, firmwares: list[Firmware], air: RadioChannel, clock: Clock, seed: int) -> None:
         self.firmwares, self.air, self.clock = firmwares, air, clock
         self.dead = self.unplugged = False
         self.more_loss = self.more_garbage = 0.0  # besides those of `air`
         self.frames = 0  # understood from the computer
         self._random = Random(f"radio {seed}")
         self._lock = Lock()
-        self._ear = xbee.Ear(air.mode == API_ESCAPED)
+        self._ear = xbee.FrameReceiver(air.mode == API_ESCAPED)
         self._events: list[tuple[float, int, int, bytes]] = []  # s, order, robot, what reaches it
         self._order = 0
         self._out_free = self._in_free = self._last = clock()

@@ -18,7 +18,7 @@ CHUNK = 4096  # bytes
 LATE = 0.5  # s: time that a busy machine lost beyond this is skipped
 
 
-class Terminal:
+class PseudoTerminal:
     """A pseudo-terminal in raw mode. `name` is what to open; only on systems that have such things (OSError)."""
 
     def __init__(self) -> None:
@@ -48,13 +48,13 @@ class Terminal:
         os.close(self._slave)
 
 
-class Live:
+class RealtimeArena:
     """Lets an arena's time pass as fast as real time, whose clock is `time.monotonic`, until close().
 
     With a terminal, that is the radio's port; without one, use `arena.radio` in this program.
     """
 
-    def __init__(self, arena: EmulatedArena, terminal: Terminal | None = None) -> None:
+    def __init__(self, arena: EmulatedArena, terminal: PseudoTerminal | None = None) -> None:
         self.arena, self.terminal = arena, terminal
         self._ended = Event()
         self._thread = Thread(target=self._run, name="emulated arena", daemon=True)

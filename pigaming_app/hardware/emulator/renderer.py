@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.emulator.objects import LID_HEIGHT, TEXELS, Placing, Print, Thing
+from pigaming_app.hardware.emulator.objects import LID_HEIGHT, TEXELS, FlatObject, Placing, Print
 from pigaming_app.hardware.emulator.optics import SENSOR, Map, Optics
 from pigaming_app.hardware.signals import Image
 
@@ -23,17 +23,17 @@ NOISE = 2.5  # grey levels, standard deviation
 Floats = NDArray[np.float32]
 
 
-class Scene(NamedTuple):
+class CameraScene(NamedTuple):
     """What the sensor gathered in one exposure."""
 
     image: Image  # (1080, 1920), what the projector showed
-    things: tuple[Thing, ...]
+    things: tuple[FlatObject, ...]
     light: float  # phase of the light that wanders through the room, in turns
     gain: float  # 1 as the camera was set
     number: int
 
 
-class Window(NamedTuple):
+class ImageRegion(NamedTuple):
     """A part of the sensor: from row and column to row and column."""
 
     top: int
@@ -45,15 +45,15 @@ class Window(NamedTuple):
         """Its rows and columns."""
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
-    def meets(self, other: "Window") -> bool:
+    def meets(self, other: "ImageRegion") -> bool:
         """Whether the two have a pixel in common."""
         return (
             self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
         )
 
-    def joined(self, other: "Window") -> "Window":
+    def joined(self, other: "ImageRegion") -> "ImageRegion":
         """The smallest window that holds both."""
-        return Window(
+        return ImageRegion(
             min(self.top, other.top),
             min(self.left, other.left),
             max(self.bottom, other.bottom),
@@ -61,10 +61,10 @@ class Window(NamedTuple):
         )
 
 
-WHOLE = Window(0, 0, SENSOR[1], SENSOR[0])
+WHOLE = ImageRegion(0, 0, SENSOR[1], SENSOR[0])
 
 
-class Painter:
+class SceneRenderer:
     """Paints scenes as one camera sees them. Two painters with the same seed paint the same."""
 
     def __init__(self, optics: Optics, seed: int, refresh: int = 1, noise: float = NOISE) -> None:
@@ -86,7 +86,7 @@ class Painter:
         self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
         self._age = self.refresh
 
-    def paint(self, scene: Scene) -> Image:
+    def paint(self, scene: CameraScene) -> Image:
         """The picture, (1080, 1920)."""
         random = np.random.default_rng((self._seed, scene.number))
         windows = [(thing, self._window(thing)) for thing in scene.things]
@@ -101,7 +101,11 @@ class Painter:
         return picture
 
     def _painted(
-        self, scene: Scene, window: Window, things: list[tuple[Thing, Window]], random: np.random.Generator
+        self,
+        scene: CameraScene,
+        window: ImageRegion,
+        things: list[tuple[FlatObject, ImageRegion]],
+        random: np.random.Generator,
     ) -> Image:
         import cv2
 
@@ -117,9 +121,17 @@ class Painter:
         noise = self._noise[top : top + height, left : left + width]
         return np.asarray(cv2.add(light, noise, dtype=cv2.CV_8U))
 
-    def _lay(self, scene: Scene, thing: Thing, place: Window, window: Window, room: Floats, light: Floats) -> None:
+    def _lay(
+        self,
+        scene: CameraScene,
+        thing: FlatObject,
+        place: ImageRegion,
+        window: ImageRegion,
+        room: Floats,
+        light: Floats,
+    ) -> None:
         """Paint one thing into the light of a window, in the mean over its poses."""
-        part = Window(
+        part = ImageRegion(
             max(place.top, window.top),
             max(place.left, window.left),
             min(place.bottom, window.bottom),
@@ -136,7 +148,7 @@ class Painter:
         lit = self._lit(scene, self._lids if thing.height else self._floor, part, room[rows, columns])
         there += look[..., 0] * lit - look[..., 1] * there
 
-    def _lit(self, scene: Scene, maps: tuple[Map, Map], window: Window, room: Floats) -> Floats:
+    def _lit(self, scene: CameraScene, maps: tuple[Map, Map], window: ImageRegion, room: Floats) -> Floats:
         """How much light falls on white paper."""
         import cv2
 
@@ -152,7 +164,7 @@ class Painter:
             self._glow = when, _room_light(when / STEADY)
         return self._glow[1]
 
-    def _window(self, thing: Thing) -> Window:
+    def _window(self, thing: FlatObject) -> ImageRegion:
         """Where on the sensor a thing may be seen."""
         points = np.array([(pose[0], pose[1]) for pose in thing.poses])
         pixels = self.optics.sensor(points, thing.height)
@@ -162,7 +174,7 @@ class Painter:
         right, bottom = np.ceil(pixels.max(axis=0) + reach).astype(int)
         wide, high = SENSOR
         top, left = min(max(int(top), 0), high - 1), min(max(int(left), 0), wide - 1)
-        return Window(top, left, min(max(int(bottom), top + 1), high), min(max(int(right), left + 1), wide))
+        return ImageRegion(top, left, min(max(int(bottom), top + 1), high), min(max(int(right), left + 1), wide))
 
 
 def _look(look: Print, x: Map, y: Map, poses: tuple[Placing, ...]) -> Floats:
@@ -180,9 +192,9 @@ def _look(look: Print, x: Map, y: Map, poses: tuple[Placing, ...]) -> Floats:
     return whole
 
 
-def _apart(windows: list[Window]) -> list[Window]:
+def _apart(windows: list[ImageRegion]) -> list[ImageRegion]:
     """Windows that overlap become one."""
-    apart: list[Window] = []
+    apart: list[ImageRegion] = []
     for window in windows:
         meeting = [other for other in apart if other.meets(window)]
         while meeting:

@@ -15,7 +15,7 @@ DEAD_CELL = 3.6  # V: below it the regulator gives up at once
 
 
 @dataclass(frozen=True)
-class Body:
+class RobotParameters:
     """What one robot is really like."""
 
     left_gain: float  # true speed over nominal speed
@@ -28,9 +28,9 @@ class Body:
     drain: float  # V a second at full speed
 
 
-def drawn(random: Random) -> Body:
+def drawn(random: Random) -> RobotParameters:
     """A robot as they come: gains within 8 %, no two alike."""
-    return Body(
+    return RobotParameters(
         left_gain=random.uniform(0.92, 1.06),
         right_gain=random.uniform(0.92, 1.06),
         deadband=random.uniform(0.02, 0.05),
@@ -42,10 +42,10 @@ def drawn(random: Random) -> Body:
     )
 
 
-class Robot:
+class EmulatedRobot:
     """One robot on the mat. Its firmware sets `left` and `right`, the shares of full speed that the motors get."""
 
-    def __init__(self, body: Body, x: float, y: float, heading: float, random: Random) -> None:
+    def __init__(self, body: RobotParameters, x: float, y: float, heading: float, random: Random) -> None:
         self.body = body
         self.x, self.y, self.heading = x, y, heading
         self.left = self.right = 0.0
@@ -98,7 +98,7 @@ class Robot:
         return self._slip[wheel]
 
 
-def part(robots: list[Robot]) -> None:
+def part(robots: list[EmulatedRobot]) -> None:
     """Robots on the mat that overlap push each other apart, half the way each."""
     for i, one in enumerate(robots):
         for other in robots[i + 1 :]:

@@ -8,20 +8,20 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.site import Measures
+from pigaming_app.hardware.calibration.site import Measurements
 from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
-from pigaming_app.hardware.emulator.camera import Pace
+from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.projector import Projector
-from pigaming_app.hardware.emulator.realtime import Live
-from pigaming_app.hardware.signals import Frame
-from pigaming_app.hardware.vision.discovery import Known
+from pigaming_app.hardware.emulator.realtime import RealtimeArena
+from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.hardware.vision.discovery import CameraInfo
 
 RULER = (1.5, 8.0)  # mm by which the mat's width and the camera's height are measured wrongly
 ASIDE = ((60.0, 60.0), (1540.0, 60.0), (1540.0, 840.0), (60.0, 840.0))  # arena px, where robots wait
 HEADING = -1.2  # rad, as somebody happens to put a robot down
 
 
-class EmulatedEye:
+class EmulatedCameraSource:
     """The camera over the emulated mat, as one that can be let go of and used again."""
 
     trouble: None = None
@@ -29,7 +29,7 @@ class EmulatedEye:
     def __init__(self, arena: EmulatedArena) -> None:
         self.arena = arena
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """The newest frame that was not given out before, or None."""
         return self.arena.camera.newest()
 
@@ -37,7 +37,7 @@ class EmulatedEye:
         """It goes on looking."""
 
 
-class EmulatedSite:
+class EmulatedCalibrationSite:
     """An emulated arena whose robots go where a person is asked to put them."""
 
     name = "emulated"
@@ -46,20 +46,20 @@ class EmulatedSite:
     def __init__(self, seed: int = 1, live: bool = False, arena: EmulatedArena | None = None) -> None:
         """`arena`: one that is there already; if it is `live`, somebody else lets its time pass."""
         self.stepped = not live
-        self.arena = arena or EmulatedArena(seed, Pace(30.0), begin=time.monotonic() if live else 0.0)
+        self.arena = arena or EmulatedArena(seed, FrameTiming(30.0), begin=time.monotonic() if live else 0.0)
         self.clock = self.arena.clock
         self.projector = Projector(self.arena)
-        self._live = Live(self.arena).start() if live and arena is None else None
+        self._live = RealtimeArena(self.arena).start() if live and arena is None else None
         self._refresh = self.arena.camera.painter.refresh
         self.measures = _by_ruler(self.arena)
 
-    def cameras(self) -> list[Known]:
+    def cameras(self) -> list[CameraInfo]:
         """The one that there is."""
-        return [Known(0, "emulated")]
+        return [CameraInfo(0, "emulated")]
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> EmulatedEye:
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> EmulatedCameraSource:
         """Use the camera."""
-        return EmulatedEye(self.arena)
+        return EmulatedCameraSource(self.arena)
 
     def advance(self, seconds: float) -> None:
         """Let made-up time pass."""
@@ -86,8 +86,8 @@ class EmulatedSite:
             self._live.close()
 
 
-def _by_ruler(arena: EmulatedArena) -> Measures:
+def _by_ruler(arena: EmulatedArena) -> Measurements:
     """What somebody with a ruler finds."""
     rim = arena.optics.mat(np.array([[0.0, 450.0], [1600.0, 450.0]]) + ARENA_AT)
     width, height = float(np.hypot(*(rim[1] - rim[0]))), arena.optics.lens.eye[2]
-    return Measures(round(width + RULER[0]), round(height + RULER[1]))
+    return Measurements(round(width + RULER[0]), round(height + RULER[1]))

@@ -22,7 +22,7 @@ def framed(data: bytes, escaped: bool) -> bytes:
     return bytes(out)
 
 
-class Ear:
+class FrameReceiver:
     """Hears bytes one by one and gives the data of each frame whose checksum is right."""
 
     def __init__(self, escaped: bool) -> None:

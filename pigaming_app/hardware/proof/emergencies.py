@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
-from pigaming_app.hardware.emulator.realtime import Live, Terminal
-from pigaming_app.hardware.proof.trials import Trail
+from pigaming_app.hardware.emulator.realtime import PseudoTerminal, RealtimeArena
+from pigaming_app.hardware.proof.trials import FigureEight
 from pigaming_app.sim.world import DT, HZ
 
 ENOUGH = 0.6  # s after which nothing will move again that has been stopped
@@ -26,8 +26,8 @@ ROOT = Path(__file__).resolve().parents[3]
 class Emergency(NamedTuple):
     """Something goes wrong with a robot, or with all: how it begins and ends, and faults of which one must be named."""
 
-    begin: Callable[[Trail, int], None]
-    end: Callable[[Trail, int], None]
+    begin: Callable[[FigureEight, int], None]
+    end: Callable[[FigureEight, int], None]
     says: tuple[str, ...]
     everyone: bool = False
     allowed: float = 0.0  # s that the table of faults itself allows before anything has to happen
@@ -44,10 +44,10 @@ def fault(name: str, *says: str, everyone: bool = False, allowed: float = 0.0) -
     )
 
 
-def _twice(on: bool) -> Callable[[Trail, int], None]:
+def _twice(on: bool) -> Callable[[FigureEight, int], None]:
     """Where a game shows hard edges, a second marker cannot always be read, and does no harm: so without them."""
 
-    def double(trail: Trail, robot: int) -> None:
+    def double(trail: FigureEight, robot: int) -> None:
         trail.bed.lighting.show(busy=not on)
         trail.bed.arena.faults.switch("marker_twice", on, robot)
 
@@ -77,14 +77,14 @@ EMERGENCIES: Mapping[str, Emergency] = {
 }
 
 
-class Stopped(NamedTuple):
+class StopResult(NamedTuple):
     """How an emergency went."""
 
     seconds: float  # from its beginning to when the last motor concerned was last given anything
     said: bool  # whether the fault was named
 
 
-def stop(trail: Trail, name: str, robot: int = 1) -> Stopped:
+def stop(trail: FigureEight, name: str, robot: int = 1) -> StopResult:
     """Let it happen to moving robots, and end again; they must drive as before."""
     emergency, arena = EMERGENCIES[name], trail.bed.arena
     settle(trail)
@@ -98,10 +98,10 @@ def stop(trail: Trail, name: str, robot: int = 1) -> Stopped:
             break
     last = max(arena.ran) if emergency.everyone else arena.ran[robot]
     emergency.end(trail, robot)
-    return Stopped(max(0.0, last - began), said)
+    return StopResult(max(0.0, last - began), said)
 
 
-def settle(trail: Trail) -> None:
+def settle(trail: FigureEight) -> None:
     """Drive until nothing is wrong and all have moved for half a second. Raises RuntimeError after 20 s."""
     calm = 0
     for _ in range(20 * HZ):
@@ -114,7 +114,7 @@ def settle(trail: Trail) -> None:
     raise RuntimeError(f"the robots did not drive on: {trail.plant.faults}")
 
 
-def hang(trail: Trail) -> float:
+def hang(trail: FigureEight) -> float:
     """The game hangs, and only the link's thread is left: seconds until the last motor stands."""
     settle(trail)
     began = trail.bed.arena.clock()
@@ -124,7 +124,7 @@ def hang(trail: Trail) -> float:
     return max(trail.bed.arena.ran) - began
 
 
-def leave(trail: Trail) -> float:
+def leave(trail: FigureEight) -> float:
     """The program ends, by itself or by an exception that closes its rig: seconds until the last motor stands."""
     settle(trail)
     began = trail.bed.arena.clock()
@@ -151,7 +151,7 @@ def kill(seed: int) -> float:
     if find_spec("serial") is None:
         raise ImportError("pyserial is not installed")
     arena = EmulatedArena(seed, refresh=1000, begin=time.monotonic())
-    with Live(arena, terminal := Terminal()):
+    with RealtimeArena(arena, terminal := PseudoTerminal()):
         driver = subprocess.Popen([sys.executable, "-c", DRIVER, terminal.name], cwd=ROOT)
         try:
             _until(lambda: all(robot.left_speed > 100.0 for robot in arena.robots))

@@ -8,12 +8,12 @@ from time import thread_time
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.ground_plane import Ground
-from pigaming_app.hardware.emulator.camera import Pace
-from pigaming_app.hardware.emulator.radio import MODERATE, Air
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.emulator.camera import FrameTiming
+from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.lighting import Lighting
-from pigaming_app.hardware.signals import Fix, Frame
+from pigaming_app.hardware.signals import CameraFrame, Fix
 from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.sim.world import ROBOTS
 
@@ -21,13 +21,13 @@ UNREST = 0.15  # size of the exposure steps
 DELAY = 0.060  # s that pictures are late; with tick, line and air that is 80 ms of dead time
 
 
-class Watched(Tracker):
+class TimedTracker(Tracker):
     """A tracker of which it is noted how long it takes and what it finds."""
 
     seconds = 0.0
     pictures = complete = 0
 
-    def see(self, frame: Frame) -> list[Fix]:
+    def see(self, frame: CameraFrame) -> list[Fix]:
         """Correct the robots by a picture; the fixes that were believed."""
         began = thread_time()
         fixes = super().see(frame)
@@ -37,20 +37,20 @@ class Watched(Tracker):
         return fixes
 
 
-class Bed:
+class Testbed:
     """A calibrated arena with a rig on it; `tick` lets 1/50 s pass. A `ground` that is known need not be found."""
 
     def __init__(
-        self, seed: int, fps: float, drops: float = 0.0, air: Air = MODERATE, ground: Ground | None = None
+        self, seed: int, fps: float, drops: float = 0.0, air: RadioChannel = MODERATE, ground: GroundPlane | None = None
     ) -> None:
         self.lighting = Lighting(seed)
         self.session = EmulatedSession(
-            seed, False, lighting=self.lighting, pace=Pace(fps, DELAY, drops=drops), air=air, unrest=UNREST,
-            ground=ground, tracker=Watched,
+            seed, False, lighting=self.lighting, pace=FrameTiming(fps, DELAY, drops=drops), air=air, unrest=UNREST,
+            ground=ground, tracker=TimedTracker,
         )  # fmt: skip
         self.rig = self.session.open()
         self.arena, self.ground = self.session.arena, self.session.ground
-        assert isinstance(self.rig.tracker, Watched)
+        assert isinstance(self.rig.tracker, TimedTracker)
         self.tracker, self.link = self.rig.tracker, self.rig.link
 
     def count(self) -> None:

@@ -10,7 +10,7 @@ from random import Random
 from typing import Any, NamedTuple, Protocol
 
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.hardware.proof.testbed import Bed
+from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.sim.action import press
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
@@ -21,7 +21,7 @@ SPEED = 350.0  # mm/s
 
 
 @dataclass(frozen=True)
-class Followed:
+class TrackingResult:
     """How well four robots were tracked: against where they were at that moment, all dead time made up for."""
 
     rmse_mm: float
@@ -30,10 +30,10 @@ class Followed:
     complete: float  # share of the pictures in which all four were found
 
 
-class Trail:
+class FigureEight:
     """Four robots that drive figures of eight, each in its quarter, steered by what the rig says."""
 
-    def __init__(self, bed: Bed) -> None:
+    def __init__(self, bed: Testbed) -> None:
         bed.session.find()
         self.bed, self.world = bed, World()
         for robot in self.world.robots:
@@ -63,7 +63,7 @@ class Trail:
         return middle_x + 250.0 * sin(turn), middle_y + 110.0 * sin(2.0 * turn)
 
 
-def follow(trail: Trail, seconds: float) -> Followed:
+def follow(trail: FigureEight, seconds: float) -> TrackingResult:
     """Drive for so long at 0.35 m/s, after two seconds to get up speed."""
     bed, misses = trail.bed, []
     for _ in range(2 * HZ):
@@ -73,7 +73,7 @@ def follow(trail: Trail, seconds: float) -> Followed:
         trail.tick()
         misses += bed.misses()
     tracker = bed.tracker
-    return Followed(
+    return TrackingResult(
         sqrt(sum(mm * mm for mm, _ in misses) / len(misses)),
         degrees(sqrt(sum(turned * turned for _, turned in misses) / len(misses))),
         1e3 * tracker.seconds / tracker.pictures,
@@ -81,7 +81,7 @@ def follow(trail: Trail, seconds: float) -> Followed:
     )
 
 
-class Playable(Protocol):
+class PlayableMatch(Protocol):
     """The part of a match that is played here."""
 
     state: Any
@@ -95,7 +95,7 @@ class Playable(Protocol):
         """Advance by 1/50 s."""
 
 
-class Masher:
+class ButtonMasher:
     """A seat at which somebody mashes all buttons and throws the stick about."""
 
     def __init__(self, seed: int) -> None:
@@ -119,7 +119,7 @@ class Masher:
         press(state.actions[seat], *self._held)
 
 
-class Played(NamedTuple):
+class MatchResult(NamedTuple):
     """How a match on the mat went."""
 
     deepest_mm: float  # into a wall or over the arena's edge
@@ -129,7 +129,7 @@ class Played(NamedTuple):
     alarms: int  # how often a robot seemed not to do as it was told
 
 
-def play(bed: Bed, match: Playable, seconds: float) -> Played:
+def play(bed: Testbed, match: PlayableMatch, seconds: float) -> MatchResult:
     """Let the robots take their places and play to the end. Raises RuntimeError if either takes too long.
 
     Pauses are as the arcade makes them: as long as a fault that pauses is there, nobody plays.
@@ -156,7 +156,7 @@ def play(bed: Bed, match: Playable, seconds: float) -> Played:
         deepest = max(deepest, *(entered(match.state, x, y) for x, y, _ in bed.arena.poses()))
         if ticks > 1.5 * HZ * seconds + 20 * HZ:
             raise RuntimeError(f"the match did not end: {plant.faults}")
-    return Played(deepest * bed.ground.mm, ticks * DT, paused * DT, ready * DT, alarms)
+    return MatchResult(deepest * bed.ground.mm, ticks * DT, paused * DT, ready * DT, alarms)
 
 
 def _calm(plant: RealPlant) -> int:

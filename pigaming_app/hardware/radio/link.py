@@ -13,33 +13,33 @@ from typing import Self
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import ROBOTS
-from pigaming_app.hardware.radio.protocol import Dialect, Quality
-from pigaming_app.hardware.radio.serial_line import Line, OpenPort, radio_message
-from pigaming_app.hardware.radio.xbee_protocol import Air
-from pigaming_app.hardware.signals import Clock, Telemetry, Wheels
+from pigaming_app.hardware.radio.protocol import LinkQuality, RadioProtocol
+from pigaming_app.hardware.radio.serial_line import OpenPort, SerialLine, radio_message
+from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
+from pigaming_app.hardware.signals import Clock, Telemetry, WheelCommand
 
 BEAT = 0.02  # s between two commands on the air
 PATIENCE = 0.1  # s without a new command until the link sends stop
 FAREWELLS = 5  # stops that are sent at the end
-NOBODY: tuple[Wheels | None, ...] = (None,) * ROBOTS
+NOBODY: tuple[WheelCommand | None, ...] = (None,) * ROBOTS
 
 
 class Link:
     """The robots at the other end of a serial line. Use it in a `with`, or close it."""
 
     def __init__(
-        self, open_port: OpenPort, clock: Clock, dialect: Dialect | None = None, name: str = "the serial port"
+        self, open_port: OpenPort, clock: Clock, dialect: RadioProtocol | None = None, name: str = "the serial port"
     ) -> None:
-        self._line = Line(open_port, clock, name)
-        self._dialect = dialect or Air()
+        self._line = SerialLine(open_port, clock, name)
+        self._dialect = dialect or XBeeProtocol()
         self._clock = clock
-        self._mail: tuple[float, Sequence[Wheels | None]] = (float("-inf"), NOBODY)
+        self._mail: tuple[float, Sequence[WheelCommand | None]] = (float("-inf"), NOBODY)
         self._due = float("-inf")  # s, when to send again
         self._listened = float("-inf")  # s: silence since then is this computer's, not the radio's
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
 
-    def send(self, wheels: Sequence[Wheels | None]) -> None:
+    def send(self, wheels: Sequence[WheelCommand | None]) -> None:
         """Tell the robots 0, 1, ... what to do from now on; None, or no entry, stops. Raises ValueError for a fifth."""
         if len(wheels) > ROBOTS:
             raise ValueError(f"{len(wheels)} robots; there are at most {ROBOTS}")
@@ -50,7 +50,7 @@ class Link:
         """What every robot that was ever heard said last, by robot."""
         return dict(self._dialect.telemetry)
 
-    def quality(self, robot: int) -> Quality:
+    def quality(self, robot: int) -> LinkQuality:
         """How well a robot is heard."""
         return self._dialect.quality(robot, self._clock())
 

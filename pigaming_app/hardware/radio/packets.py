@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 
 ROBOTS = 4
 STOP = 63  # the middle of the speeds 0 to 126
@@ -25,7 +25,7 @@ ESCAPES = re.compile(rb"\x7d(.?)", re.DOTALL)  # at the end of what has come, th
 LONGEST = 128  # bytes of a frame's data; the longest that comes holds 100 bytes from the air and 11 before them
 
 
-class Report(NamedTuple):
+class RobotReport(NamedTuple):
     """What a robot says of itself."""
 
     address: int  # 1 to 4
@@ -34,7 +34,7 @@ class Report(NamedTuple):
     millivolts: int
 
 
-class Send(NamedTuple):
+class TransmitRequest(NamedTuple):
     """To the radio: send this to the 16-bit address. With number 0 the radio does not say how it went."""
 
     number: int
@@ -43,7 +43,7 @@ class Send(NamedTuple):
     options: int = 0
 
 
-class Received(NamedTuple):
+class ReceivedPacket(NamedTuple):
     """From the radio: this came from the 16-bit address."""
 
     source: int
@@ -52,14 +52,14 @@ class Received(NamedTuple):
     data: bytes
 
 
-class Outcome(NamedTuple):
+class TransmitStatus(NamedTuple):
     """From the radio: how sending went. 0 well, 1 nobody acknowledged, 2 the air was never free, 3 purged."""
 
     number: int
     status: int
 
 
-class Ask(NamedTuple):
+class ATCommand(NamedTuple):
     """To the radio: an AT command of two letters; without a value it asks for the value."""
 
     number: int
@@ -67,7 +67,7 @@ class Ask(NamedTuple):
     value: bytes = b""
 
 
-class Answer(NamedTuple):
+class ATResponse(NamedTuple):
     """From the radio: what became of an AT command. Status 0 is well."""
 
     number: int
@@ -76,13 +76,13 @@ class Answer(NamedTuple):
     value: bytes
 
 
-class Modem(NamedTuple):
+class ModemStatus(NamedTuple):
     """From the radio: what happened to it. 0 it started, 1 its watchdog restarted it."""
 
     status: int
 
 
-Message = Send | Received | Outcome | Ask | Answer | Modem
+Message = TransmitRequest | ReceivedPacket | TransmitStatus | ATCommand | ATResponse | ModemStatus
 
 
 def crc8(data: bytes) -> int:
@@ -95,7 +95,7 @@ def crc8(data: bytes) -> int:
     return crc
 
 
-def drive_packet(seq: int, wheels: Sequence[Wheels | None]) -> bytes:
+def drive_packet(seq: int, wheels: Sequence[WheelCommand | None]) -> bytes:
     """The broadcast for the robots 0 to 3; those without an entry are off. Raises ValueError for a fifth robot."""
     if len(wheels) > ROBOTS:
         raise ValueError(f"{len(wheels)} robots; the packet has room for {ROBOTS}")
@@ -105,9 +105,9 @@ def drive_packet(seq: int, wheels: Sequence[Wheels | None]) -> bytes:
     return _checked(bytes((DRIVE, seq % SEQUENCE, enabled, *speeds)))
 
 
-def report_from(packet: bytes) -> Report:
+def report_from(packet: bytes) -> RobotReport:
     """What a report says that a PacketDecoder found good."""
-    return Report(packet[1], packet[2], packet[3], packet[4] | packet[5] << 7)
+    return RobotReport(packet[1], packet[2], packet[3], packet[4] | packet[5] << 7)
 
 
 def _speed(share: float) -> int:
@@ -203,17 +203,17 @@ class FrameDecoder:
 def encode(message: Message) -> bytes:
     """The message as the data of a frame."""
     match message:
-        case Send(number, address, data, options):
+        case TransmitRequest(number, address, data, options):
             return bytes((0x01, number)) + address.to_bytes(2, "big") + bytes((options,)) + data
-        case Received(source, strength, options, data):
+        case ReceivedPacket(source, strength, options, data):
             return b"\x81" + source.to_bytes(2, "big") + bytes((-strength, options)) + data
-        case Outcome(number, status):
+        case TransmitStatus(number, status):
             return bytes((0x89, number, status))
-        case Ask(number, command, value):
+        case ATCommand(number, command, value):
             return bytes((0x08, number)) + command.encode("ascii") + value
-        case Answer(number, command, status, value):
+        case ATResponse(number, command, status, value):
             return bytes((0x88, number)) + command.encode("ascii") + bytes((status,)) + value
-        case Modem(status):
+        case ModemStatus(status):
             return bytes((0x8A, status))
 
 
@@ -221,15 +221,15 @@ def decode(data: bytes) -> Message | None:
     """What a frame's data says; None for a kind that is not ours or data too short for its kind."""
     match data[:1], list(data[1:]):
         case b"\x01", [number, high, low, options, *rest]:
-            return Send(number, high << 8 | low, bytes(rest), options)
+            return TransmitRequest(number, high << 8 | low, bytes(rest), options)
         case b"\x81", [high, low, strength, options, *rest]:
-            return Received(high << 8 | low, -strength, options, bytes(rest))
+            return ReceivedPacket(high << 8 | low, -strength, options, bytes(rest))
         case b"\x89", [number, status]:
-            return Outcome(number, status)
+            return TransmitStatus(number, status)
         case b"\x08", [number, _, _, *rest]:
-            return Ask(number, data[2:4].decode("latin-1"), bytes(rest))
+            return ATCommand(number, data[2:4].decode("latin-1"), bytes(rest))
         case b"\x88", [number, _, _, status, *rest]:
-            return Answer(number, data[2:4].decode("latin-1"), status, bytes(rest))
+            return ATResponse(number, data[2:4].decode("latin-1"), status, bytes(rest))
         case b"\x8a", [status]:
-            return Modem(status)
+            return ModemStatus(status)
     return None

@@ -3,10 +3,10 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol
 
-from pigaming_app.hardware.signals import Telemetry, Wheels
+from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 
-class Quality(NamedTuple):
+class LinkQuality(NamedTuple):
     """How well a robot is heard."""
 
     share: float  # of the reports expected in the last seconds, 0 to 1
@@ -14,7 +14,7 @@ class Quality(NamedTuple):
     echo: float | None  # s from sending a command to the report that names it
 
 
-class Dialect(Protocol):
+class RadioProtocol(Protocol):
     """How commands become bytes and bytes telemetry."""
 
     @property
@@ -24,13 +24,13 @@ class Dialect(Protocol):
     def open(self, now: float) -> bytes:
         """The line is open, perhaps again: what to say first."""
 
-    def command(self, wheels: Sequence[Wheels | None], now: float) -> bytes:
+    def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
         """What to send to the robots 0 to 3; None stops."""
 
     def hear(self, heard: bytes, now: float) -> None:
         """Take in what came, also when nothing came."""
 
-    def quality(self, robot: int, now: float) -> Quality:
+    def quality(self, robot: int, now: float) -> LinkQuality:
         """How well a robot is heard."""
 
     def trouble(self, now: float) -> tuple[str, str] | None:

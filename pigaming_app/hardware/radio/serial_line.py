@@ -1,6 +1,6 @@
 """A serial line to a radio, which may be absent, in use, forbidden or pulled out at any moment.
 
-Opening reports what is wrong. A `Line` never raises: it reads and writes what it can, and when the port
+Opening reports what is wrong. A `SerialLine` never raises: it reads and writes what it can, and when the port
 is gone it tries again, at longer and longer intervals. A write that times out, because this computer or the radio is
 busy, leaves the port open; only a port that has taken nothing for STUCK seconds is reported. pyserial is imported when
 a port is opened, not before.
@@ -13,7 +13,7 @@ from contextlib import suppress
 from typing import NamedTuple, Protocol, runtime_checkable
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import Clock, Port
+from pigaming_app.hardware.signals import Clock, SerialPort
 
 try:
     from termios import error as termios_error
@@ -32,11 +32,11 @@ FIRST, LONGEST = 0.25, 2.0  # s between two attempts to open: doubled every time
 WRITE_TIMEOUT = 0.05  # s
 STUCK = 1.0  # s without a successful write after which a port is reported
 
-OpenPort = Callable[[], Port]
+OpenPort = Callable[[], SerialPort]
 
 
 @runtime_checkable
-class Buffered(Protocol):
+class BufferedPort(Protocol):
     """A port whose unsent bytes can be dropped, as pyserial's can."""
 
     def reset_output_buffer(self) -> None: ...
@@ -62,30 +62,30 @@ def radio_message(reason: str, port: str, detail: str = "") -> OperatorMessage:
     return OperatorMessage(f"radio_{reason}", port=port, detail=detail)
 
 
-class Found(NamedTuple):
+class PortInfo(NamedTuple):
     """A serial port of this computer."""
 
     device: str  # what to open: /dev/ttyUSB0, COM3
     description: str  # in words of the system
 
 
-def ports() -> list[Found]:
+def ports() -> list[PortInfo]:
     """The serial ports of this computer, those on USB first; none where pyserial is missing."""
     try:
         from serial.tools import list_ports
     except ImportError:
         return []
     found = sorted(list_ports.comports(), key=lambda port: (port.vid is None, port.device))
-    return [Found(port.device, port.description or port.device) for port in found]
+    return [PortInfo(port.device, port.description or port.device) for port in found]
 
 
 def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
     """What opens a serial port of this computer for us alone. Two stop bits help a radio whose clock is slow."""
 
-    def open_it() -> Port:
+    def open_it() -> SerialPort:
         import serial
 
-        port: Port = serial.Serial(
+        port: SerialPort = serial.Serial(
             device, baud, stopbits=stop_bits, timeout=0, write_timeout=WRITE_TIMEOUT, exclusive=True
         )
         return port
@@ -106,14 +106,14 @@ def trouble_of(error: Exception, port: str) -> OperatorMessage:
     return radio_message(reason, port, " ".join(str(error).split()).rstrip("."))
 
 
-class Line:
+class SerialLine:
     """A port that is opened when it can be, and again when it was lost."""
 
     def __init__(self, open_port: OpenPort, clock: Clock, name: str) -> None:
         self.trouble: OperatorMessage | None = None
         self.name = name
         self._open_port, self._clock = open_port, clock
-        self._port: Port | None = None
+        self._port: SerialPort | None = None
         self._lost = False  # whether it was open before
         self._again = float("-inf")  # s, when opening may be tried
         self._pause = FIRST
@@ -169,14 +169,14 @@ class Line:
             with suppress(*FAILURES):
                 port.close()
 
-    def _hold_up(self, port: Port) -> None:
+    def _hold_up(self, port: SerialPort) -> None:
         """A write timed out. What waits in the buffer is dropped: by the time it got through, it would be stale."""
         now = self._clock()
         if self._held_up is None:
             self._held_up = now
         if now - self._held_up >= STUCK:
             self.trouble = radio_message("stuck", self.name)
-        if isinstance(port, Buffered):
+        if isinstance(port, BufferedPort):
             try:
                 port.reset_output_buffer()
             except FAILURES:

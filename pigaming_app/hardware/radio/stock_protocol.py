@@ -8,8 +8,8 @@ Put the robot on blocks; in a match use our own firmware (hardware/firmware/).
 from collections.abc import Mapping, Sequence
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.protocol import Quality
-from pigaming_app.hardware.signals import Telemetry, Wheels
+from pigaming_app.hardware.radio.protocol import LinkQuality
+from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 BAUD = 115200
 SIGNATURE, BATTERY = 0x81, 0xB1  # commands; asking for the signature also stops the motors
@@ -22,9 +22,9 @@ NAME = b"3pi"  # what the signature begins with: 3pi1.1 and the like
 NAME_LENGTH, BATTERY_LENGTH = 6, 2  # bytes of the answers
 
 
-def motors(wheels: Wheels | None) -> bytes:
+def motors(wheels: WheelCommand | None) -> bytes:
     """The commands that set both motors; None stops them."""
-    shares = wheels or Wheels(0.0, 0.0)
+    shares = wheels or WheelCommand(0.0, 0.0)
     return b"".join(_motor(*pair) for pair in zip(shares, FORWARD, BACK, strict=True))
 
 
@@ -33,7 +33,7 @@ def _motor(share: float, forward: int, back: int) -> bytes:
     return bytes((back if share < 0 else forward, FULL if speed == 255 else speed // 2))
 
 
-class Stock:
+class StockProtocol:
     """The dialect of the serial-slave program, for the robot at the other end of this line."""
 
     def __init__(self, robot: int = 0) -> None:
@@ -53,7 +53,7 @@ class Stock:
     def telemetry(self) -> Mapping[int, Telemetry]:
         return self._telemetry
 
-    def command(self, wheels: Sequence[Wheels | None], now: float) -> bytes:
+    def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
         """Both motors, and from time to time a question for the battery or, until it is known, the name."""
         asks = now - self._asked >= (ASK_EVERY if self._is_stock else PATIENCE)
         return (self._question(now) if asks else b"") + motors(wheels[self._robot])
@@ -70,10 +70,10 @@ class Stock:
             self._answers += 1
             self._telemetry[self._robot] = Telemetry(self._robot, int.from_bytes(answer, "little") / 1000, 0, now)
 
-    def quality(self, robot: int, now: float) -> Quality:
+    def quality(self, robot: int, now: float) -> LinkQuality:
         """The share is of all questions for the battery since the line was opened."""
         share = self._answers / self._questions if self._questions and robot == self._robot else 0.0
-        return Quality(share, None, None)
+        return LinkQuality(share, None, None)
 
     def trouble(self, now: float) -> tuple[str, str] | None:
         """Something else answers, or nothing."""

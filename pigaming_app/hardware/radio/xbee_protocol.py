@@ -9,16 +9,24 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 
 from pigaming_app.hardware.radio import packets
-from pigaming_app.hardware.radio.packets import BROADCAST, ROBOTS, SEQUENCE, Answer, Outcome, Received, Report
-from pigaming_app.hardware.radio.protocol import Quality
-from pigaming_app.hardware.signals import Telemetry, Wheels
+from pigaming_app.hardware.radio.packets import (
+    BROADCAST,
+    ROBOTS,
+    SEQUENCE,
+    ATResponse,
+    ReceivedPacket,
+    RobotReport,
+    TransmitStatus,
+)
+from pigaming_app.hardware.radio.protocol import LinkQuality
+from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 REPORTS = 5  # a second, of every robot
 WINDOW = 2.0  # s over which reports are counted
 SILENCE = 1.0  # s without an answer after which no radio is believed to be there
 
 
-class Mode(StrEnum):
+class XBeeMode(StrEnum):
     """How the radio is set."""
 
     TRANSPARENT = "transparent"  # AP=0, or a cable
@@ -26,10 +34,10 @@ class Mode(StrEnum):
     API2 = "api2"
 
 
-class Air:
+class XBeeProtocol:
     """The dialect of our firmware."""
 
-    def __init__(self, mode: Mode = Mode.API2) -> None:
+    def __init__(self, mode: XBeeMode = XBeeMode.API2) -> None:
         self.mode = mode
         self.outcomes: Counter[int] = Counter()  # of broadcasts, by status: see packets.Outcome
         self.broadcasts = 0
@@ -43,50 +51,50 @@ class Air:
 
     def open(self, now: float) -> bytes:
         """Forget half of what was heard; ask the radio for its mode."""
-        self._frames = packets.FrameDecoder(escaped=self.mode is Mode.API2)
+        self._frames = packets.FrameDecoder(escaped=self.mode is XBeeMode.API2)
         self._packets: dict[int, packets.PacketDecoder] = {}  # by source
         self._begun = self._understood = now
         self._garbage = 0  # bytes, when something was understood last
         self._set_to = ""  # the radio's mode, where it differs
-        return b"" if self.mode is Mode.TRANSPARENT else self._framed(packets.Ask(1, "AP"))
+        return b"" if self.mode is XBeeMode.TRANSPARENT else self._framed(packets.ATCommand(1, "AP"))
 
     @property
     def telemetry(self) -> Mapping[int, Telemetry]:
         return self._telemetry
 
-    def command(self, wheels: Sequence[Wheels | None], now: float) -> bytes:
+    def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
         """One broadcast for all robots."""
         self._seq = (self._seq + 1) % SEQUENCE
         self._sent[self._seq] = now
         self.broadcasts += 1
         packet = packets.drive_packet(self._seq, wheels)
-        if self.mode is Mode.TRANSPARENT:
+        if self.mode is XBeeMode.TRANSPARENT:
             return packet
-        return self._framed(packets.Send(1 + self.broadcasts % 255, BROADCAST, packet))
+        return self._framed(packets.TransmitRequest(1 + self.broadcasts % 255, BROADCAST, packet))
 
     def hear(self, heard: bytes, now: float) -> None:
         """Take in what the radio and the robots say."""
-        if self.mode is Mode.TRANSPARENT:
+        if self.mode is XBeeMode.TRANSPARENT:
             self._take_in(0, heard, now)
-            if any(isinstance(packets.decode(data), Received) for data in self._frames.feed(heard)):
+            if any(isinstance(packets.decode(data), ReceivedPacket) for data in self._frames.feed(heard)):
                 self._set_to = "1 or 2"
             return
         for data in self._frames.feed(heard):
             self._understand(now)
             match packets.decode(data):
-                case Received(source, strength, _, part):
+                case ReceivedPacket(source, strength, _, part):
                     for robot in self._take_in(source, part, now):
                         self._strength[robot] = strength
-                case Outcome(_, status):
+                case TransmitStatus(_, status):
                     self.outcomes[status] += 1
-                case Answer(_, "AP", 0, value):
+                case ATResponse(_, "AP", 0, value):
                     self._set_to = "" if value == self._ap else str(int.from_bytes(value))
 
-    def quality(self, robot: int, now: float) -> Quality:
+    def quality(self, robot: int, now: float) -> LinkQuality:
         """The share is of the reports of the last two seconds."""
         expected = max(1.0, REPORTS * min(WINDOW, now - self._begun))
         fresh = sum(heard > now - WINDOW for heard in tuple(self._heard[robot]))
-        return Quality(min(1.0, fresh / expected), self._strength.get(robot), self._echo.get(robot))
+        return LinkQuality(min(1.0, fresh / expected), self._strength.get(robot), self._echo.get(robot))
 
     def trouble(self, now: float) -> tuple[str, str] | None:
         """A radio of another mode, noise, or silence."""
@@ -96,7 +104,7 @@ class Air:
             return None
         if self._thrown_away() > self._garbage:
             return "garbled", ""
-        return None if self.mode is Mode.TRANSPARENT else ("mute", "")
+        return None if self.mode is XBeeMode.TRANSPARENT else ("mute", "")
 
     def _take_in(self, source: int, heard: bytes, now: float) -> list[int]:
         """Note what robots say in these bytes; the robots, in the order of their reports."""
@@ -107,7 +115,7 @@ class Air:
                 robots.append(self._note(packets.report_from(packet), now))
         return robots
 
-    def _note(self, report: Report, now: float) -> int:
+    def _note(self, report: RobotReport, now: float) -> int:
         robot = report.address - 1
         self._telemetry[robot] = Telemetry(robot, report.millivolts / 1000, report.flags, now)
         self._heard[robot].append(now)
@@ -119,12 +127,12 @@ class Air:
         self._understood, self._garbage = now, self._thrown_away()
 
     def _thrown_away(self) -> int:
-        frames = 0 if self.mode is Mode.TRANSPARENT else self._frames.garbage
+        frames = 0 if self.mode is XBeeMode.TRANSPARENT else self._frames.garbage
         return frames + sum(decoder.garbage for decoder in self._packets.values())
 
     @property
     def _ap(self) -> bytes:
-        return b"\x02" if self.mode is Mode.API2 else b"\x01"
+        return b"\x02" if self.mode is XBeeMode.API2 else b"\x01"
 
     def _framed(self, message: packets.Message) -> bytes:
-        return packets.frame(packets.encode(message), self.mode is Mode.API2)
+        return packets.frame(packets.encode(message), self.mode is XBeeMode.API2)

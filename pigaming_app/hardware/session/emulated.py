@@ -9,16 +9,16 @@ from pigaming_app.hardware.session.robot_session import new_rig, refused, troubl
 from pigaming_app.sim.world import DT, HZ
 
 if TYPE_CHECKING:
-    from pigaming_app.hardware.calibration.ground_plane import Ground
+    from pigaming_app.hardware.calibration.ground_plane import GroundPlane
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.emulator.arena import EmulatedArena
-    from pigaming_app.hardware.emulator.camera import Pace
-    from pigaming_app.hardware.emulator.paced import Paced
-    from pigaming_app.hardware.emulator.radio import Air
-    from pigaming_app.hardware.emulator.site import EmulatedSite
+    from pigaming_app.hardware.emulator.camera import FrameTiming
+    from pigaming_app.hardware.emulator.paced import PacedArena
+    from pigaming_app.hardware.emulator.radio import RadioChannel
+    from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.session.lighting import Lighting
-    from pigaming_app.hardware.signals import Frame
+    from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
 
 AHEAD = 0.03  # s by which the arena's time may run ahead of the pictures of the window
@@ -46,10 +46,10 @@ class EmulatedSession:
         live: bool = True,
         projection: Callable[[], str | None] = lambda: None,
         lighting: "Lighting | None" = None,
-        pace: "Pace | None" = None,
-        air: "Air | None" = None,
+        pace: "FrameTiming | None" = None,
+        air: "RadioChannel | None" = None,
         unrest: float = 0.0,
-        ground: "Ground | None" = None,
+        ground: "GroundPlane | None" = None,
         tracker: "type[Tracker] | None" = None,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
@@ -58,7 +58,7 @@ class EmulatedSession:
         self._arena: EmulatedArena | None = None
         self._made = ground
         self._rig: Rig | None = None
-        self._time: Paced | None = None
+        self._time: PacedArena | None = None
         self._lit = self._now = -1.0  # s of the arena's clock: when it was last lit, and asked for the time
 
     @property
@@ -67,25 +67,25 @@ class EmulatedSession:
 
     @property
     def arena(self) -> "EmulatedArena":
-        """The arena, made and calibrated when it is first needed; then its time passes. Raises NoRobots."""
+        """The arena, made and calibrated when it is first needed; then its time passes. Raises RobotsUnavailable."""
         if self._arena is None:
-            from pigaming_app.hardware.vision.markers import NoVision, opencv
+            from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
 
             try:
                 opencv()
-            except NoVision as trouble:
+            except OpenCVMissing as trouble:
                 raise refused(trouble.message) from trouble
             self._arena = self._new_arena()
         if self.live and self._time is None:
-            from pigaming_app.hardware.emulator.paced import Paced
+            from pigaming_app.hardware.emulator.paced import PacedArena
 
-            self._time = Paced(self._arena).start()
+            self._time = PacedArena(self._arena).start()
         return self._arena
 
     @property
-    def ground(self) -> "Ground":
-        """The calibration of the wizard, or else the one that was made with the arena. Raises NoRobots."""
-        from pigaming_app.hardware.calibration.ground_plane import NoGround
+    def ground(self) -> "GroundPlane":
+        """The calibration of the wizard, or else the one that was made with the arena. Raises RobotsUnavailable."""
+        from pigaming_app.hardware.calibration.ground_plane import CalibrationError
         from pigaming_app.hardware.session import store
 
         _, projection = self.arena, self.projection()
@@ -94,24 +94,24 @@ class EmulatedSession:
             return self._made
         try:
             return store.load(store.calibration_file("emulated"), projection)
-        except NoGround:
+        except CalibrationError:
             return self._made
 
     @property
-    def newest(self) -> "Frame | None":
+    def newest(self) -> "CameraFrame | None":
         """The newest picture that the camera gave out."""
         return self._arena.camera.last if self._arena else None
 
     @property
-    def site(self) -> "EmulatedSite":
-        from pigaming_app.hardware.emulator.site import EmulatedSite
+    def site(self) -> "EmulatedCalibrationSite":
+        from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 
-        return EmulatedSite(self.seed, self.live, self.arena)
+        return EmulatedCalibrationSite(self.seed, self.live, self.arena)
 
     def open(self) -> "Rig":
         if self._rig is None:
             from pigaming_app.hardware.control.rig import UNMEASURED
-            from pigaming_app.hardware.emulator.site import EmulatedEye
+            from pigaming_app.hardware.emulator.site import EmulatedCameraSource
             from pigaming_app.hardware.radio.link import Link
             from pigaming_app.sim.world import ROBOTS
 
@@ -119,7 +119,9 @@ class EmulatedSession:
             arena.cleared = False
             self._now, self.mm = arena.clock(), ground.mm
             link = Link(arena.radio.open, arena.clock, name="EMU0")
-            self._rig = new_rig(EmulatedEye(arena), link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)
+            self._rig = new_rig(
+                EmulatedCameraSource(arena), link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker
+            )
             if self._time is not None:
                 self._rig.start()
                 self._time.watched, self._time.limit = True, self._now + AHEAD
@@ -189,11 +191,11 @@ class EmulatedSession:
         import numpy as np
 
         from pigaming_app.hardware.emulator.arena import EmulatedArena
-        from pigaming_app.hardware.emulator.camera import Pace
+        from pigaming_app.hardware.emulator.camera import FrameTiming
         from pigaming_app.hardware.emulator.radio import MODERATE
 
         refresh = WHOLE if self.live else QUICK
-        arena = EmulatedArena(self.seed, self._pace or Pace(FPS), self._air or MODERATE, refresh, self._unrest)
+        arena = EmulatedArena(self.seed, self._pace or FrameTiming(FPS), self._air or MODERATE, refresh, self._unrest)
         self._made = self._made or calibrated(arena)
         arena.project(np.zeros(DARK, np.uint8))  # until the window shows something
         return arena
@@ -206,15 +208,15 @@ class EmulatedSession:
             self.arena.project(self.lighting.picture(rig.sense(SHOWS_AFTER)))
 
 
-def calibrated(arena: "EmulatedArena") -> "Ground":
-    """The calibration of an arena, found and verified as the wizard does it. Raises NoGround."""
+def calibrated(arena: "EmulatedArena") -> "GroundPlane":
+    """The calibration of an arena, found and verified as the wizard does it. Raises CalibrationError."""
     from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
-    from pigaming_app.hardware.calibration.ground_plane import NoGround
+    from pigaming_app.hardware.calibration.ground_plane import CalibrationError
     from pigaming_app.hardware.calibration.procedure import Calibration
     from pigaming_app.hardware.calibration.solver import verified
-    from pigaming_app.hardware.emulator.site import EmulatedSite
+    from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 
-    site = EmulatedSite(arena=arena)
+    site = EmulatedCalibrationSite(arena=arena)
     work = Calibration(site, 0, site.measures, "emulated")
     pictures = {board: board.picture() for board in (BOARD, HELD_OUT)}
     while not work.over:
@@ -226,5 +228,5 @@ def calibrated(arena: "EmulatedArena") -> "Ground":
     work.close()
     if work.ground is None or work.residuals is None:
         assert work.trouble is not None
-        raise NoGround(work.trouble)
+        raise CalibrationError(work.trouble)
     return verified(work.ground, work.residuals)

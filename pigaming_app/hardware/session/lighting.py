@@ -16,7 +16,7 @@ FARTHEST = 5000.0  # px: beyond, a robot was never seen
 
 
 class Lighting:
-    """A dark floor, or one with the hard edges of a game, each with the corner markers. Raises NoVision."""
+    """A dark floor, or one with the hard edges of a game, each with the corner markers. Raises OpenCVMissing."""
 
     def __init__(self, seed: int) -> None:
         self._busy, self._dark = busy_floor(seed), np.zeros((CANVAS[1], CANVAS[0]), np.uint8)

@@ -13,11 +13,11 @@ from pigaming_app.sim.world import DT
 from pigaming_app.storage.settings import Settings
 
 if TYPE_CHECKING:
-    from pigaming_app.hardware.calibration.ground_plane import Ground
-    from pigaming_app.hardware.calibration.site import Site
+    from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+    from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
-    from pigaming_app.hardware.signals import Eye, Frame
+    from pigaming_app.hardware.signals import CameraFrame, CameraSource
 
 STOCK = "stock"  # one robot as it is sold, on a cable
 NO_PORT = "no serial port"
@@ -42,10 +42,10 @@ class RealSession:
         return self._link.trouble if self._link else None
 
     @property
-    def site(self) -> "Site":
-        from pigaming_app.hardware.calibration.site import RealSite
+    def site(self) -> "CalibrationSite":
+        from pigaming_app.hardware.calibration.site import RealCalibrationSite
 
-        return RealSite()
+        return RealCalibrationSite()
 
     def open(self) -> "Rig":
         if self._rig is None:
@@ -96,20 +96,20 @@ class RealSession:
         """The link of the settings, not yet started. A port that does not open is its `trouble`."""
         from pigaming_app.hardware.radio.link import Link
         from pigaming_app.hardware.radio.serial_line import ports, serial_port
-        from pigaming_app.hardware.radio.stock_protocol import BAUD, Stock
-        from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
+        from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
+        from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 
         chosen = self.settings
         name = chosen.port or next((port.device for port in ports()), NO_PORT)
         if chosen.radio == STOCK:
-            return Link(serial_port(name, BAUD), time.monotonic, Stock(0), name)
-        return Link(serial_port(name, chosen.baud), time.monotonic, Air(Mode(chosen.radio)), name)
+            return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)
+        return Link(serial_port(name, chosen.baud), time.monotonic, XBeeProtocol(XBeeMode(chosen.radio)), name)
 
 
 class SizedCamera:
     """A camera whose pictures must be as large as those it was calibrated with: others would misplace every robot."""
 
-    def __init__(self, camera: "Eye", ground: "Ground") -> None:
+    def __init__(self, camera: "CameraSource", ground: "GroundPlane") -> None:
         self.camera, self.ground = camera, ground
         self._misfit: OperatorMessage | None = None
 
@@ -118,7 +118,7 @@ class SizedCamera:
         """The fault of the camera, or of its pictures' size."""
         return self.camera.trouble or self._misfit
 
-    def newest(self) -> "Frame | None":
+    def newest(self) -> "CameraFrame | None":
         """The newest frame that was not given out before, or None."""
         from pigaming_app.hardware.calibration.ground_plane import misfit
 

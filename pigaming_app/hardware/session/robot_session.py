@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Protocol
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 
 if TYPE_CHECKING:
-    from pigaming_app.hardware.calibration.ground_plane import Ground
-    from pigaming_app.hardware.calibration.site import Site
+    from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+    from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
-    from pigaming_app.hardware.signals import Clock, Eye
+    from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
     from pigaming_app.sim.drivetrain import Drivetrain
     from pigaming_app.storage.settings import Settings
@@ -25,7 +25,7 @@ LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on t
 log = logging.getLogger("pigaming")
 
 
-class NoRobots(OperatorError):
+class RobotsUnavailable(OperatorError):
     """The robots cannot be used."""
 
 
@@ -39,15 +39,15 @@ class RobotSession(Protocol):
         """A fault of camera or radio; None: there is none, or they are not in use."""
 
     @property
-    def site(self) -> "Site":
-        """The same mat for the calibration. Raises NoRobots."""
+    def site(self) -> "CalibrationSite":
+        """The same mat for the calibration. Raises RobotsUnavailable."""
 
     @property
     def mm(self) -> float:
         """Mm of the mat to an arena px; only while it is open."""
 
     def open(self) -> "Rig":
-        """Start camera, tracker and radio, or go on with those in use. Raises NoRobots."""
+        """Start camera, tracker and radio, or go on with those in use. Raises RobotsUnavailable."""
 
     def listen(self) -> "Link | None":
         """The radio alone, where `open` raises; None: there is none either."""
@@ -66,15 +66,15 @@ class RobotSession(Protocol):
 
 
 def new_rig(
-    camera: "Eye", link: "Link", ground: "Ground", clock: "Clock", drivetrains: "Sequence[Drivetrain]",
+    camera: "CameraSource", link: "Link", ground: "GroundPlane", clock: "Clock", drivetrains: "Sequence[Drivetrain]",
     tracker: "type[Tracker] | None" = None,
 ) -> "Rig":  # fmt: skip
-    """A rig whose tracker also measures the drift of the camera. Raises NoVision."""
-    from pigaming_app.hardware.calibration.drift import Drift
+    """A rig whose tracker also measures the drift of the camera. Raises OpenCVMissing."""
+    from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.tracking.tracker import Tracker
 
-    drift = Drift(ground)
+    drift = DriftMonitor(ground)
     follower = (tracker or Tracker)(ground, clock, drivetrains, drift)
     return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm)
 
@@ -90,17 +90,17 @@ def unfit(settings: "Settings") -> OperatorMessage | None:
 
 def trouble_of(rig: "Rig") -> OperatorMessage | None:
     """The fault of a rig's camera, or else of its radio."""
-    return rig.eye.trouble or rig.link.trouble
+    return rig.camera.trouble or rig.link.trouble
 
 
 def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:
     """The message of the part that a fault of `safety` is about, if there is one."""
     if fault == "camera":
-        return rig.eye.trouble
+        return rig.camera.trouble
     return rig.link.trouble if fault == "radio" else None
 
 
-def refused(message: OperatorMessage) -> NoRobots:
+def refused(message: OperatorMessage) -> RobotsUnavailable:
     """The error with this message, which is also logged."""
     log.warning("no robots: %s", message)
-    return NoRobots(message)
+    return RobotsUnavailable(message)

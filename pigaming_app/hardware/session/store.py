@@ -6,7 +6,7 @@ Those of the emulated arena have names of their own, so that they never replace 
 from collections.abc import Sequence
 from pathlib import Path
 
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, read, written
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, written
 from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
@@ -21,22 +21,22 @@ def calibration_file(site: str) -> Path:
     return folders().config / ("calibration.toml" if site == "real" else f"calibration-{site}.toml")
 
 
-def load(path: Path, projection: str | None = None, camera: tuple[int, int] | None = None) -> Ground:
+def load(path: Path, projection: str | None = None, camera: tuple[int, int] | None = None) -> GroundPlane:
     """The calibration in a file.
 
     With a `projection` (`Canvas.projection`) or the size of a `camera`'s pictures (px), one made with another is
-    refused. Raises NoGround.
+    refused. Raises CalibrationError.
     """
     try:
         text = read_text(path)
     except FileNotFoundError:
-        raise NoGround(OperatorMessage("none")) from None
+        raise CalibrationError(OperatorMessage("none")) from None
     except (OSError, ParseError) as error:
-        raise NoGround(OperatorMessage("damaged", detail=reason(error))) from error
+        raise CalibrationError(OperatorMessage("damaged", detail=reason(error))) from error
     return read(text, projection, camera)
 
 
-def save(ground: Ground, path: Path) -> None:
+def save(ground: GroundPlane, path: Path) -> None:
     """Keep a calibration; the one before stays beside it as `.bak`. Raises NotSaved."""
     keep(path, written(ground))
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
-from pigaming_app.hardware.recordings import Course, Floats, Run
+from pigaming_app.hardware.recordings import Floats, Recording, RobotRecording
 from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist
 from pigaming_app.sim.plant import SimPlant
@@ -27,24 +27,24 @@ WAY, TURN = 1500.0, 3.0  # px and rad that a robot must have driven and turned
 ODD = 2.0  # times a number may differ from the nominal one
 
 
-class TooShort(OperatorError):
+class RecordingTooShort(OperatorError):
     """A run from which no robot can be identified."""
 
 
-class Errors(NamedTuple):
+class PredictionErrors(NamedTuple):
     """Root mean squares of a model's predictions at each of HORIZONS."""
 
     mm: tuple[float, ...]
     degrees: tuple[float, ...]
 
 
-class Verdict(NamedTuple):
+class Identification(NamedTuple):
     """What came out for one robot."""
 
     robot: int
     drivetrain: Drivetrain
-    before: Errors  # by the nominal drivetrain
-    after: Errors
+    before: PredictionErrors  # by the nominal drivetrain
+    after: PredictionErrors
 
 
 class Prediction(NamedTuple):
@@ -55,8 +55,8 @@ class Prediction(NamedTuple):
     predicted: Floats
 
 
-def measure(run: Run, nominal: Drivetrain = NOMINAL) -> list[Verdict]:
-    """Identify every robot of a run that drove about, and say how good the model was and is. Raises TooShort.
+def measure(run: Recording, nominal: Drivetrain = NOMINAL) -> list[Identification]:
+    """Identify every robot of a run that drove about, and say how good the model was and is. Raises RecordingTooShort.
 
     Robots that hardly moved, or whose numbers make no sense, are left out.
     """
@@ -65,19 +65,19 @@ def measure(run: Run, nominal: Drivetrain = NOMINAL) -> list[Verdict]:
         begin, end = course.seen_at[0], course.seen_at[-1]
         if end - begin < SHORTEST:
             watched = {"seconds": f"{end - begin:.0f}", "needed": f"{SHORTEST:.0f}"}
-            raise TooShort(OperatorMessage("run_short", robot=robot + 1, **watched))
+            raise RecordingTooShort(OperatorMessage("run_short", robot=robot + 1, **watched))
         cut = end - HELD_OUT * (end - begin)
         found = identify(course.between(begin, cut), nominal) if drove(course) else None
         if found is None or not sensible(found, nominal):
             continue
         rest = course.between(cut, end + 1.0)
-        verdicts.append(Verdict(robot, found, errors(rest, nominal, run.mm), errors(rest, found, run.mm)))
+        verdicts.append(Identification(robot, found, errors(rest, nominal, run.mm), errors(rest, found, run.mm)))
     if not verdicts:
-        raise TooShort(OperatorMessage("run_still"))
+        raise RecordingTooShort(OperatorMessage("run_still"))
     return verdicts
 
 
-def drove(course: Course) -> bool:
+def drove(course: RobotRecording) -> bool:
     """Whether a robot went and turned so much that its wheels can be known from it."""
     way = np.hypot(*np.diff(course.poses[::10, :2], axis=0).T).sum()
     return bool(way > WAY and np.ptp(course.poses[:, 2]) > TURN)
@@ -90,7 +90,7 @@ def sensible(found: Drivetrain, nominal: Drivetrain) -> bool:
     return all(1.0 / ODD < ratio < ODD for ratio in ratios) and bands < 0.3
 
 
-def errors(course: Course, drivetrain: Drivetrain, mm: float) -> Errors:
+def errors(course: RobotRecording, drivetrain: Drivetrain, mm: float) -> PredictionErrors:
     """How far off predictions over this course are."""
     lengths, angles = [], []
     for horizon in HORIZONS:
@@ -100,10 +100,10 @@ def errors(course: Course, drivetrain: Drivetrain, mm: float) -> Errors:
         miss = np.array(misses) if misses else np.full((1, 3), np.nan)
         lengths.append(float(np.sqrt(np.mean(miss[:, 0] ** 2 + miss[:, 1] ** 2)) * mm))
         angles.append(float(np.degrees(np.sqrt(np.mean(miss[:, 2] ** 2)))))
-    return Errors(tuple(lengths), tuple(angles))
+    return PredictionErrors(tuple(lengths), tuple(angles))
 
 
-def predictions(course: Course, drivetrain: Drivetrain, horizon: float) -> list[Prediction]:
+def predictions(course: RobotRecording, drivetrain: Drivetrain, horizon: float) -> list[Prediction]:
     """Looks `horizon` s ahead, one every EVERY s; each holds the fixes from its beginning to its end."""
     times = course.seen_at
     there = track(course, drivetrain, times[0], times[-1]).at(times)
@@ -119,7 +119,7 @@ def predictions(course: Course, drivetrain: Drivetrain, horizon: float) -> list[
     return found
 
 
-def replay(run: Run, drivetrains: Sequence[Drivetrain]) -> dict[int, Prediction]:
+def replay(run: Recording, drivetrains: Sequence[Drivetrain]) -> dict[int, Prediction]:
     """Play a run again in the simulator: robots with these drivetrains are told what the real ones were told.
 
     They begin where the real ones were first seen and never hear of them again; what comes back is where they were
@@ -144,13 +144,13 @@ def replay(run: Run, drivetrains: Sequence[Drivetrain]) -> dict[int, Prediction]
     return {robot: _seen_along(course, times, ways[:, robot]) for robot, course in run.courses.items()}
 
 
-def _asked(course: Course, drivetrain: Drivetrain, times: Floats) -> list[tuple[float, float]]:
+def _asked(course: RobotRecording, drivetrain: Drivetrain, times: Floats) -> list[tuple[float, float]]:
     """The twist that was in force at each time."""
     acting = np.searchsorted(course.told_at, times + 0.5 * DT, side="right") - 1
     return [twist(drivetrain, *course.wheels[i]) if i >= 0 else (0.0, 0.0) for i in acting]
 
 
-def _seen_along(course: Course, times: Floats, way: Floats) -> Prediction:
+def _seen_along(course: RobotRecording, times: Floats, way: Floats) -> Prediction:
     kept = course.seen_at <= times[-1]
     at = course.seen_at[kept]
     return Prediction(at, course.poses[kept], np.column_stack([np.interp(at, times, way[:, i]) for i in range(3)]))

@@ -14,7 +14,7 @@ SLOW = 0.3  # share of the steps that are slow
 ROOM = 170.0  # px from the edge, or from another robot, at which it turns back
 
 
-class Dance:
+class ExcitationPattern:
     """What the robots are asked, by the clock; the same seed dances the same steps."""
 
     def __init__(self, seed: int = 1) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.least_squares import least_squares
-from pigaming_app.hardware.recordings import Course, Floats
+from pigaming_app.hardware.recordings import Floats, RobotRecording
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel
 
 Index = NDArray[np.intp]
@@ -33,7 +33,7 @@ LEAST = np.array([100.0, 100.0, 0.0, 0.0, 0.01, 20.0, 0.0])
 MOST = np.array([3000.0, 3000.0, 0.5, 0.5, 0.5, 300.0, 0.5])
 
 
-class Track(NamedTuple):
+class Trajectory(NamedTuple):
     """A robot on an endless floor from (0, 0, 0): times (n,) and poses (n, 3)."""
 
     times: Floats
@@ -44,7 +44,7 @@ class Track(NamedTuple):
         return np.column_stack([np.interp(times, self.times, self.poses[:, i]) for i in range(3)])
 
 
-def track(course: Course, drivetrain: Drivetrain, begin: float, end: float) -> Track:
+def track(course: RobotRecording, drivetrain: Drivetrain, begin: float, end: float) -> Trajectory:
     """Where the commands lead a robot with this drivetrain, from `begin` to `end`."""
     times = np.asarray(begin - EARLY + STEP * np.arange(int((end - begin + EARLY) / STEP) + 2), dtype=np.float64)
     acts = course.told_at + drivetrain.dead_time
@@ -57,7 +57,7 @@ def track(course: Course, drivetrain: Drivetrain, begin: float, end: float) -> T
     way = 0.5 * (left + right) * STEP
     x = np.concatenate(([0.0], np.cumsum(way * np.cos(middle))))
     y = np.concatenate(([0.0], np.cumsum(way * np.sin(middle))))
-    return Track(times, np.column_stack([x, y, heading]))
+    return Trajectory(times, np.column_stack([x, y, heading]))
 
 
 def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
@@ -92,14 +92,14 @@ def shifted(there: Floats, firsts: Index, move: Floats) -> Floats:
     return np.column_stack([to[:, 0] + c * x - s * y, to[:, 1] + s * x + c * y, there[:, 2] + to[:, 2]])
 
 
-def identify(course: Course, start: Drivetrain) -> Drivetrain:
+def identify(course: RobotRecording, start: Drivetrain) -> Drivetrain:
     """The drivetrain that explains a course best, sought from `start`."""
     grid = np.arange(0.0, LATEST + 1e-9, COARSE)
     tried = [_fitted(course, replace(start, dead_time=float(dead)), LATE) for dead in grid]
     return _fitted(course, min(tried, key=lambda one: one[0])[1], LATE + 1)[1]
 
 
-def _fitted(course: Course, start: Drivetrain, free: int) -> tuple[float, Drivetrain]:
+def _fitted(course: RobotRecording, start: Drivetrain, free: int) -> tuple[float, Drivetrain]:
     """Fit the first `free` numbers of the drivetrain: the cost, and the drivetrain."""
     fixed = _vector(start)[free:]
 
@@ -112,7 +112,7 @@ def _fitted(course: Course, start: Drivetrain, free: int) -> tuple[float, Drivet
     return found.cost, _drivetrain(np.concatenate([found.at, fixed]))
 
 
-def _residual(course: Course, drivetrain: Drivetrain) -> Floats:
+def _residual(course: RobotRecording, drivetrain: Drivetrain) -> Floats:
     """What is left of all windows, in sigmas, each placed where it fits best."""
     whole = track(course, drivetrain, course.seen_at[0], course.seen_at[-1])
     window = ((course.seen_at - course.seen_at[0]) / WINDOW).astype(int)

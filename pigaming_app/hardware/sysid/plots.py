@@ -6,24 +6,24 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
-from pigaming_app.hardware.recordings import Run
-from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Verdict, predictions
+from pigaming_app.hardware.recordings import Recording
+from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Identification, predictions
 from pigaming_app.sim.drivetrain import NOMINAL
 from pigaming_app.storage.safe_files import write
 
 SHOWN = 6  # predictions drawn for each robot
 
 
-class NoPlots(OperatorError):
+class PlotsUnavailable(OperatorError):
     """Pictures cannot be made."""
 
 
-def draw(run: Run, verdicts: Sequence[Verdict], folder: Path) -> list[Path]:
-    """Write horizon.png and paths.png into the folder; their paths. Raises NoPlots, NotSaved."""
+def draw(run: Recording, verdicts: Sequence[Identification], folder: Path) -> list[Path]:
+    """Write horizon.png and paths.png into the folder; their paths. Raises PlotsUnavailable, NotSaved."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
-        raise NoPlots(OperatorMessage("no_plots")) from None
+        raise PlotsUnavailable(OperatorMessage("no_plots")) from None
     made = []
     for name, paint in (("horizon.png", _horizons), ("paths.png", _paths)):
         figure = Figure(figsize=(10, 6), layout="constrained")
@@ -35,7 +35,7 @@ def draw(run: Run, verdicts: Sequence[Verdict], folder: Path) -> list[Path]:
     return made
 
 
-def _horizons(figure: Any, run: Run, verdicts: Sequence[Verdict]) -> None:
+def _horizons(figure: Any, run: Recording, verdicts: Sequence[Identification]) -> None:
     """How far off the model is, before and after, at each horizon."""
     axes = figure.add_subplot()
     for verdict in verdicts:
@@ -51,7 +51,7 @@ def _horizons(figure: Any, run: Run, verdicts: Sequence[Verdict]) -> None:
     axes.legend()
 
 
-def _paths(figure: Any, run: Run, verdicts: Sequence[Verdict]) -> None:
+def _paths(figure: Any, run: Recording, verdicts: Sequence[Identification]) -> None:
     """Some predictions of five seconds beside what was seen."""
     grid = figure.subplots(2, 2, squeeze=True).ravel()
     for axes, verdict in zip(grid, verdicts, strict=False):

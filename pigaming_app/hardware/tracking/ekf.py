@@ -1,7 +1,7 @@
 """One robot, followed: its pose at the newest correction, what its wheels make of commands, and the commands since.
 
-An extended Kalman filter over the pose and the five numbers of `Wear`: wheels differ from robot to robot and with their
-batteries, and a prediction over 80 ms of dead time needs to know by how much.
+An extended Kalman filter over the pose and the five numbers of `WheelCorrection`: wheels differ from robot to robot
+and with their batteries, and a prediction over 80 ms of dead time depends on it.
 """
 
 from collections import deque
@@ -11,7 +11,7 @@ from math import cos, hypot, inf, pi, sin, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.control.motion_model import Rolling, Wear
+from pigaming_app.hardware.control.motion_model import MotionState, WheelCorrection
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.sim.angles import wrap
 from pigaming_app.sim.drivetrain import Drivetrain
@@ -30,8 +30,8 @@ SLIP_PX, SLIP_RAD = 6.0, 0.1  # what the model does not know of: random walk, pe
 NUMBERS = 8  # in the filter
 START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02, 20.0]))
 WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001, 0.5]))  # per second
-NEW = Wear(1.0, 1.0, 1.0, 0.0, 0.0)
-LOW, HIGH = Wear(0.6, 0.6, 0.6, -0.06, -30.0), Wear(1.4, 1.4, 1.4, 0.12, 60.0)
+NEW = WheelCorrection(1.0, 1.0, 1.0, 0.0, 0.0)
+LOW, HIGH = WheelCorrection(0.6, 0.6, 0.6, -0.06, -30.0), WheelCorrection(1.4, 1.4, 1.4, 0.12, 60.0)
 SURPRISE = 36.0  # squared standard deviations: beyond, it was pushed or lifted, which teaches nothing about wheels
 STUCK = 0.4  # of the way or turn that was predicted, below which it does not do as it is told
 CLEAR_PX, CLEAR_RAD = 1.5, 0.03  # ways and turns from which that can be said
@@ -41,13 +41,13 @@ NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
 Matrix = NDArray[np.float64]
 
 
-class Follower:
+class PoseFilter:
     """The filter of one robot; `mm` of the mat to an arena px."""
 
     def __init__(self, drivetrain: Drivetrain, mm: float) -> None:
         self.drivetrain, self.mm = drivetrain, mm
         self._told: deque[tuple[float, float, float]] = deque()  # when it was sent, wheels in px/s
-        self._rolling = Rolling(0.0, 0.0, 0.0)
+        self._rolling = MotionState(0.0, 0.0, 0.0)
         self.wear = NEW
         self._spread = START.copy()
         self._seen = self._surprised = -inf
@@ -114,7 +114,7 @@ class Follower:
                 yield left, right, dt
                 at += dt
 
-    def _predict(self, rolling: Rolling, until: float) -> Matrix:
+    def _predict(self, rolling: MotionState, until: float) -> Matrix:
         """Move it to a time; how the numbers of the filter there depend on those of the newest correction."""
         rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
         for row in rows:
@@ -127,7 +127,7 @@ class Follower:
         flow[:3] = rows
         return flow
 
-    def _step(self, rows: list[list[float]], before: Rolling, after: Rolling, dt: float) -> None:
+    def _step(self, rows: list[list[float]], before: MotionState, after: MotionState, dt: float) -> None:
         """Take a step, to first order in `dt`, into how x, y and heading depend on the numbers before."""
         wear, way = self.wear, 0.5 * dt
         left, right = way * (before.left + after.left), way * (before.right + after.right)
@@ -149,7 +149,7 @@ class Follower:
 
     def _begin(self, fix: Fix) -> None:
         """It is there, standing; what was learnt about its wheels stays."""
-        self._rolling, self._seen = Rolling(fix.x, fix.y, fix.heading), fix.captured
+        self._rolling, self._seen = MotionState(fix.x, fix.y, fix.heading), fix.captured
         self._forget_pose()
         self._elsewhere.clear()
 
@@ -182,7 +182,7 @@ class Follower:
         change = share @ miss
         x, y, heading = change[:3].tolist()
         rolling.x, rolling.y, rolling.heading = rolling.x + x, rolling.y + y, rolling.heading + heading
-        self.wear = Wear(*np.clip(change[3:] + self.wear, LOW, HIGH).tolist())
+        self.wear = WheelCorrection(*np.clip(change[3:] + self.wear, LOW, HIGH).tolist())
         self._spread = spread - share @ spread[:3, :]
 
     def _forget_pose(self) -> None:
@@ -191,7 +191,7 @@ class Follower:
         self._spread[:3, :3] = NOISE
 
 
-def _stuck(before: Rolling, predicted: Rolling, fix: Fix) -> bool:
+def _stuck(before: MotionState, predicted: MotionState, fix: Fix) -> bool:
     """Whether a robot went or turned much less than predicted: it is blocked, held, empty, or does not hear."""
     dx, dy = predicted.x - before.x, predicted.y - before.y
     turn = predicted.heading - before.heading

@@ -9,12 +9,12 @@ from math import cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.drift import Drift
-from pigaming_app.hardware.calibration.ground_plane import Ground, Points
-from pigaming_app.hardware.control.motion_model import Wear
-from pigaming_app.hardware.signals import Clock, Fix, Frame, Mark
-from pigaming_app.hardware.tracking.ekf import COAST, Follower
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers, Spot, mean_edge, same
+from pigaming_app.hardware.calibration.drift import DriftMonitor
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
+from pigaming_app.hardware.control.motion_model import WheelCorrection
+from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
+from pigaming_app.hardware.tracking.ekf import COAST, PoseFilter
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, mean_edge, same
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
@@ -29,21 +29,21 @@ MARGIN, ASTRAY = 6.0, 200.0  # how far from its prediction a marker is looked fo
 
 
 class Tracker:
-    """The robots 0 to 3. Times are of `clock`; poses in arena px and rad. Raises NoVision where OpenCV is missing."""
+    """The robots 0 to 3. Times are of `clock`; poses in arena px and rad. Raises OpenCVMissing."""
 
     def __init__(
         self,
-        ground: Ground,
+        ground: GroundPlane,
         clock: Clock,
         drivetrains: Sequence[Drivetrain] | None = None,
-        drift: Drift | None = None,
+        drift: DriftMonitor | None = None,
     ) -> None:
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # which robots are worth searching for; others are taken if they are seen
         self.looked = -inf  # s, when the newest picture was taken that was looked at
         self.drift = drift  # watches the same pictures for the corner markers
-        self._markers = Markers(ROBOT_IDS)
-        self._followers = [Follower(one, ground.mm) for one in drivetrains or [NOMINAL] * ROBOTS]
+        self._markers = MarkerDetector(ROBOT_IDS)
+        self._followers = [PoseFilter(one, ground.mm) for one in drivetrains or [NOMINAL] * ROBOTS]
         self._refused: dict[tuple[int, str], float] = {}
         self._glanced = self._searched = -inf
         self._dim = False  # how it looked everywhere the last time
@@ -54,13 +54,13 @@ class Tracker:
         for follower, twist in zip(self._followers, twists, strict=True):
             follower.told(time, (0.0, 0.0) if twist is None else twist)
 
-    def see(self, frame: Frame) -> list[Fix]:
+    def see(self, frame: CameraFrame) -> list[Fix]:
         """Correct the robots by a picture; the fixes that were believed."""
         if self.drift is not None:
             self.drift.see(frame)
         return self.correct(self._markers.exact(frame.image, self._find(frame)), frame.captured)
 
-    def correct(self, marks: Sequence[Mark], captured: float) -> list[Fix]:
+    def correct(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix]:
         """Correct the robots by the markers of one picture; the fixes that were believed."""
         if captured <= self.looked:
             return []
@@ -83,7 +83,7 @@ class Tracker:
         both = [one.along((now, now + more)) for one, more in zip(self._followers, ahead, strict=True)]
         return _apart([at for at, _ in both]), _apart([later for _, later in both])
 
-    def wear(self, robot: int) -> Wear:
+    def wear(self, robot: int) -> WheelCorrection:
         """What has been learnt of a robot's wheels."""
         return self._followers[robot].wear
 
@@ -103,7 +103,7 @@ class Tracker:
         now = self.clock()
         return [key for key, time in self._refused.items() if now - time < REMEMBERED]
 
-    def _find(self, frame: Frame) -> list[Mark]:
+    def _find(self, frame: CameraFrame) -> list[DetectedMarker]:
         """Every robot near where it must be; everywhere from time to time, and more often while one is missing."""
         marks = []
         for robot, spot in self._spots(frame.captured).items():
@@ -117,7 +117,7 @@ class Tracker:
             marks += self._wide(frame, missing, marks)
         return marks
 
-    def _wide(self, frame: Frame, missing: bool, known: list[Mark]) -> list[Mark]:
+    def _wide(self, frame: CameraFrame, missing: bool, known: list[DetectedMarker]) -> list[DetectedMarker]:
         """What is in the picture besides what is known."""
         if missing and frame.captured - self._searched > THOROUGH:
             self._searched = frame.captured
@@ -125,7 +125,7 @@ class Tracker:
         self._dim = not self._dim
         return self._markers.glance(frame.image, self._edge, known, self._dim)
 
-    def _spots(self, time: float) -> dict[int, Spot]:
+    def _spots(self, time: float) -> dict[int, SearchWindow]:
         """Where in a picture taken then the robots' markers must be, and how large."""
         poses = {robot: follower.at(time) for robot, follower in enumerate(self._followers)}
         poses = {robot: pose for robot, pose in poses.items() if pose.age < COAST}
@@ -137,7 +137,7 @@ class Tracker:
         for (robot, pose), square in zip(poses.items(), seen, strict=True):
             (x, y), edge = square.mean(axis=0).tolist(), mean_edge(square)
             away = MARGIN + ASTRAY * min(pose.age, 0.3) * edge * self.ground.mm / self.ground.marker
-            spots[robot] = Spot(x, y, 1.1 * edge + away, edge)
+            spots[robot] = SearchWindow(x, y, 1.1 * edge + away, edge)
         return spots
 
     def _expected_edge(self) -> float:
@@ -145,7 +145,7 @@ class Tracker:
         middle = Sighting(WIDTH / 2.0, HEIGHT / 2.0, 0.0, 0.0)
         return mean_edge(self.ground.seen_at(_outline(middle, self.ground.marker / self.ground.mm), self.ground.lid))
 
-    def _credible(self, marks: Sequence[Mark], captured: float) -> list[list[Fix]]:
+    def _credible(self, marks: Sequence[DetectedMarker], captured: float) -> list[list[Fix]]:
         """By robot: where its markers say that it is, but for those that cannot be on a robot."""
         fixes: list[list[Fix]] = [[] for _ in range(ROBOTS)]
         for mark, fix in zip(marks, self.ground.fixes(marks, captured), strict=True):

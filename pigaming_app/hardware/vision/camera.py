@@ -1,8 +1,8 @@
 """A camera, read by a thread that keeps the newest picture and throws the rest away.
 
-Whether it is well is judged by the age of its newest picture: drivers repeat, block and lie. What is wrong is one
-sentence in `trouble`; a camera that comes back is used again. Exposure, white balance, gain and focus are locked once
-they have settled, because what a camera corrects by itself looks to the tracker as if the arena had changed.
+Health is the age of the newest picture: drivers repeat, block and lie. `trouble` is the fault as a message; a camera that
+comes back is used again. Exposure, white balance, gain and focus are locked once they have settled, because what a
+camera corrects by itself looks to the tracker as if the arena had changed.
 """
 
 import sys
@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Self
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import Clock, Frame
+from pigaming_app.hardware.signals import CameraFrame, Clock
 from pigaming_app.hardware.vision.discovery import why_not
 from pigaming_app.hardware.vision.markers import opencv
 
@@ -24,7 +24,7 @@ ASSUMED = 0.03  # s from light to picture, where the driver does not tell
 PATIENCE = 0.8  # s that `close` waits for a driver that hangs
 
 
-class Wanted(NamedTuple):
+class CaptureSettings(NamedTuple):
     """How the camera is asked to deliver; it may do otherwise."""
 
     width: int = 1920
@@ -33,27 +33,27 @@ class Wanted(NamedTuple):
 
 
 class Camera:
-    """The camera with this number, an Eye. What goes wrong is said in `trouble`. Use it in a `with`, or close it.
+    """The camera with this number. `trouble` is its fault, if there is one. Use it in a `with`, or close it.
 
-    `open_capture` makes a `cv2.VideoCapture`. Raises NoVision where OpenCV is missing.
+    `open_capture` makes a `cv2.VideoCapture`. Raises OpenCVMissing.
     """
 
     def __init__(
         self,
         number: int,
-        wanted: Wanted | None = None,
+        wanted: CaptureSettings | None = None,
         clock: Clock = time.monotonic,
         open_capture: Callable[[int], Any] | None = None,
         settle: float = SETTLE,
         fresh: bool = False,
     ) -> None:
         self._cv = opencv()
-        self.number, self.wanted, self.clock, self.settle = number, wanted or Wanted(), clock, settle
+        self.number, self.wanted, self.clock, self.settle = number, wanted or CaptureSettings(), clock, settle
         self.fresh = fresh  # whether exposure and the like are found anew; else they stay as a calibration locked them
         self.trouble: OperatorMessage | None = OperatorMessage("yet", number=number)
         self.loose: Sequence[str] = ()  # what it goes on correcting by itself
         self._open_capture = open_capture or self._cv.VideoCapture
-        self._newest: Frame | None = None
+        self._newest: CameraFrame | None = None
         self._count = 0
         self._lock = threading.Lock()
         self._closing = threading.Event()
@@ -66,7 +66,7 @@ class Camera:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """The newest frame that was not given out before, or None."""
         with self._lock:
             frame, self._newest = self._newest, None
@@ -137,7 +137,7 @@ class Camera:
         captured = told if 0.0 < now - told < PLAUSIBLE else now - ASSUMED
         with self._lock:
             self._count += 1
-            self._newest, self.trouble = Frame(grey, captured, self._count), None
+            self._newest, self.trouble = CameraFrame(grey, captured, self._count), None
 
 
 def free(cv: Any, capture: Any) -> None:

@@ -12,22 +12,22 @@ DEVICES = Path("/sys/class/video4linux")
 NODES = Path("/dev")
 
 
-class Known(NamedTuple):
+class CameraInfo(NamedTuple):
     """A camera that the system knows."""
 
     number: int
     name: str
 
 
-def cameras() -> list[Known]:
+def cameras() -> list[CameraInfo]:
     """The cameras that are plugged in, by number; where the system does not tell, the first three numbers."""
     if not sys.platform.startswith("linux"):
-        return [Known(number, f"camera {number}") for number in range(3)]
+        return [CameraInfo(number, f"camera {number}") for number in range(3)]
     found = []
     for folder in sorted(DEVICES.glob("video*")):
         number = re.fullmatch(r"video(\d+)", folder.name)
         if number and _text(folder / "index") in ("0", ""):  # the others of a camera carry data, not pictures
-            found.append(Known(int(number[1]), _text(folder / "name") or folder.name))
+            found.append(CameraInfo(int(number[1]), _text(folder / "name") or folder.name))
     return sorted(found)
 
 

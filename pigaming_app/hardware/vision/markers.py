@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
-from pigaming_app.hardware.signals import Image, Mark
+from pigaming_app.hardware.signals import DetectedMarker, Image
 from pigaming_app.hardware.vision.subpixel import refined
 
 ROBOT_IDS = (0, 1, 2, 3)
@@ -31,11 +31,11 @@ QUIETLY = {
 }
 
 
-class NoVision(OperatorError):
+class OpenCVMissing(OperatorError):
     """There is no OpenCV."""
 
 
-class Spot(NamedTuple):
+class SearchWindow(NamedTuple):
     """A square of a picture in which to look, px, and the edge of the marker that is expected there."""
 
     x: float  # the middle
@@ -44,8 +44,8 @@ class Spot(NamedTuple):
     edge: float
 
 
-class Markers:
-    """Finds the markers with these ids. Raises NoVision where OpenCV is missing.
+class MarkerDetector:
+    """Finds the markers with these ids. Raises OpenCVMissing where OpenCV is missing.
 
     Their corners are right to a pixel or two before `exact`. A number may come twice from every method but `near`: that
     is for the caller to judge.
@@ -56,11 +56,13 @@ class Markers:
         self._cv = opencv()
         self._detectors: dict[tuple[tuple[int, int], float, float], Any] = {}
 
-    def everywhere(self, image: Image) -> list[Mark]:
+    def everywhere(self, image: Image) -> list[DetectedMarker]:
         """All that can be found in the whole picture, in three ways: slow and thorough."""
         return self._look(self._detector((3, 23), 0.03, 4.0), image)
 
-    def glance(self, image: Image, edge: float, known: Sequence[Mark] = (), dim: bool = True) -> list[Mark]:
+    def glance(
+        self, image: Image, edge: float, known: Sequence[DetectedMarker] = (), dim: bool = True
+    ) -> list[DetectedMarker]:
         """What is found in a small copy of the whole picture, if edges are about so many px, besides what is known.
 
         `dim`: look past what is projected across markers; without, past a mat as dark as their black.
@@ -73,13 +75,13 @@ class Markers:
         detector = self._detector((9, 9), NARROW * rate, WIDE * rate)
         found = []
         for mark in self._look(detector, self._dimmed(small, FAR) if dim else small):
-            rough = Mark(mark.number, (mark.corners + 0.5) / scale - 0.5)
+            rough = DetectedMarker(mark.number, (mark.corners + 0.5) / scale - 0.5)
             if not same(rough, known):
                 x, y = rough.corners.mean(axis=0).tolist()
-                found.append(self.near(image, Spot(x, y, 1.5 * edge, edge), mark.number))
+                found.append(self.near(image, SearchWindow(x, y, 1.5 * edge, edge), mark.number))
         return [mark for mark in found if mark is not None]
 
-    def near(self, image: Image, spot: Spot, number: int) -> Mark | None:
+    def near(self, image: Image, spot: SearchWindow, number: int) -> DetectedMarker | None:
         """The marker with this number in a square of the picture; a large one is looked for in a smaller copy."""
         left, top = max(0, round(spot.x - spot.half)), max(0, round(spot.y - spot.half))
         part = image[top : max(0, round(spot.y + spot.half)), left : max(0, round(spot.x + spot.half))]
@@ -94,18 +96,18 @@ class Markers:
             picture = part if i == 2 else self._dimmed(part if i == 0 else self._sharp(part, edge), NEAR)
             for mark in self._look(self._detector(windows, NARROW * rate, WIDE * rate), picture):
                 if mark.number == number:
-                    return Mark(number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
+                    return DetectedMarker(number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
         return None
 
-    def exact(self, image: Image, marks: Sequence[Mark]) -> list[Mark]:
+    def exact(self, image: Image, marks: Sequence[DetectedMarker]) -> list[DetectedMarker]:
         """The same markers with their corners right to a few hundredths of a pixel."""
         found, _ = refined(self._cv, image, _stacked(marks))
-        return [Mark(mark.number, corner) for mark, corner in zip(marks, found, strict=True)]
+        return [DetectedMarker(mark.number, corner) for mark, corner in zip(marks, found, strict=True)]
 
-    def still(self, image: Image, marks: Sequence[Mark]) -> list[Mark]:
+    def still(self, image: Image, marks: Sequence[DetectedMarker]) -> list[DetectedMarker]:
         """Those of the markers that are within a few pixels of where they were, exactly. Whose they are is not read."""
         found, well = refined(self._cv, image, _stacked(marks))
-        return [Mark(mark.number, corner) for mark, corner, ok in zip(marks, found, well, strict=True) if ok]
+        return [DetectedMarker(mark.number, corner) for mark, corner, ok in zip(marks, found, well, strict=True) if ok]
 
     def _dimmed(self, image: Image, medians: float) -> Image:
         """The picture with nothing in it brighter than so many of its medians; lifted if that is dark.
@@ -123,10 +125,10 @@ class Markers:
         soft = self._cv.GaussianBlur(part, (0, 0), edge / 12.0)
         return np.asarray(self._cv.addWeighted(part, 1.0 + SHARPER, soft, -SHARPER, 0.0))
 
-    def _look(self, detector: Any, image: Image) -> list[Mark]:
+    def _look(self, detector: Any, image: Image) -> list[DetectedMarker]:
         corners, ids = listed(*detector.detectMarkers(np.ascontiguousarray(image))[:2])
         pairs = zip(ids.tolist(), corners, strict=True)
-        return [Mark(number, corner) for number, corner in pairs if number in self.ids]
+        return [DetectedMarker(number, corner) for number, corner in pairs if number in self.ids]
 
     def _detector(self, windows: tuple[int, int], smallest: float, largest: float) -> Any:
         """One that thresholds with one window or three; perimeters as shares of the picture's longer side."""
@@ -142,12 +144,12 @@ class Markers:
         return self._detectors[key]
 
 
-def _stacked(marks: Sequence[Mark]) -> NDArray[np.float64]:
+def _stacked(marks: Sequence[DetectedMarker]) -> NDArray[np.float64]:
     """The corners of all, (n, 4, 2)."""
     return np.array([mark.corners for mark in marks]).reshape(-1, 4, 2)
 
 
-def same(mark: Mark, known: Sequence[Mark]) -> bool:
+def same(mark: DetectedMarker, known: Sequence[DetectedMarker]) -> bool:
     """Whether a marker is one of those that are known: the middles are nearer than half an edge."""
     for other in known:
         away = mark.corners.mean(axis=0) - other.corners.mean(axis=0)
@@ -163,13 +165,13 @@ def mean_edge(corners: NDArray[np.float64]) -> float:
 
 
 def opencv() -> Any:
-    """The module cv2, told before its import what it reads only then. Raises NoVision."""
+    """The module cv2, told before its import what it reads only then. Raises OpenCVMissing."""
     for name, value in QUIETLY.items():
         os.environ.setdefault(name, value)
     try:
         import cv2
     except ImportError as error:
-        raise NoVision(OperatorMessage("no_opencv")) from error
+        raise OpenCVMissing(OperatorMessage("no_opencv")) from error
     return cv2
 
 

@@ -40,13 +40,13 @@ def _game(game: str) -> dict[str, Any]:
 def _robots() -> dict[str, Any]:
     """The proof of the robot loop; its findings go to standard error as they come."""
     require("hardware")
-    from pigaming_app.hardware.vision.markers import NoVision, opencv
+    from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
     from pigaming_app.jobs.bench.robots import Unproven, measure, reached
 
     def note(line: str) -> None:
         print(line, file=sys.stderr, flush=True)
 
-    with refused(NoVision, Unproven):
+    with refused(OpenCVMissing, Unproven):
         opencv()
         figures = measure(note)
     missed = [key for key, good in reached(figures).items() if not good]

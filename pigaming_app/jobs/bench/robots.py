@@ -16,14 +16,14 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.hardware.emulator.radio import Air
+from pigaming_app.hardware.emulator.radio import RadioChannel
 from pigaming_app.hardware.proof import emergencies
 from pigaming_app.hardware.proof import trials as proving
-from pigaming_app.hardware.proof.emergencies import EMERGENCIES, Stopped
-from pigaming_app.hardware.proof.testbed import Bed, one_core
-from pigaming_app.hardware.proof.trials import Followed, Masher, Played, Trail
+from pigaming_app.hardware.proof.emergencies import EMERGENCIES, StopResult
+from pigaming_app.hardware.proof.testbed import Testbed, one_core
+from pigaming_app.hardware.proof.trials import ButtonMasher, FigureEight, MatchResult, TrackingResult
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.i18n import english
 
@@ -106,45 +106,45 @@ def jobs() -> list[Job]:
     return found
 
 
-def on_mat(job: Job, ground: Ground | None = None) -> Played:
+def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
     """Play a match on its own emulated mat, which is calibrated first unless a `ground` is given."""
     rules = games()[job.game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.variants[0], goal)
-    bed = Bed(job.seed, job.fps, LOST, Air(loss=LOST, doubled=LOST / 2, broken=LOST / 4), ground)
+    bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, doubled=LOST / 2, broken=LOST / 4), ground)
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat
-        match.sit(seat, Masher(seed) if job.mashed else make(job.game, "normal", seed))
+        match.sit(seat, ButtonMasher(seed) if job.mashed else make(job.game, "normal", seed))
         if job.carried:
             robot = match.state.robots[seat]
             bed.arena.place(seat, (robot.x, robot.y, robot.heading))
     return proving.play(bed, match, 60.0 * job.minutes)
 
 
-def follow_alone(seed: int, fps: float) -> Followed:
+def follow_alone(seed: int, fps: float) -> TrackingResult:
     """Track robots, on one core."""
-    return proving.follow(Trail(Bed(seed, fps)), SECONDS)
+    return proving.follow(FigureEight(Testbed(seed, fps)), SECONDS)
 
 
-def calibration(seed: int) -> Ground:
+def calibration(seed: int) -> GroundPlane:
     """A calibration, with its errors on the board that was left out of the solution."""
-    return Bed(seed, RATES[0]).ground
+    return Testbed(seed, RATES[0]).ground
 
 
-def all_emergencies(seed: int, fps: float) -> dict[str, Stopped]:
+def all_emergencies(seed: int, fps: float) -> dict[str, StopResult]:
     """All faults, one after the other, on different robots."""
-    trail = Trail(Bed(seed, fps))
+    trail = FigureEight(Testbed(seed, fps))
     stops = {name: emergencies.stop(trail, name, i % ROBOTS) for i, name in enumerate(EMERGENCIES)}
     return {
         **stops,
-        "program hangs": Stopped(emergencies.hang(trail), True),
-        "program ends": Stopped(emergencies.leave(trail), True),
+        "program hangs": StopResult(emergencies.hang(trail), True),
+        "program ends": StopResult(emergencies.leave(trail), True),
     }
 
 
-def _noted(followed: Mapping[Run, Future[Followed]], note: Callable[[str], None]) -> dict[Run, Followed]:
+def _noted(followed: Mapping[Run, Future[TrackingResult]], note: Callable[[str], None]) -> dict[Run, TrackingResult]:
     tracks = {}
     for (fps, seed), future in followed.items():
         run = _of(future, f"tracking at {fps:.0f} fps, seed {seed}")
@@ -156,7 +156,7 @@ def _noted(followed: Mapping[Run, Future[Followed]], note: Callable[[str], None]
     return tracks
 
 
-def _stops(stopped: dict[float, Future[dict[str, Stopped]]], note: Callable[[str], None]) -> dict[str, float]:
+def _stops(stopped: dict[float, Future[dict[str, StopResult]]], note: Callable[[str], None]) -> dict[str, float]:
     """Stopping times by fault, s. Raises Unproven where the game did not report the fault."""
     stops = {}
     for fps, future in stopped.items():
@@ -168,7 +168,7 @@ def _stops(stopped: dict[float, Future[dict[str, Stopped]]], note: Callable[[str
     return stops
 
 
-def _match(job: Job, future: Future[Played], note: Callable[[str], None]) -> Played:
+def _match(job: Job, future: Future[MatchResult], note: Callable[[str], None]) -> MatchResult:
     """The result of a match. Raises Unproven."""
     run = _of(future, f"{job.game} in {job.arena}, seed {job.seed}")
     note(
@@ -196,7 +196,7 @@ def _of(future: Future[Found], what: str) -> Found:
     """The result of a process. Raises Unproven."""
     try:
         return future.result()
-    except NoGround as reason:
+    except CalibrationError as reason:
         raise Unproven(f"{what}: {english().explained(reason.message)}") from reason
     except RuntimeError as reason:
         raise Unproven(f"{what}: {reason}") from reason

@@ -5,10 +5,10 @@ In the margin below the markers a row of boxes shows how many pictures were take
 
 import pygame
 
-from pigaming_app.hardware.calibration.boards import LIGHT, Board
+from pigaming_app.hardware.calibration.boards import LIGHT, CalibrationBoard
 from pigaming_app.hardware.calibration.procedure import Calibration
-from pigaming_app.hardware.calibration.site import Measures, Site
-from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.height_page import OutlinesPage
 from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
 from pigaming_app.scenes.flow.context import House
@@ -24,7 +24,7 @@ GREY, DONE = (150, 150, 150), (20, 20, 20)
 class BoardsPage:
     """One calibration."""
 
-    def __init__(self, house: House, site: Site, number: int, measures: Measures) -> None:
+    def __init__(self, house: House, site: CalibrationSite, number: int, measures: Measurements) -> None:
         self.house, self.site, self.number, self.measures = house, site, number, measures
         self.work = Calibration(site, number, measures, house.canvas.projection)
         self.work.begin()
@@ -67,7 +67,7 @@ class BoardsPage:
             return
         try:
             screen.blit(picture(board), (0, 0))
-        except NoVision as missing:
+        except OpenCVMissing as missing:
             self.work.give_up(missing.message)
             screen.fill((0, 0, 0))
             return
@@ -88,8 +88,8 @@ class BoardsPage:
 
 
 @cached
-def picture(board: Board) -> pygame.Surface:
-    """A board as it is projected. Raises NoVision."""
+def picture(board: CalibrationBoard) -> pygame.Surface:
+    """A board as it is projected. Raises OpenCVMissing."""
     surface = grey_surface(board.picture())
     assert surface.get_at((0, 0))[0] == LIGHT
     return surface

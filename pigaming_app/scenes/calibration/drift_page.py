@@ -4,11 +4,11 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.hardware.calibration.camera_task import SPOT, Checking
+from pigaming_app.hardware.calibration.camera_task import SPOT, DriftCheck
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
-from pigaming_app.hardware.calibration.site import Site
+from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.session import store
-from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.calibration.result_page import OFF
@@ -31,10 +31,10 @@ IDLE = 300.0  # seconds without a press until the title
 class CheckPage:
     """The page, for the camera of the settings."""
 
-    def __init__(self, house: House, site: Site | None = None) -> None:
+    def __init__(self, house: House, site: CalibrationSite | None = None) -> None:
         self.house, self.site = house, site or site_of(house)
         number = house.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
-        self.work = Checking(
+        self.work = DriftCheck(
             self.site, number, partial(store.load, store.calibration_file(self.site.name), house.canvas.projection)
         )
         self.clock = 0.0
@@ -79,7 +79,7 @@ class CheckPage:
             self._draw_drift(screen, work.mm)
         try:
             draw_corners(screen)
-        except NoVision as missing:
+        except OpenCVMissing as missing:
             work.trouble = missing.message
         self._draw_spot(screen)
         self.prompts.draw(screen)

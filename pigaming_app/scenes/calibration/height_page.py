@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pygame
 
-from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, Standing
+from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, HeightProcedure
 from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
@@ -27,7 +27,7 @@ class OutlinesPage:
     def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
         assert finding.ground is not None
         self.house, self.finding, self.again = house, finding, again
-        self.work = Standing(finding.site, finding.number, finding.ground)
+        self.work = HeightProcedure(finding.site, finding.number, finding.ground)
         self.work.begin()
         self.known = 0
         self.prompts = house.prompts([(Act.BACK, "calibrate.hint_stop")], 1040)

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.hardware.calibration.ground_plane import Ground
-from pigaming_app.hardware.calibration.site import Measures, Site
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
@@ -42,10 +42,10 @@ log = logging.getLogger("pigaming")
 class Finding:
     """How a calibration went: with what, and what came out. `marker_mm`: of a robot's marker, if one was seen."""
 
-    site: Site
+    site: CalibrationSite
     number: int  # of the camera
-    measures: Measures
-    ground: Ground | None
+    measures: Measurements
+    ground: GroundPlane | None
     residuals: Residuals | None
     trouble: OperatorMessage | None = None
     picture: Image | None = None  # what the camera saw last

@@ -4,12 +4,12 @@ import logging
 
 import pygame
 
-from pigaming_app.hardware.calibration.camera_task import SMALL, Preview
-from pigaming_app.hardware.calibration.ground_plane import NoGround
-from pigaming_app.hardware.calibration.site import Measures, RealSite, Site
+from pigaming_app.hardware.calibration.camera_task import SMALL, CameraPreview
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError
+from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
-from pigaming_app.hardware.session.robot_session import NoRobots
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.navigation import Navigation
@@ -39,22 +39,22 @@ PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 log = logging.getLogger("pigaming")
 
 
-def site_of(house: House) -> Site:
+def site_of(house: House) -> CalibrationSite:
     """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
     try:
-        return house.mat.site if house.mat is not None else RealSite()
-    except NoRobots:
-        return RealSite()  # without OpenCV there is nothing; the page says so
+        return house.mat.site if house.mat is not None else RealCalibrationSite()
+    except RobotsUnavailable:
+        return RealCalibrationSite()  # without OpenCV there is nothing; the page says so
 
 
 class CalibrationPage:
     """The page. `camera`: one to begin with, else the one of the settings."""
 
-    def __init__(self, house: House, site: Site | None = None, camera: int | None = None) -> None:
+    def __init__(self, house: House, site: CalibrationSite | None = None, camera: int | None = None) -> None:
         self.house, self.site = house, site or site_of(house)
         self.number = house.settings.camera if camera is None else camera
         self.measures = self._measured()
-        self.preview: Preview | None = None
+        self.preview: CameraPreview | None = None
         self.known = self.site.cameras()
         self.state = ""
         self._state_of: tuple[int, int] = (0, 0)
@@ -157,7 +157,7 @@ class CalibrationPage:
             file = store.calibration_file(self.site.name)
             ground = store.load(file, self.house.canvas.projection, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
-        except NoGround as trouble:
+        except CalibrationError as trouble:
             log.warning("%s", english().explained(trouble.message))
             self.state = words.sentence(trouble.message)
 
@@ -210,7 +210,7 @@ class CalibrationPage:
             case "by":
                 robot = bool(measures.height) if around else by > 0
                 height = 0.0 if robot else measures.height or self.site.measures.height or USUAL
-                self.measures = Measures(measures.width, height, measures.lid)
+                self.measures = Measurements(measures.width, height, measures.lid)
                 self.focus.place(dials.spots(self._rows()))
             case "width" | "lid" | "height":
                 self._measure(name, by)
@@ -222,7 +222,7 @@ class CalibrationPage:
         step = next(step for held, step in HASTE if self.held >= held)
         values = {"width": self.measures.width, "lid": self.measures.lid, "height": self.measures.height}
         values[name] = min(high, max(low, round(values[name] / step + by) * step))
-        self.measures = Measures(values["width"], values["height"], values["lid"])
+        self.measures = Measurements(values["width"], values["height"], values["lid"])
 
     def _show(self, display: int, fullscreen: bool) -> None:
         """Move the picture; a calibration belongs to where it is."""
@@ -246,7 +246,7 @@ class CalibrationPage:
         if self.house.mat is not None:
             self.house.mat.close()
         self.left()
-        self.preview = Preview(self.site, self.number)
+        self.preview = CameraPreview(self.site, self.number)
         self.preview.begin()
 
     def _begin(self) -> Turn:
@@ -259,11 +259,11 @@ class CalibrationPage:
         self._keep()
         return Push(BoardsPage(self.house, self.site, self.number, self.measures))
 
-    def _measured(self) -> Measures:
+    def _measured(self) -> Measurements:
         settings = self.house.settings
         if self.site.name != "real":
             return self.site.measures
-        return Measures(settings.arena_mm, settings.camera_mm, settings.lid_mm)
+        return Measurements(settings.arena_mm, settings.camera_mm, settings.lid_mm)
 
     def _keep(self) -> None:
         """Remember what is chosen; an emulated arena is not worth it."""

@@ -4,11 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from pigaming_app.hardware.commissioning.latency import Shake
-from pigaming_app.hardware.commissioning.pairing import Case, Finding, Pairing
+from pigaming_app.hardware.commissioning.latency import LatencyTest
+from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.session.robot_session import NoRobots, RobotSession
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import Settings
@@ -19,7 +19,7 @@ RATE = 1.0  # s over which pictures are counted
 
 
 @dataclass(frozen=True)
-class Health:
+class RobotStatus:
     """One robot: V, share of its reports that arrive (0..1), whether it is seen, s of latency if measured."""
 
     battery: float | None
@@ -38,10 +38,10 @@ class Checkup:
     link: Any = None
     refusal: OperatorMessage | None = None
     rate: float = 0.0  # pictures a second
-    findings: list[Finding] = field(default_factory=list)
+    findings: list[PairingFinding] = field(default_factory=list)
     late: dict[int, float | None] = field(default_factory=dict)  # s, by robot; None: it could not be measured
     pairing: Pairing | None = None
-    shake: Shake | None = None
+    shake: LatencyTest | None = None
 
     def __post_init__(self) -> None:
         self._pace = Pace()
@@ -56,7 +56,7 @@ class Checkup:
         try:
             self.rig = self.mat.open()
             self.link = self.rig.link
-        except NoRobots as trouble:
+        except RobotsUnavailable as trouble:
             self.refusal = trouble.message
             self.rig, self.link = None, self.mat.listen()
 
@@ -123,11 +123,11 @@ class Checkup:
         """Whether a robot has said something lately."""
         return self.link is not None and robot in self.link.telemetry and self.link.quality(robot).share > 0.0
 
-    def health(self, robot: int) -> Health:
+    def health(self, robot: int) -> RobotStatus:
         """How a robot is."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
         share = self.link.quality(robot).share if report else 0.0
-        return Health(report.battery if report else None, share, self._seen(robot), self.late.get(robot))
+        return RobotStatus(report.battery if report else None, share, self._seen(robot), self.late.get(robot))
 
     # ---- inside
 
@@ -168,7 +168,7 @@ class Checkup:
         self.pairing = None
         return True
 
-    def _shake_on(self, shake: Shake) -> bool:
+    def _shake_on(self, shake: LatencyTest) -> bool:
         if not shake.tick():
             return False
         found = shake.result()
@@ -177,12 +177,12 @@ class Checkup:
 
     def _next(self) -> bool:
         """Shake the next robot; false: there is none left."""
-        self.shake = Shake(self.rig, self._todo.pop(0)) if self._todo and self.rig is not None else None
+        self.shake = LatencyTest(self.rig, self._todo.pop(0)) if self._todo and self.rig is not None else None
         return self.shake is not None
 
 
-def worst(findings: list[Finding]) -> Finding | None:
+def worst(findings: list[PairingFinding]) -> PairingFinding | None:
     """What most needs to be said of a pairing: a robot that was not found, then one that was swapped."""
-    order = (Case.TWICE, Case.SEVERAL, Case.WIRED, Case.NONE, Case.SWAPPED)
+    order = (PairingCase.TWICE, PairingCase.SEVERAL, PairingCase.WIRED, PairingCase.NONE, PairingCase.SWAPPED)
     told = [finding for case in order for finding in findings if finding.case is case]
     return told[0] if told else None

@@ -9,7 +9,7 @@ import pygame
 
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
-from pigaming_app.hardware.control.safety import Does, Fault
+from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.session.robot_session import RobotSession, cause_of, refused, unfit
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
@@ -37,7 +37,7 @@ log = logging.getLogger("pigaming")
 
 
 class RealMatch(MatchScene):
-    """A match in which the robots of the seats `real` are real ones. Raises NoRobots where they cannot be used.
+    """A match in which the robots of the seats `real` are real ones. Raises RobotsUnavailable.
 
     `match_of`: makes the rematch.
     """
@@ -244,4 +244,4 @@ class RealMatch(MatchScene):
 
     def _worth(self, fault: Fault) -> bool:
         """A robot that is hard to see for a moment is not worth a line."""
-        return fault.does is not Does.HALF and (fault.pauses or fault.name in TOLD)
+        return fault.does is not Response.HALF and (fault.pauses or fault.name in TOLD)

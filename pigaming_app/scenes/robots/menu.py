@@ -4,6 +4,7 @@ import logging
 
 import pygame
 
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Turn
@@ -13,7 +14,7 @@ from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, I
 from pigaming_app.ui.draw.layers import Lit, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph
-from pigaming_app.ui.i18n import english
+from pigaming_app.ui.i18n import english, in_every_language
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
@@ -91,13 +92,12 @@ class RobotsMenu:
     def _write(self) -> None:
         """Write the page with the markers where the user's files are, and say where."""
         from pigaming_app.hardware.calibration.marker_sheet import sheet
-        from pigaming_app.hardware.vision.markers import NoVision
 
         path, words = folders().data / SHEET, self.house.words
         try:
-            write(path, sheet())
+            write(path, sheet(notes=in_every_language("sheet.print", "sheet.cut")))
             self.navigation.say(words("robots.written", path=path))
-        except NoVision as missing:
+        except OpenCVMissing as missing:
             log.warning("%s", english().explained(missing.message))
             self.navigation.say(words.sentence(missing.message))
         except NotSaved as trouble:

@@ -6,7 +6,7 @@ the match goes on.
 
 import pygame
 
-from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.flow.timestep import Pace
@@ -19,7 +19,7 @@ from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
 
 LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
-GOOD = (Case.FITS, Case.SWAPPED, Case.ABSENT)
+GOOD = (PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT)
 TITLE_Y, PROMPTS_Y, SAID_Y = 42, 102, 480  # px
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Sequence
 
 from pigaming_app.games.game import Setup
-from pigaming_app.hardware.session.robot_session import NoRobots
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.scene import MatchScene
@@ -34,5 +34,5 @@ def match_of(
 
     try:
         return RealMatch(house, setup, devices, real, house.mat, again, game_choice)
-    except NoRobots as trouble:
+    except RobotsUnavailable as trouble:
         return Refused(house, setup, devices, real, trouble.message, again)

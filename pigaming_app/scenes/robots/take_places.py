@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.hardware.control.homing import Place
+from pigaming_app.hardware.control.homing import HomingProgress
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
@@ -95,7 +95,7 @@ class Gathering:
         """What is wrong, but for what happens to robots that are carried to their places."""
         return [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
 
-    def _outline(self, screen: pygame.Surface, place: Place) -> None:
+    def _outline(self, screen: pygame.Surface, place: HomingProgress) -> None:
         x, y, heading = place.pose
         color = place.robot
         level = 8 if place.there else round(6 + 2 * math.cos(math.tau * self.clock))
@@ -104,7 +104,7 @@ class Gathering:
         if place.distance > 2 * MOAT:
             stamp(screen, tag(color), LEFT + x, TOP + y)
 
-    def _way(self, screen: pygame.Surface, place: Place, at: tuple[float, float]) -> None:
+    def _way(self, screen: pygame.Surface, place: HomingProgress, at: tuple[float, float]) -> None:
         """Dashes that march from a robot to its place."""
         goal = LEFT + place.pose[0], TOP + place.pose[1]
         turn = math.atan2(goal[1] - at[1], goal[0] - at[0])
@@ -118,7 +118,7 @@ class Gathering:
             )
             along += DASH
 
-    def _said(self, screen: pygame.Surface, place: Place) -> None:
+    def _said(self, screen: pygame.Surface, place: HomingProgress) -> None:
         """What has to be done with a robot that does not get there by itself."""
         words, robot = self.house.words, place.robot
         if place.there or place.moving or self.clock < MISSING:

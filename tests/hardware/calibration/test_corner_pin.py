@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin, NoPin, Warp, crooked
+from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin, CornerPinError, PerspectiveWarp, crooked
 from tests.hardware.sentences import refused
 
 ASKEW = (40.0, 20.0, 1880.0, 60.0, 1900.0, 1060.0, 10.0, 1000.0)
@@ -18,13 +18,13 @@ def picture() -> "np.ndarray[tuple[int, ...], np.dtype[np.uint8]]":
 def test_straight_corners_change_nothing() -> None:
     before = np.random.default_rng(1).integers(0, 255, (1080, 1920, 4), dtype=np.uint8)
     after = np.zeros_like(before)
-    Warp(STRAIGHT).draw(before, after)
+    PerspectiveWarp(STRAIGHT).draw(before, after)
     assert np.array_equal(before, after)
 
 
 def test_the_picture_fills_its_quadrangle_and_nothing_else() -> None:
     shown = np.full((1080, 1920, 4), 99, np.uint8)
-    Warp(ASKEW).draw(picture(), shown)
+    PerspectiveWarp(ASKEW).draw(picture(), shown)
     for x, y in np.array(ASKEW).reshape(4, 2):
         inwards = np.sign((960 - x, 540 - y)).astype(int) * 4
         assert shown[int(y) + inwards[1], int(x) + inwards[0], 0] == 200
@@ -33,13 +33,13 @@ def test_the_picture_fills_its_quadrangle_and_nothing_else() -> None:
 
 def test_a_window_of_another_size_shows_the_same_larger() -> None:
     shown = np.zeros((2160, 3840, 4), np.uint8)
-    Warp(ASKEW, (3840, 2160)).draw(picture(), shown)
+    PerspectiveWarp(ASKEW, (3840, 2160)).draw(picture(), shown)
     assert shown[48, 88, 0] == 200
     assert shown[32, 72, 0] == 0
 
 
 def test_the_mouse_points_at_what_is_seen_under_it() -> None:
-    warp = Warp(ASKEW, (960, 540))
+    warp = PerspectiveWarp(ASKEW, (960, 540))
     assert warp.back((20.0, 10.0)) == pytest.approx((0.0, 0.0), abs=1e-6)
     assert warp.back((950.0, 530.0)) == pytest.approx((1920.0, 1080.0), abs=1e-6)
 
@@ -57,5 +57,5 @@ def test_the_mouse_points_at_what_is_seen_under_it() -> None:
 )
 def test_corners_into_which_nothing_fits_are_refused(corners: tuple[float, ...]) -> None:
     assert crooked(corners)
-    with refused(NoPin, "fits"):
+    with refused(CornerPinError, "fits"):
         CornerPin(corners)

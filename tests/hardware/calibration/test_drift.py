@@ -5,8 +5,8 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.calibration.drift import PAUSE, WARN, Drift, corner_markers  # noqa: E402
-from pigaming_app.hardware.signals import Frame  # noqa: E402
+from pigaming_app.hardware.calibration.drift import PAUSE, WARN, DriftMonitor, corner_markers  # noqa: E402
+from pigaming_app.hardware.signals import CameraFrame  # noqa: E402
 from pigaming_app.hardware.vision.markers import CORNER_IDS  # noqa: E402
 from tests.hardware.grounds import nominal  # noqa: E402
 from tests.hardware.pictures import SIZE, speckled  # noqa: E402
@@ -26,9 +26,9 @@ def projected(shift=(0.0, 0.0), without=()):
 
 
 def watched(pictures, every=0.1):
-    drift = Drift(GROUND)
+    drift = DriftMonitor(GROUND)
     for number, picture in enumerate(pictures):
-        drift.see(Frame(picture, number * every, number))
+        drift.see(CameraFrame(picture, number * every, number))
     return drift
 
 

@@ -6,9 +6,9 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, read, written
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, written
 from pigaming_app.hardware.calibration.lens import Lens
-from pigaming_app.hardware.signals import Mark
+from pigaming_app.hardware.signals import DetectedMarker
 from tests.hardware.grounds import nominal
 from tests.hardware.sentences import refused, sentence
 
@@ -20,7 +20,7 @@ def edge_on(ground, robot, x, y, height, edge=50.0):
     """The mark of an upright marker, `edge` mm wide, `height` mm above a place."""
     half = 0.5 * edge / ground.mm
     corners = np.array([(x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)])
-    return Mark(robot, ground.seen_at(corners, height))
+    return DetectedMarker(robot, ground.seen_at(corners, height))
 
 
 def test_straightening_undoes_bending_all_over_the_picture():
@@ -71,7 +71,7 @@ def test_a_tilted_marker_is_no_robot():
     ground = nominal()
     mark = edge_on(ground, 0, 500.0, 500.0, 70.0)
     squeezed = mark.corners.mean(axis=0) + (mark.corners - mark.corners.mean(axis=0)) * (1.0, 0.75)
-    assert ground.fixes([Mark(0, squeezed)], 0.0) == ["tilted"]
+    assert ground.fixes([DetectedMarker(0, squeezed)], 0.0) == ["tilted"]
 
 
 def test_a_mat_that_was_measured_wrongly_shows_in_the_size_of_a_marker():
@@ -85,7 +85,7 @@ def test_no_marks_are_no_fixes():
     assert nominal().fixes([], 0.0) == []
 
 
-def calibrated() -> Ground:
+def calibrated() -> GroundPlane:
     return replace(nominal(), display="2: 1920 × 1080", lens=BENT, mean_mm=0.31, max_mm=0.62)
 
 
@@ -107,19 +107,19 @@ def test_a_calibration_survives_its_file():
 def test_a_file_that_is_not_as_it_was_written_is_refused_in_one_sentence(old, new, reason):
     text = written(calibrated())
     assert old in text
-    with refused(NoGround, reason) as caught:
+    with refused(CalibrationError, reason) as caught:
         read(text.replace(old, new), "2: 1920 × 1080", SIZE)
     assert "\n" not in sentence(caught.value)
     assert sentence(caught.value).endswith("calibrate again.")
 
 
 def test_a_calibration_of_another_display_is_refused():
-    with refused(NoGround, "made on display 2: 1920 × 1080, not 1: 1280 × 720"):
+    with refused(CalibrationError, "made on display 2: 1920 × 1080, not 1: 1280 × 720"):
         read(written(calibrated()), "1: 1280 × 720", SIZE)
 
 
 def test_a_calibration_of_another_camera_size_is_refused():
-    with refused(NoGround, "1920 x 1080 px, not 1280 x 720"):
+    with refused(CalibrationError, "1920 x 1080 px, not 1280 x 720"):
         read(written(calibrated()), "2: 1920 × 1080", (1280, 720))
 
 
@@ -132,7 +132,7 @@ def test_a_calibration_of_another_camera_size_is_refused():
     ],
 )
 def test_numbers_that_cannot_be_are_refused_even_if_the_check_fits(wrong):
-    with refused(NoGround, "cannot be used"):
+    with refused(CalibrationError, "cannot be used"):
         read(written(wrong), "2: 1920 × 1080", SIZE)
 
 
@@ -141,19 +141,19 @@ def test_a_plane_that_maps_everything_to_a_line_is_refused():
     flat = replace(calibrated(), foot=(1.0, 2.0))
     object.__setattr__(flat, "plane", (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))
     assert written(flat) != text
-    with refused(NoGround, "cannot be used"):
+    with refused(CalibrationError, "cannot be used"):
         read(written(flat), "2: 1920 × 1080", SIZE)
 
 
 def test_garbage_is_refused():
     for text in ("", "\x00\x01", "version = 1", "version = 1\ncheck = 3\n[lens]\n"):
-        with pytest.raises(NoGround):
+        with pytest.raises(CalibrationError):
             read(text, "", SIZE)
 
 
 def test_a_heading_is_where_the_top_of_the_marker_points():
     ground = nominal()
     mark = edge_on(ground, 1, 800.0, 400.0, 70.0)
-    turned = Mark(1, np.roll(mark.corners, -1, axis=0))
+    turned = DetectedMarker(1, np.roll(mark.corners, -1, axis=0))
     (fix,) = ground.fixes([turned], 0.0)
     assert abs(fix.heading) == pytest.approx(pi / 2.0)

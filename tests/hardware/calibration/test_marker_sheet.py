@@ -7,8 +7,8 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.calibration.marker_sheet import CELLS, NoSheet, cells, sheet  # noqa: E402
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers  # noqa: E402
+from pigaming_app.hardware.calibration.marker_sheet import CELLS, MarkerSheetError, cells, sheet  # noqa: E402
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector  # noqa: E402
 from tests.hardware.sentences import refused  # noqa: E402
 
 MM = 72.0 / 25.4  # PDF points
@@ -32,7 +32,7 @@ def painted(boxes, scale=2.0):
 
 @pytest.mark.parametrize("edge", [50.0, 40.0])
 def test_the_markers_are_as_large_as_they_should_be(edge):
-    found = sorted(Markers(range(50)).everywhere(painted(filled(sheet(edge)))), key=lambda mark: mark.number)
+    found = sorted(MarkerDetector(range(50)).everywhere(painted(filled(sheet(edge)))), key=lambda mark: mark.number)
     assert [mark.number for mark in found] == list(ROBOT_IDS)
     for mark in found:
         sides = np.sqrt(((mark.corners - np.roll(mark.corners, 1, axis=0)) ** 2).sum(axis=1))
@@ -68,5 +68,5 @@ def test_the_table_of_the_file_points_at_its_objects():
 
 @pytest.mark.parametrize("edge", [0.0, 500.0])
 def test_what_does_not_fit_is_refused(edge):
-    with refused(NoSheet, "20 to 60 mm"):
+    with refused(MarkerSheetError, "20 to 60 mm"):
         sheet(edge)

@@ -5,11 +5,11 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.calibration.boards import ARENA_AT, BOARD, BOARD_IDS, CANVAS, HELD_OUT, Look  # noqa: E402
-from pigaming_app.hardware.calibration.camera_position import hung, stood  # noqa: E402
-from pigaming_app.hardware.calibration.ground_plane import NoGround  # noqa: E402
+from pigaming_app.hardware.calibration.boards import ARENA_AT, BOARD, BOARD_IDS, CANVAS, HELD_OUT, BoardSamples  # noqa: E402
+from pigaming_app.hardware.calibration.camera_position import height_by_robot, height_by_ruler  # noqa: E402
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError  # noqa: E402
 from pigaming_app.hardware.calibration.solver import homography, least_squares, solve, verified, verify  # noqa: E402
-from pigaming_app.hardware.signals import Frame  # noqa: E402
+from pigaming_app.hardware.signals import CameraFrame  # noqa: E402
 from tests.hardware.pictures import MM, SIZE, Pinhole, speckled  # noqa: E402
 from tests.hardware.sentences import refused  # noqa: E402
 
@@ -35,9 +35,9 @@ def photos():
 
 
 def looked_at(photo, frames=10):
-    look = Look()
+    look = BoardSamples()
     for number in range(frames):
-        look.add(Frame(speckled(photo, 2.0, number), number / 30.0, number))
+        look.add(CameraFrame(speckled(photo, 2.0, number), number / 30.0, number))
     return look
 
 
@@ -52,8 +52,8 @@ def test_boards_lie_on_the_canvas_and_not_on_each_other():
 
 
 def test_the_picture_has_its_markers_where_it_says():
-    look = Look()
-    assert look.add(Frame(BOARD.picture(), 0.0, 0)) == 35
+    look = BoardSamples()
+    assert look.add(CameraFrame(BOARD.picture(), 0.0, 0)) == 35
     corners = look.corners()
     assert max(np.abs(corners[n] - ARENA_AT - BOARD.corners[n]).max() for n in BOARD_IDS) < 0.6
 
@@ -98,13 +98,13 @@ def test_a_board_in_the_wrong_place_is_found_out():
     ground = solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1")
     residuals = verify(ground, perfect(BOARD), HELD_OUT)
     assert not residuals.accepted
-    with refused(NoGround, r"1\.5 and 3 are needed"):
+    with refused(CalibrationError, r"1\.5 and 3 are needed"):
         verified(ground, residuals)
 
 
 def test_markers_in_a_heap_are_no_board():
     seen = {number: CAMERA.sees(np.random.default_rng(number).uniform(0, 900, (4, 2))) for number in BOARD_IDS}
-    with refused(NoGround, r"^[^\n]*$"):
+    with refused(CalibrationError, r"^[^\n]*$"):
         verified(
             ground := solve(seen, BOARD, SIZE, WIDTH_MM, "1"),
             verify(ground, perfect(HELD_OUT), HELD_OUT),
@@ -112,9 +112,9 @@ def test_markers_in_a_heap_are_no_board():
 
 
 def test_a_dark_picture_is_no_board():
-    look = Look()
-    look.add(Frame(np.full((720, 1280), 8, np.uint8), 0.0, 0))
-    with refused(NoGround, "sees 0 of 35"):
+    look = BoardSamples()
+    look.add(CameraFrame(np.full((720, 1280), 8, np.uint8), 0.0, 0))
+    with refused(CalibrationError, "sees 0 of 35"):
         look.corners()
 
 
@@ -122,20 +122,20 @@ def test_a_board_of_which_a_corner_is_missing_says_which(photos):
     photo = photos[BOARD].copy()
     corner = CAMERA.sees(np.array([[-160.0, -140.0], [480.0, 300.0]]))
     photo[: int(corner[1, 1]), : int(corner[1, 0])] = 20
-    with refused(NoGround, "top left corner"):
+    with refused(CalibrationError, "top left corner"):
         looked_at(photo).corners()
 
 
 def test_a_camera_that_is_moved_meanwhile_is_noticed(photos):
-    look = Look()
+    look = BoardSamples()
     for number in range(10):
-        look.add(Frame(np.roll(photos[BOARD], 3 * number, axis=1), 0.0, number))
-    with refused(NoGround, "trembles by"):
+        look.add(CameraFrame(np.roll(photos[BOARD], 3 * number, axis=1), 0.0, number))
+    with refused(CalibrationError, "trembles by"):
         look.corners()
 
 
 def test_the_place_of_the_camera_follows_from_its_height():
-    ground = hung(solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1"), 2400.0)
+    ground = height_by_ruler(solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1"), 2400.0)
     assert ground.foot == pytest.approx((760.0, 430.0), abs=1.0)
     assert true_error_mm(ground, 70.0) < 0.1
 
@@ -143,32 +143,32 @@ def test_the_place_of_the_camera_follows_from_its_height():
 @pytest.mark.parametrize("tilt", [(0.0, 0.0), (0.3, -0.3), (-0.35, 0.1)])
 def test_the_place_of_the_camera_is_found_however_it_looks_down(tilt):
     camera = Pinhole(tilt=tilt, height=3000.0)
-    ground = hung(solve(perfect(BOARD, camera), BOARD, SIZE, WIDTH_MM, "1"), 3000.0)
+    ground = height_by_ruler(solve(perfect(BOARD, camera), BOARD, SIZE, WIDTH_MM, "1"), 3000.0)
     assert ground.foot == pytest.approx((760.0, 430.0), abs=2.0)
 
 
 def test_a_height_that_does_not_fit_how_the_mat_looks_is_refused():
     """Straight from above a wrong height only looks like another lens; from aside it does not."""
     camera = Pinhole(tilt=(0.3, -0.3), height=3000.0)
-    with refused(NoGround, "does not match a camera 900 mm"):
-        hung(solve(perfect(BOARD, camera), BOARD, SIZE, WIDTH_MM, "1"), 900.0)
+    with refused(CalibrationError, "does not match a camera 900 mm"):
+        height_by_ruler(solve(perfect(BOARD, camera), BOARD, SIZE, WIDTH_MM, "1"), 900.0)
 
 
 def test_a_ruler_that_is_wrong_by_a_hand_costs_a_millimetre_or_two():
-    ground = hung(solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1"), 2320.0)
+    ground = height_by_ruler(solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1"), 2320.0)
     assert true_error_mm(ground, 70.0) < 2.0
 
 
 @pytest.mark.parametrize("height", [0.0, 100.0, float("nan"), 1e6])
 def test_no_camera_hangs_there(height):
-    with pytest.raises(NoGround):
-        hung(solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1"), height)
+    with pytest.raises(CalibrationError):
+        height_by_ruler(solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1"), height)
 
 
 def test_the_place_of_the_camera_follows_from_a_robot_on_four_outlines():
     ground = solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1")
     places = [(200.0, 200.0), (1400.0, 200.0), (1400.0, 700.0), (200.0, 700.0)]
-    found = stood(ground, places, CAMERA.sees(np.array(places), 70.0))
+    found = height_by_robot(ground, places, CAMERA.sees(np.array(places), 70.0))
     assert found.foot == pytest.approx((760.0, 430.0), abs=2.0)
     assert found.height == pytest.approx(2400.0, abs=10.0)
     assert true_error_mm(found, 70.0) < 0.1
@@ -177,10 +177,10 @@ def test_the_place_of_the_camera_follows_from_a_robot_on_four_outlines():
 def test_a_robot_beside_the_outlines_is_refused():
     ground = solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1")
     places = [(200.0, 200.0), (1400.0, 200.0)]
-    with refused(NoGround, "outlines"):
-        stood(ground, places, CAMERA.sees(np.array([(400.0, 200.0), (1200.0, 200.0)])))
-    with refused(NoGround, "far from each other"):
-        stood(ground, places[:1], CAMERA.sees(np.array(places[:1])))
+    with refused(CalibrationError, "outlines"):
+        height_by_robot(ground, places, CAMERA.sees(np.array([(400.0, 200.0), (1200.0, 200.0)])))
+    with refused(CalibrationError, "far from each other"):
+        height_by_robot(ground, places[:1], CAMERA.sees(np.array(places[:1])))
 
 
 def test_least_squares_finds_a_valley_that_is_bent():

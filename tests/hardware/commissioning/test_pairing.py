@@ -2,8 +2,8 @@
 
 import pytest
 
-from pigaming_app.hardware.commissioning.latency import Shake
-from pigaming_app.hardware.commissioning.pairing import Case, Pairing
+from pigaming_app.hardware.commissioning.latency import LatencyTest
+from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from tests.hardware.mat import LATE, STARTS, TRUE, Mat
 
 
@@ -26,7 +26,7 @@ def cases(pairing):
 def test_every_robot_wears_its_own_number():
     mat = Mat()
     pairing = paired(mat)
-    assert cases(pairing) == {i: (i, Case.FITS) for i in range(4)}
+    assert cases(pairing) == {i: (i, PairingCase.FITS) for i in range(4)}
     assert pairing.channels == (0, 1, 2, 3)
     mat.pass_time(0.5)
     assert all(abs(robot.angular) < 0.05 for robot in mat.robots)
@@ -51,8 +51,8 @@ def test_two_swapped_markers_are_found_and_driven_the_right_way_round():
     mat = Mat()
     mat.radio = [0, 2, 1, 3]
     pairing = paired(mat)
-    assert cases(pairing)[1] == (2, Case.SWAPPED)
-    assert cases(pairing)[2] == (1, Case.SWAPPED)
+    assert cases(pairing)[1] == (2, PairingCase.SWAPPED)
+    assert cases(pairing)[2] == (1, PairingCase.SWAPPED)
     mat.rig.channels = pairing.channels
     wheels = [None, mat.rig.kinematics[1].wheels((100.0, 0.0)), None, None]
     mat.rig.tell(wheels)
@@ -64,21 +64,21 @@ def test_two_swapped_markers_are_found_and_driven_the_right_way_round():
 def test_a_covered_marker_does_not_turn():
     mat = Mat()
     mat.robots[3].hidden = True
-    assert cases(paired(mat))[3] == (None, Case.NONE)
+    assert cases(paired(mat))[3] == (None, PairingCase.NONE)
 
 
 def test_two_robots_at_one_radio_turn_together():
     mat = Mat()
     mat.radio = [0, 1, 1, 3]
     found = cases(paired(mat))
-    assert found[1] == (None, Case.SEVERAL)
-    assert found[2] == (None, Case.NONE)
+    assert found[1] == (None, PairingCase.SEVERAL)
+    assert found[2] == (None, PairingCase.NONE)
 
 
 def test_a_marker_that_is_worn_twice_is_found():
     mat = Mat()
     mat.robots[1].doubled = True
-    assert cases(paired(mat, [1])) == {1: (None, Case.TWICE)}
+    assert cases(paired(mat, [1])) == {1: (None, PairingCase.TWICE)}
 
 
 def test_radios_that_are_not_heard_are_left_out(monkeypatch):
@@ -86,7 +86,12 @@ def test_radios_that_are_not_heard_are_left_out(monkeypatch):
     heard = {i: one for i, one in mat.telemetry.items() if i in (0, 3)}
     monkeypatch.setattr(Mat, "telemetry", heard)
     found = cases(paired(mat))
-    assert found == {0: (0, Case.FITS), 1: (None, Case.ABSENT), 2: (None, Case.ABSENT), 3: (3, Case.FITS)}
+    assert found == {
+        0: (0, PairingCase.FITS),
+        1: (None, PairingCase.ABSENT),
+        2: (None, PairingCase.ABSENT),
+        3: (3, PairingCase.FITS),
+    }
 
 
 def test_channels_stay_a_permutation_when_not_all_were_found():
@@ -99,7 +104,7 @@ def test_channels_stay_a_permutation_when_not_all_were_found():
 
 
 def shaken(mat, robot=2):
-    shake = Shake(mat.rig, robot)
+    shake = LatencyTest(mat.rig, robot)
     for _ in range(1000):
         if shake.tick():
             break

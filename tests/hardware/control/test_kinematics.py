@@ -3,11 +3,11 @@
 import pytest
 
 from pigaming_app.hardware.control.kinematics import LEVELS, Kinematics
-from pigaming_app.hardware.control.motion_model import Wear
+from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.sim.drivetrain import NOMINAL
 
-WORN = Wear(0.93, 1.05, 1.02, 0.01, 8.0)
+WORN = WheelCorrection(0.93, 1.05, 1.02, 0.01, 8.0)
 ASKED = [(260.0, 0.0), (-150.0, 1.0), (0.0, 2.5), (200.0, -1.5)]
 
 
@@ -43,5 +43,5 @@ def test_every_share_is_on_a_level_and_rest_is_rest():
 
 def test_an_absurd_gain_is_not_believed():
     kinematics = Kinematics(NOMINAL)
-    kinematics.wear = Wear(0.01, 0.01, 1.0, 0.0, 0.0)
+    kinematics.wear = WheelCorrection(0.01, 0.01, 1.0, 0.0, 0.0)
     assert kinematics.goes(kinematics.wheels((100.0, 0.0)))[0] == pytest.approx(100.0, rel=0.1)

@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.drivetrain import Wheel
 from pigaming_app.sim.robot import RADIUS
 from tests.floor import floor
@@ -17,10 +17,10 @@ MM = 1.32  # of a px
 ASIDE = ((1500.0, 100.0, 3.0), (100.0, 100.0, 0.0))
 BESIDE = RADIUS + 5.0  # px from the edge: where virtual walls let a robot come to rest
 WIRED = {
-    "reversed": lambda left, right: Wheels(-left, -right),
-    "swapped": lambda left, right: Wheels(right, left),
-    "one reversed": lambda left, right: Wheels(-left, right),
-    "held": lambda left, right: Wheels(0.0, 0.0),
+    "reversed": lambda left, right: WheelCommand(-left, -right),
+    "swapped": lambda left, right: WheelCommand(right, left),
+    "one reversed": lambda left, right: WheelCommand(-left, right),
+    "held": lambda left, right: WheelCommand(0.0, 0.0),
 }
 
 
@@ -107,7 +107,7 @@ def test_whoever_mashes_the_stick_it_is_noticed(fault):
 def test_a_robot_that_drives_the_wrong_way_is_stopped_after_half_a_second():
     run = Wired([(800.0, 450.0, 0.0), (800.0, 750.0, 0.0), *ASIDE], "reversed").drive(ahead(200.0), 2.0)
     assert 0.9 < run.named < 1.3
-    assert run.mat.robots[0].told in (None, Wheels(0.0, 0.0))
+    assert run.mat.robots[0].told in (None, WheelCommand(0.0, 0.0))
 
 
 @pytest.mark.parametrize(("left", "right"), [(0.7, 0.7), (1.3, 1.3), (0.75, 1.25), (1.2, 0.8)])

@@ -6,9 +6,9 @@ import time
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.control.motion_model import Wear
+from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.signals import Frame, Wheels
+from pigaming_app.hardware.signals import CameraFrame, WheelCommand
 from tests.hardware.mat import Mat
 
 
@@ -42,7 +42,7 @@ class Tracker(Mat):
 
 
 def picture(number, shade):
-    return Frame(np.full((48, 64), shade, dtype=np.uint8), 0.01 * number, number)
+    return CameraFrame(np.full((48, 64), shade, dtype=np.uint8), 0.01 * number, number)
 
 
 def test_a_driver_that_repeats_a_picture_shows_nothing_new():
@@ -57,7 +57,7 @@ def test_the_tracker_is_told_what_the_wheels_come_to_and_nothing_of_robots_that_
     tracker = Tracker()
     rig = Rig(Eye(), tracker, tracker, tracker.clock)
     wheels = rig.kinematics[0].wheels((200.0, 0.5))
-    rig.tell([wheels, Wheels(0.0, 0.0), None, None])
+    rig.tell([wheels, WheelCommand(0.0, 0.0), None, None])
     (told,) = tracker.told
     assert told[0] == pytest.approx(rig.kinematics[0].comes_to(wheels))
     assert told[1:] == [(0.0, 0.0), None, None]
@@ -67,7 +67,7 @@ def test_what_the_tracker_learns_of_wheels_is_used_to_steer(monkeypatch):
     tracker = Tracker()
     rig = Rig(Eye(picture(1, 10)), tracker, tracker, tracker.clock)
     even = rig.kinematics[2].wheels((260.0, 0.0))
-    monkeypatch.setattr(tracker, "wear", lambda robot: Wear(0.9, 1.1, 1.0, 0.0, 0.0))
+    monkeypatch.setattr(tracker, "wear", lambda robot: WheelCorrection(0.9, 1.1, 1.0, 0.0, 0.0))
     rig.pump()
     uneven = rig.kinematics[2].wheels((260.0, 0.0))
     assert even.left == even.right

@@ -2,55 +2,60 @@
 
 import pytest
 
-from pigaming_app.hardware.control.safety import CALM, RULES, Does, Safety, Signs
+from pigaming_app.hardware.control.safety import CALM, RULES, Health, Response, Safety
 from pigaming_app.ui.i18n import Words
 
-GOOD = Signs(picture=0.09, battery=5.0)
+GOOD = Health(picture=0.09, battery=5.0)
 
 
 def judged(sign, others=GOOD, now=1.0):
     """What holds for robot 0 and for the others when only robot 0 shows this sign; the names of the faults."""
     safety = Safety()
     held = safety.judge([sign, others, others, None], now)
-    assert held[3] == Does.WARN
+    assert held[3] == Response.WARN
     return held[0], held[1], [(fault.name, fault.robot, fault.pauses) for fault in safety.faults]
 
 
 @pytest.mark.parametrize(
     ("sign", "own", "others", "faults"),
     [
-        (GOOD, Does.WARN, Does.WARN, []),
-        (GOOD._replace(picture=0.199), Does.WARN, Does.WARN, []),
-        (GOOD._replace(picture=0.201), Does.STOP, Does.STOP, [("camera", None, True)]),
-        (GOOD._replace(unseen=0.099), Does.WARN, Does.WARN, []),
-        (GOOD._replace(unseen=0.101), Does.HALF, Does.WARN, [("unseen", 0, False)]),
-        (GOOD._replace(unseen=0.251), Does.STOP, Does.WARN, [("unseen", 0, False)]),
-        (GOOD._replace(unseen=1.001), Does.STOP, Does.WARN, [("lost", 0, True), ("unseen", 0, False)]),
+        (GOOD, Response.WARN, Response.WARN, []),
+        (GOOD._replace(picture=0.199), Response.WARN, Response.WARN, []),
+        (GOOD._replace(picture=0.201), Response.STOP, Response.STOP, [("camera", None, True)]),
+        (GOOD._replace(unseen=0.099), Response.WARN, Response.WARN, []),
+        (GOOD._replace(unseen=0.101), Response.HALF, Response.WARN, [("unseen", 0, False)]),
+        (GOOD._replace(unseen=0.251), Response.STOP, Response.WARN, [("unseen", 0, False)]),
+        (GOOD._replace(unseen=1.001), Response.STOP, Response.WARN, [("lost", 0, True), ("unseen", 0, False)]),
         (
             GOOD._replace(unseen=1.001, refused="size"),
-            Does.STOP,
-            Does.WARN,
+            Response.STOP,
+            Response.WARN,
             [("held", 0, True), ("unseen", 0, False)],
         ),
         (
             GOOD._replace(unseen=1.001, refused="outside"),
-            Does.STOP,
-            Does.WARN,
+            Response.STOP,
+            Response.WARN,
             [("unseen", 0, False), ("outside", 0, True)],
         ),
-        (GOOD._replace(doubled=True), Does.STOP, Does.WARN, [("twice", 0, True)]),
-        (GOOD._replace(outside=0.02), Does.INWARD, Does.WARN, [("outside", 0, False)]),
-        (GOOD._replace(outside=3.1), Does.INWARD, Does.WARN, [("outside", 0, True)]),
-        (GOOD._replace(silence=1.01), Does.OFF, Does.WARN, [("silent", 0, True)]),
-        (GOOD._replace(battery=4.41), Does.WARN, Does.WARN, []),
-        (GOOD._replace(battery=4.39), Does.WARN, Does.WARN, [("low", 0, False)]),
-        (GOOD._replace(battery=3.99), Does.OFF, Does.WARN, [("empty", 0, True), ("low", 0, False)]),
-        (GOOD._replace(battery=4.2, refuses=True), Does.OFF, Does.WARN, [("empty", 0, True), ("low", 0, False)]),
-        (GOOD._replace(deaf=0.001), Does.WARN, Does.WARN, [("deadman", 0, False)]),
-        (GOOD._replace(deaf=0.6), Does.STOP, Does.WARN, [("deadman", 0, True)]),
-        (GOOD._replace(unlinked=True), Does.STOP, Does.STOP, [("radio", None, True)]),
-        (GOOD._replace(drift=5.1), Does.WARN, Does.WARN, [("drifts", None, False)]),
-        (GOOD._replace(drift=15.1), Does.STOP, Does.STOP, [("drift", None, True), ("drifts", None, False)]),
+        (GOOD._replace(doubled=True), Response.STOP, Response.WARN, [("twice", 0, True)]),
+        (GOOD._replace(outside=0.02), Response.INWARD, Response.WARN, [("outside", 0, False)]),
+        (GOOD._replace(outside=3.1), Response.INWARD, Response.WARN, [("outside", 0, True)]),
+        (GOOD._replace(silence=1.01), Response.OFF, Response.WARN, [("silent", 0, True)]),
+        (GOOD._replace(battery=4.41), Response.WARN, Response.WARN, []),
+        (GOOD._replace(battery=4.39), Response.WARN, Response.WARN, [("low", 0, False)]),
+        (GOOD._replace(battery=3.99), Response.OFF, Response.WARN, [("empty", 0, True), ("low", 0, False)]),
+        (
+            GOOD._replace(battery=4.2, refuses=True),
+            Response.OFF,
+            Response.WARN,
+            [("empty", 0, True), ("low", 0, False)],
+        ),
+        (GOOD._replace(deaf=0.001), Response.WARN, Response.WARN, [("deadman", 0, False)]),
+        (GOOD._replace(deaf=0.6), Response.STOP, Response.WARN, [("deadman", 0, True)]),
+        (GOOD._replace(unlinked=True), Response.STOP, Response.STOP, [("radio", None, True)]),
+        (GOOD._replace(drift=5.1), Response.WARN, Response.WARN, [("drifts", None, False)]),
+        (GOOD._replace(drift=15.1), Response.STOP, Response.STOP, [("drift", None, True), ("drifts", None, False)]),
     ],
 )
 def test_every_line_of_the_table(sign, own, others, faults):
@@ -59,7 +64,7 @@ def test_every_line_of_the_table(sign, own, others, faults):
 
 def test_of_two_faults_the_stricter_holds_and_both_are_said():
     own, _, faults = judged(GOOD._replace(unseen=0.15, battery=3.9))
-    assert own == Does.OFF
+    assert own == Response.OFF
     assert [name for name, _, _ in faults] == ["unseen", "empty", "low"]
 
 
@@ -68,7 +73,7 @@ def test_a_match_goes_on_only_when_the_fault_has_been_gone_for_a_moment():
     safety.judge([GOOD._replace(picture=0.5)] * 4, 10.0)
     assert safety.pauses
     assert safety.faults[0].since == 10.0
-    assert safety.judge([GOOD] * 4, 10.1)[0] == Does.STOP
+    assert safety.judge([GOOD] * 4, 10.1)[0] == Response.STOP
     assert safety.pauses
     safety.judge([GOOD] * 4, 10.0 + CALM + 0.01)
     assert not safety.pauses
@@ -87,15 +92,15 @@ def test_a_fault_that_comes_back_starts_its_moment_anew():
 
 def test_coasting_ends_at_once_when_the_robot_is_seen_again():
     safety = Safety()
-    assert safety.judge([GOOD._replace(unseen=0.2)], 1.0) == [Does.HALF]
-    assert safety.judge([GOOD], 1.02) == [Does.WARN]
+    assert safety.judge([GOOD._replace(unseen=0.2)], 1.0) == [Response.HALF]
+    assert safety.judge([GOOD], 1.02) == [Response.WARN]
 
 
 def test_the_all_stop_holds_everybody_until_it_is_released():
     safety = Safety()
     safety.all_stop()
     for now in (1.0, 2.0, 60.0):
-        assert safety.judge([GOOD, GOOD], now) == [Does.STOP, Does.STOP]
+        assert safety.judge([GOOD, GOOD], now) == [Response.STOP, Response.STOP]
         assert [fault.name for fault in safety.faults] == ["stopped"]
     safety.release()
     safety.judge([GOOD, GOOD], 60.0 + CALM + 0.01)
@@ -105,7 +110,7 @@ def test_the_all_stop_holds_everybody_until_it_is_released():
 def test_nothing_is_asked_of_a_simulated_robot():
     safety = Safety()
     safety.all_stop()
-    assert safety.judge([None, None], 1.0) == [Does.WARN, Does.WARN]
+    assert safety.judge([None, None], 1.0) == [Response.WARN, Response.WARN]
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
@@ -127,11 +132,11 @@ def test_a_fault_is_a_plain_sentence():
 
 def test_a_robot_that_is_no_real_one_any_more_takes_its_faults_along():
     safety = Safety()
-    safety.judge([Signs(unseen=2.0), Signs(battery=3.0), None, None], 0.0)
+    safety.judge([Health(unseen=2.0), Health(battery=3.0), None, None], 0.0)
     assert {fault.name for fault in safety.faults if fault.pauses} == {"lost", "empty"}
     safety.forget(0, last=False)
     assert {fault.name for fault in safety.faults if fault.pauses} == {"empty"}
-    safety.judge([None, Signs(), None, None], 0.1)
+    safety.judge([None, Health(), None, None], 0.1)
     assert {fault.robot for fault in safety.faults} == {1}
     safety.forget(1, last=True)
     safety.judge([None] * 4, 0.2)

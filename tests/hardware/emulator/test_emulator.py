@@ -7,18 +7,18 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Optics
-from pigaming_app.hardware.emulator.robots import FULL_SPEED, STEP, Body, Robot, drawn, part
+from pigaming_app.hardware.emulator.robots import FULL_SPEED, STEP, EmulatedRobot, RobotParameters, drawn, part
 
 cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena  # noqa: E402
-from pigaming_app.hardware.emulator.camera import Pace  # noqa: E402
+from pigaming_app.hardware.emulator.camera import FrameTiming  # noqa: E402
 
-IDEAL = Body(left_gain=1, right_gain=1, deadband=0.05, lag=0.08, base=82, slip=0, battery=5.2, drain=0)
+IDEAL = RobotParameters(left_gain=1, right_gain=1, deadband=0.05, lag=0.08, base=82, slip=0, battery=5.2, drain=0)
 
 
 def driven(left, right, seconds, body=IDEAL):
-    robot = Robot(body, 0.0, 0.0, 0.0, Random(1))
+    robot = EmulatedRobot(body, 0.0, 0.0, 0.0, Random(1))
     robot.left, robot.right = left, right
     for _ in range(round(seconds / STEP)):
         robot.roll()
@@ -60,7 +60,7 @@ def test_no_two_robots_are_alike():
 
 
 def test_robots_push_each_other_apart_unless_one_is_carried():
-    one, other = Robot(IDEAL, 0, 0, 0, Random(1)), Robot(IDEAL, 60, 0, 0, Random(1))
+    one, other = EmulatedRobot(IDEAL, 0, 0, 0, Random(1)), EmulatedRobot(IDEAL, 60, 0, 0, Random(1))
     part([one, other])
     assert other.x - one.x == pytest.approx(95.0)
     other.x, other.height = one.x, 100.0
@@ -114,7 +114,7 @@ def test_the_camera_shows_what_is_projected_and_late():
 
 
 def test_frames_come_in_order_late_and_sometimes_never():
-    arena = EmulatedArena(1, Pace(fps=30, delay=0.06, drops=0.2), refresh=50)
+    arena = EmulatedArena(1, FrameTiming(fps=30, delay=0.06, drops=0.2), refresh=50)
     ages, numbers = [], []
     for _ in range(200):
         frame = newest(arena, 0.01)
@@ -140,7 +140,7 @@ def test_the_quick_picture_is_the_whole_one_around_the_robots():
 
 def test_the_same_seed_is_the_same_run():
     def run(seed):
-        arena = EmulatedArena(seed, Pace(drops=0.1), refresh=10, unrest=0.2)
+        arena = EmulatedArena(seed, FrameTiming(drops=0.1), refresh=10, unrest=0.2)
         for robot in arena.robots:
             robot.left, robot.right = 0.4, 0.3
         frames = [frame for frame in (newest(arena, 0.05) for _ in range(10)) if frame]
@@ -170,7 +170,7 @@ def kept_pictures(arena):
 
 
 def test_an_arena_that_nobody_looks_at_keeps_a_handful_of_pictures():
-    arena = EmulatedArena(pace=Pace(60.0, 0.06))
+    arena = EmulatedArena(pace=FrameTiming(60.0, 0.06))
     for _ in range(600):  # 10 s at 60 pictures a second, the camera closed
         arena.project(np.zeros((1, 1), np.uint8))
         arena.advance(1 / 60)
@@ -197,7 +197,7 @@ def test_however_fast_pictures_come_the_newest_is_shown():
 
 
 def test_after_a_long_time_closed_the_camera_gives_out_its_newest_picture():
-    arena = EmulatedArena(pace=Pace(30.0, 0.06), refresh=1000)
+    arena = EmulatedArena(pace=FrameTiming(30.0, 0.06), refresh=1000)
     arena.project(np.zeros((1080, 1920), np.uint8))
     arena.advance(5.0)
     frame = arena.camera.newest()

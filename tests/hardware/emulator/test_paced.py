@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
-from pigaming_app.hardware.emulator.paced import OVERDUE, Paced
+from pigaming_app.hardware.emulator.paced import OVERDUE, PacedArena
 from pigaming_app.hardware.emulator.robots import STEP
 
 pytest.importorskip("cv2")
@@ -21,7 +21,7 @@ def soon(true: Callable[[], bool]) -> bool:
 
 def test_time_passes_up_to_what_is_allowed_and_no_further():
     arena = EmulatedArena(refresh=1000)
-    passing = Paced(arena)
+    passing = PacedArena(arena)
     passing.limit = 0.2
     passing.start()
     try:
@@ -39,7 +39,7 @@ def test_time_passes_up_to_what_is_allowed_and_no_further():
 
 def test_time_waits_until_its_pictures_are_taken():
     arena = EmulatedArena(refresh=1000)
-    passing = Paced(arena)
+    passing = PacedArena(arena)
     passing.watched = True
     passing.start()
     try:

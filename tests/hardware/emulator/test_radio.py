@@ -6,8 +6,8 @@ pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.firmware import check
-from pigaming_app.hardware.emulator.radio import API, TRANSPARENT, Air
-from pigaming_app.hardware.emulator.xbee import Ear, framed
+from pigaming_app.hardware.emulator.radio import API, TRANSPARENT, RadioChannel
+from pigaming_app.hardware.emulator.xbee import FrameReceiver, framed
 
 GOLDEN = bytes.fromhex("7E 00 09 01 01 00 01 00 50 07 11 7E 16")
 GOLDEN_ESCAPED = bytes.fromhex("7E 00 09 01 01 00 01 00 50 07 7D 31 7D 5E 16")
@@ -28,20 +28,20 @@ FORWARD = drive(0, *[83] * 8)
 
 def heard(arena, escaped=True):
     """Every frame that has come from the radio."""
-    ear = Ear(escaped)
+    ear = FrameReceiver(escaped)
     return [frame for frame in (ear.hear(byte) for byte in arena.radio.read(10000)) if frame]
 
 
 def test_the_golden_frames_are_understood_and_made():
     for frame, escaped in ((GOLDEN, False), (GOLDEN_ESCAPED, True)):
-        ear = Ear(escaped)
+        ear = FrameReceiver(escaped)
         data = [ear.hear(byte) for byte in frame][-1]
         assert data == bytes.fromhex("01 01 00 01 00 50 07 11 7E")
         assert framed(data, escaped) == frame
 
 
 def test_a_wrong_checksum_is_refused_and_the_next_frame_heard():
-    ear = Ear(True)
+    ear = FrameReceiver(True)
     broken = GOLDEN_ESCAPED[:-1] + b"\x17"
     assert [frame for frame in map(ear.hear, broken + GOLDEN_ESCAPED) if frame]
     assert ear.broken == 1
@@ -49,7 +49,7 @@ def test_a_wrong_checksum_is_refused_and_the_next_frame_heard():
 
 @pytest.mark.parametrize("mode", [TRANSPARENT, API, 2])
 def test_a_broadcast_moves_all_robots_after_its_time_on_the_line(mode):
-    arena = EmulatedArena(1, air=Air(mode=mode))
+    arena = EmulatedArena(1, air=RadioChannel(mode=mode))
     arena.radio.write(FORWARD if mode == TRANSPARENT else broadcast(FORWARD, mode == 2))
     arena.advance(0.004)
     assert all(firmware.stopped for firmware in arena.firmwares)
@@ -92,7 +92,7 @@ def test_telemetry_comes_five_times_a_second_from_each():
 
 
 def test_status_of_what_was_sent_and_settings_that_were_asked_for():
-    arena = EmulatedArena(1, air=Air(loss=1.0))
+    arena = EmulatedArena(1, air=RadioChannel(loss=1.0))
     arena.radio.write(framed(bytes([0x01, 9, 0, 1, 0]) + FORWARD, True))
     arena.radio.write(broadcast(FORWARD, number=10))
     arena.radio.write(framed(b"\x08\x05AP", True))
@@ -104,7 +104,7 @@ def test_status_of_what_was_sent_and_settings_that_were_asked_for():
 
 
 def test_a_lossy_air_loses_its_share():
-    arena = EmulatedArena(3, air=Air(loss=0.2, doubled=0.1, broken=0.1))
+    arena = EmulatedArena(3, air=RadioChannel(loss=0.2, doubled=0.1, broken=0.1))
     for i in range(250):
         arena.radio.write(broadcast(drive(i % 128, *[83] * 8)))
         arena.advance(0.02)

@@ -17,7 +17,7 @@ if sys.platform == "win32":
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.firmware import DEADMAN
-from pigaming_app.hardware.emulator.realtime import Live, Terminal
+from pigaming_app.hardware.emulator.realtime import PseudoTerminal, RealtimeArena
 from pigaming_app.hardware.emulator.robots import STEP
 
 DRIVER = """
@@ -43,7 +43,7 @@ def until(true, seconds=20.0):
 
 def test_robots_stop_when_the_program_that_drives_them_is_killed():
     arena = EmulatedArena(1, refresh=1000, begin=time.monotonic())
-    with Live(arena, Terminal()) as live:
+    with RealtimeArena(arena, PseudoTerminal()) as live:
         driver = subprocess.Popen([sys.executable, "-c", DRIVER, live.terminal.name], cwd=ROOT)
         try:
             until(lambda: all(robot.left_speed > 100 for robot in arena.robots))
@@ -58,7 +58,7 @@ def test_robots_stop_when_the_program_that_drives_them_is_killed():
 
 def test_nothing_is_left_running():
     before = threading.active_count()
-    live = Live(EmulatedArena(1, refresh=1000, begin=time.monotonic()), Terminal()).start()
+    live = RealtimeArena(EmulatedArena(1, refresh=1000, begin=time.monotonic()), PseudoTerminal()).start()
     live.close()
     live.close()
     assert threading.active_count() == before

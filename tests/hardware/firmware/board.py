@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import PacketDecoder, drive_packet
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 
 HERE = Path(__file__).parent
 FIRMWARE = HERE.parents[2] / "pigaming_app" / "hardware" / "firmware"
 BAUD = 57600
 BYTE = 10e6 / BAUD  # µs on the line
-AHEAD = Wheels(1.0, 1.0)
+AHEAD = WheelCommand(1.0, 1.0)
 
 
 def missing():

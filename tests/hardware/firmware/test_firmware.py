@@ -10,8 +10,8 @@ import pytest
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, RESTARTED, PacketDecoder, drive_packet
-from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
+from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.firmware.board import AHEAD, BYTE, Board, build, missing
 from tests.hardware.robot_packets import drive_from, report_packet
 
@@ -58,7 +58,7 @@ def test_thirty_of_thirty_commands_reach_the_motors(board):
     for seq in range(30):
         left, right = chance.randint(-63, 63), chance.randint(-63, 63)
         sent = board.at
-        board.drive(seq, [Wheels(left / 63, right / 63)])
+        board.drive(seq, [WheelCommand(left / 63, right / 63)])
         happened = [event for event in board.run(20) if event.kind == "motors"]
         assert board.motors == (duty(left), duty(right))
         assert all(event.at - sent < 12 * BYTE + 2000 for event in happened)
@@ -67,7 +67,7 @@ def test_thirty_of_thirty_commands_reach_the_motors(board):
 @pytest.mark.parametrize("address", [1, 2, 3, 4])
 def test_every_robot_takes_its_own_wheels(make_board, address):
     board = make_board(address)
-    board.drive(1, [Wheels(n / 63, -n / 63) for n in (10, 20, 30, 40)])
+    board.drive(1, [WheelCommand(n / 63, -n / 63) for n in (10, 20, 30, 40)])
     board.run(20)
     assert board.motors == (duty(10 * address), duty(-10 * address))
 
@@ -128,7 +128,7 @@ def scraps(chance):
     packet = bytearray(drive_packet(chance.randrange(128), [AHEAD]))
     wrong = bytearray(packet)
     wrong[chance.randrange(12)] ^= 1 << chance.randrange(8)
-    report = report_packet(packets.Report(2, 1, 0, 5000))
+    report = report_packet(packets.RobotReport(2, 1, 0, 5000))
     return chance.choice((chance.randbytes(9), packet[: chance.randrange(12)], wrong, report, b""))
 
 
@@ -137,13 +137,13 @@ def test_of_a_torn_stream_robot_and_computer_understand_the_same(board, seed):
     chance, decoder = random.Random(seed), PacketDecoder()
     expected = (0, 0)
     for seq in range(50):
-        wheels = Wheels(chance.randint(-63, 63) / 63, chance.randint(-63, 63) / 63)
+        wheels = WheelCommand(chance.randint(-63, 63) / 63, chance.randint(-63, 63) / 63)
         stream = scraps(chance) + drive_packet(seq, [wheels]) + scraps(chance)
         board.say(stream)
         board.run(len(stream) * BYTE / 1000 + 3)
         for packet in decoder.feed(stream):
             if packet[0] == packets.DRIVE:
-                first = drive_from(packet).wheels[0] or Wheels(0.0, 0.0)
+                first = drive_from(packet).wheels[0] or WheelCommand(0.0, 0.0)
                 expected = tuple(duty(round(63 * share)) for share in first)
         assert board.motors == expected
 
@@ -267,9 +267,9 @@ def test_the_whole_way_from_the_link_to_the_motors(make_board, end):
     """Closed: it says stop. Silent: nobody gives commands any more. Killed: the link, too, has stopped from one moment
     to the next, as with kill -9; then only the robot's own deadman is left."""
     board = make_board(3)
-    link = Link(lambda: Terminal(board), lambda: board.at / 1e6, Air(Mode.TRANSPARENT))
+    link = Link(lambda: Terminal(board), lambda: board.at / 1e6, XBeeProtocol(XBeeMode.TRANSPARENT))
     for _ in range(50):
-        link.send([None, AHEAD, Wheels(0.5, -1.0)])
+        link.send([None, AHEAD, WheelCommand(0.5, -1.0)])
         link.pump()
         board.run(10)
     assert board.motors == (duty(32), -256)

@@ -11,15 +11,15 @@ import pytest
 
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.radio.packets import Received, Report
-from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
-from pigaming_app.hardware.signals import Telemetry, Wheels
+from pigaming_app.hardware.radio.packets import ReceivedPacket, RobotReport
+from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
+from pigaming_app.hardware.signals import Telemetry, WheelCommand
 from tests.hardware.robot_packets import drive_from, report_packet
 from tests.hardware.sentences import sentence
 from tests.hardware.wire import Radio, Time, Wire, run
 
 ROOT = Path(__file__).parents[3]
-AHEAD, BACK = Wheels(1.0, 1.0), Wheels(-1.0, -1.0)
+AHEAD, BACK = WheelCommand(1.0, 1.0), WheelCommand(-1.0, -1.0)
 STOPPED = (None,) * 4
 
 
@@ -97,30 +97,30 @@ def test_a_fifth_robot_is_refused_where_it_is_named(link):
         link.send([AHEAD] * 5)
 
 
-@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("mode", XBeeMode)
 def test_robots_are_heard_in_every_mode(mode, time):
     """Two reports come in one piece, the second one cut in two, as a transparent radio cuts them."""
-    wire = Wire(time) if mode is Mode.TRANSPARENT else Radio(time, escaped=mode is Mode.API2)
-    link = Link(lambda: wire, time, Air(mode))
+    wire = Wire(time) if mode is XBeeMode.TRANSPARENT else Radio(time, escaped=mode is XBeeMode.API2)
+    link = Link(lambda: wire, time, XBeeProtocol(mode))
     link.pump()
-    said = report_packet(Report(2, 1, packets.LOW, 4321)) + report_packet(Report(2, 1, 0, 4300))
+    said = report_packet(RobotReport(2, 1, packets.LOW, 4321)) + report_packet(RobotReport(2, 1, 0, 4300))
     for part in (said[:9], said[9:]):
-        if mode is Mode.TRANSPARENT:
+        if mode is XBeeMode.TRANSPARENT:
             wire.coming += part
         else:
-            wire.say(Received(2, -40, 0, part))
+            wire.say(ReceivedPacket(2, -40, 0, part))
     time.now += 0.015
     link.pump()
     assert link.telemetry == {1: Telemetry(1, 4.3, 0, 100.015)}
     quality = link.quality(1)
-    assert quality.strength == (None if mode is Mode.TRANSPARENT else -40)
+    assert quality.strength == (None if mode is XBeeMode.TRANSPARENT else -40)
     assert quality.echo == pytest.approx(0.015)
     assert link.trouble is None
 
 
 def test_transparent_packets_are_bare(time):
     wire = Wire(time)
-    link = Link(lambda: wire, time, Air(Mode.TRANSPARENT))
+    link = Link(lambda: wire, time, XBeeProtocol(XBeeMode.TRANSPARENT))
     link.send([AHEAD])
     link.pump()
     assert wire.written == [(100.0, packets.drive_packet(1, [AHEAD]))]
@@ -129,7 +129,7 @@ def test_transparent_packets_are_bare(time):
 def test_the_share_of_reports_heard_sinks_when_a_robot_falls_silent(link, radio, time):
     def report():
         if round(time.now * 100) % 20 == 0:
-            radio.say(Received(1, -50, 0, report_packet(Report(1, 0, 0, 5000))))
+            radio.say(ReceivedPacket(1, -50, 0, report_packet(RobotReport(1, 0, 0, 5000))))
 
     run(link, time, 2.0, report)
     assert link.quality(0).share >= 0.9
@@ -139,7 +139,7 @@ def test_the_share_of_reports_heard_sinks_when_a_robot_falls_silent(link, radio,
 
 
 def test_how_broadcasts_went_is_counted(radio, time):
-    air = Air()
+    air = XBeeProtocol()
     link = Link(lambda: radio, time, air)
     run(link, time, 0.2)
     radio.status = 2
@@ -158,20 +158,20 @@ def test_a_radio_that_never_answers_is_named(time):
     )
 
 
-@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("mode", XBeeMode)
 def test_garbage_on_the_line_is_named_and_forgotten(mode, time):
     wire = Wire(time)
-    link = Link(lambda: wire, time, Air(mode), name="COM3")
+    link = Link(lambda: wire, time, XBeeProtocol(mode), name="COM3")
 
     def noise():
         wire.coming += b"\x00\xff\x7e\x12\xd4\xff"
 
     run(link, time, 1.2, noise)
     assert link.trouble.key == "radio_garbled"
-    report = report_packet(Report(1, 0, 0, 5000))
-    escaped = mode is Mode.API2
-    good = packets.frame(packets.encode(Received(1, -30, 0, report)), escaped)
-    wire.coming += bytes(200) + (report if mode is Mode.TRANSPARENT else good)
+    report = report_packet(RobotReport(1, 0, 0, 5000))
+    escaped = mode is XBeeMode.API2
+    good = packets.frame(packets.encode(ReceivedPacket(1, -30, 0, report)), escaped)
+    wire.coming += bytes(200) + (report if mode is XBeeMode.TRANSPARENT else good)
     link.pump()
     assert link.trouble is None
     assert link.telemetry[0].battery == 5.0
@@ -187,9 +187,9 @@ def test_a_radio_of_the_other_api_mode_is_named(time):
 def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
     """Robots would be heard, from inside the frames, but would hear nothing."""
     radio = Radio(time)
-    link = Link(lambda: radio, time, Air(Mode.TRANSPARENT), name="COM3")
+    link = Link(lambda: radio, time, XBeeProtocol(XBeeMode.TRANSPARENT), name="COM3")
     link.pump()
-    radio.say(Received(1, -40, 0, report_packet(Report(1, 0, packets.DEADMAN, 5000))))
+    radio.say(ReceivedPacket(1, -40, 0, report_packet(RobotReport(1, 0, packets.DEADMAN, 5000))))
     link.pump()
     assert 0 in link.telemetry
     assert sentence(link.trouble) == "The radio at COM3 is set to AP=1 or 2, but the link is not; set both to the same."
@@ -197,7 +197,7 @@ def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
 
 def test_a_quiet_transparent_line_is_no_trouble(time):
     """Robots that are switched off say nothing."""
-    link = Link(lambda: Wire(time), time, Air(Mode.TRANSPARENT))
+    link = Link(lambda: Wire(time), time, XBeeProtocol(XBeeMode.TRANSPARENT))
     run(link, time, 5.0)
     assert link.trouble is None
 
@@ -219,7 +219,7 @@ def test_in_a_thread_it_beats_by_itself_and_ends_within_a_second():
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 def test_a_fault_of_the_program_stops_the_robots_and_is_told():
     radio = Radio(real_time.monotonic)
-    air = Air()
+    air = XBeeProtocol()
     link = Link(lambda: radio, real_time.monotonic, air, name="COM3")
     link.send([AHEAD])
     air.hear = lambda heard, now: 1 / 0

@@ -6,28 +6,28 @@ from hypothesis import strategies as st
 
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import (
-    Answer,
-    Ask,
+    ATCommand,
+    ATResponse,
     FrameDecoder,
-    Modem,
-    Outcome,
+    ModemStatus,
     PacketDecoder,
-    Received,
-    Report,
-    Send,
+    ReceivedPacket,
+    RobotReport,
+    TransmitRequest,
+    TransmitStatus,
     decode,
     encode,
     frame,
 )
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.robot_packets import Drive, drive_from, report_packet
 
-SENT = Send(1, 0x0001, bytes.fromhex("5007117E"))
+SENT = TransmitRequest(1, 0x0001, bytes.fromhex("5007117E"))
 GOLDEN = {  # the frames of HARDWARE.md
     "AP1 TX16": (False, "7E 00 09 01 01 00 01 00 50 07 11 7E 16", SENT),
     "AP2 TX16": (True, "7E 00 09 01 01 00 01 00 50 07 7D 31 7D 5E 16", SENT),
-    "RX16": (False, "7E 00 07 81 00 01 28 00 10 27 1E", Received(1, -40, 0, b"\x10\x27")),
-    "TX status": (False, "7E 00 03 89 01 00 75", Outcome(1, 0)),
+    "RX16": (False, "7E 00 07 81 00 01 28 00 10 27 1E", ReceivedPacket(1, -40, 0, b"\x10\x27")),
+    "TX status": (False, "7E 00 03 89 01 00 75", TransmitStatus(1, 0)),
 }
 
 octets = st.integers(0, 255)
@@ -35,16 +35,16 @@ addresses = st.integers(0, 0xFFFF)
 payloads = st.binary(max_size=100)
 commands = st.text("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789", min_size=2, max_size=2)
 messages = st.one_of(
-    st.builds(Send, octets, addresses, payloads, octets),
-    st.builds(Received, addresses, octets.map(lambda dbm: -dbm), octets, payloads),
-    st.builds(Outcome, octets, octets),
-    st.builds(Ask, octets, commands, payloads),
-    st.builds(Answer, octets, commands, octets, payloads),
-    st.builds(Modem, octets),
+    st.builds(TransmitRequest, octets, addresses, payloads, octets),
+    st.builds(ReceivedPacket, addresses, octets.map(lambda dbm: -dbm), octets, payloads),
+    st.builds(TransmitStatus, octets, octets),
+    st.builds(ATCommand, octets, commands, payloads),
+    st.builds(ATResponse, octets, commands, octets, payloads),
+    st.builds(ModemStatus, octets),
 )
 speeds = st.integers(-63, 63).map(lambda step: step / 63)
-crews = st.lists(st.none() | st.builds(Wheels, speeds, speeds), min_size=4, max_size=4)
-reports = st.builds(Report, st.integers(1, 4), st.integers(0, 127), st.integers(0, 127), st.integers(0, 16383))
+crews = st.lists(st.none() | st.builds(WheelCommand, speeds, speeds), min_size=4, max_size=4)
+reports = st.builds(RobotReport, st.integers(1, 4), st.integers(0, 127), st.integers(0, 127), st.integers(0, 16383))
 
 
 def in_pieces(data, sizes):
@@ -72,19 +72,23 @@ def test_the_crc_is_that_of_the_catalogue():
 
 def test_a_drive_packet_by_hand():
     """Robot 0 full ahead, robot 1 off, robot 2 turns on the spot at a third, robot 3 stands."""
-    packet = packets.drive_packet(5, [Wheels(1.0, 1.0), None, Wheels(-1 / 3, 1 / 3), Wheels(0.0, 0.0)])
+    packet = packets.drive_packet(
+        5, [WheelCommand(1.0, 1.0), None, WheelCommand(-1 / 3, 1 / 3), WheelCommand(0.0, 0.0)]
+    )
     assert packet[:-1].hex(" ") == "d0 05 0d 7e 7e 3f 3f 2a 54 3f 3f"
     assert packet[-1] == packets.crc8(packet[:-1]) & 0x7F
 
 
 def test_a_report_by_hand():
     """4.8 V is 4800 mV, which is 37 * 128 + 64."""
-    assert report_packet(Report(3, 9, packets.LOW, 4800))[:-1].hex(" ") == "d4 03 09 02 40 25"
+    assert report_packet(RobotReport(3, 9, packets.LOW, 4800))[:-1].hex(" ") == "d4 03 09 02 40 25"
 
 
 def test_speeds_beyond_full_are_cut_and_what_is_no_number_stops():
-    (packet,) = PacketDecoder().feed(packets.drive_packet(0, [Wheels(7.0, -7.0), Wheels(float("nan"), 1.0)]))
-    assert drive_from(packet).wheels == (Wheels(1.0, -1.0), Wheels(0.0, 1.0), None, None)
+    (packet,) = PacketDecoder().feed(
+        packets.drive_packet(0, [WheelCommand(7.0, -7.0), WheelCommand(float("nan"), 1.0)])
+    )
+    assert drive_from(packet).wheels == (WheelCommand(1.0, -1.0), WheelCommand(0.0, 1.0), None, None)
 
 
 def test_there_is_no_room_for_a_fifth_robot():
@@ -178,7 +182,7 @@ def test_noise_never_raises_and_is_never_kept(noise, escaped):
 
 
 def test_a_packet_of_a_flipped_bit_is_refused():
-    packet = bytearray(packets.drive_packet(0, [Wheels(0.5, 0.5)]))
+    packet = bytearray(packets.drive_packet(0, [WheelCommand(0.5, 0.5)]))
     for bit in range(7):
         packet[4] ^= 1 << bit
         assert PacketDecoder().feed(bytes(packet)) == []

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import pytest
 
-from pigaming_app.hardware.radio.serial_line import FAILURES, Line, ports, radio_message, serial_port, trouble_of
+from pigaming_app.hardware.radio.serial_line import FAILURES, SerialLine, ports, radio_message, serial_port, trouble_of
 from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time, Wire
 
@@ -52,7 +52,7 @@ def test_why_a_port_does_not_open_is_one_sentence(error, reason):
 )
 def test_ports_that_are_none(device, told):
     pytest.importorskip("serial")
-    line = Line(serial_port(device), Time(), device)
+    line = SerialLine(serial_port(device), Time(), device)
     assert not line.open()
     assert sentence(line.trouble) == told
 
@@ -63,7 +63,7 @@ def test_bytes_go_both_ways_over_a_terminal_and_its_end_is_noticed(stop_bits):
     pytest.importorskip("serial")
     far, near = os.openpty()
     device, time = os.ttyname(near), Time()
-    line = Line(serial_port(device, stop_bits=stop_bits), time, device)
+    line = SerialLine(serial_port(device, stop_bits=stop_bits), time, device)
     assert line.open()
     os.close(near)
     line.write(b"\xd0\x11\x13\n\r\x00")
@@ -87,7 +87,7 @@ def test_a_port_that_another_program_holds_is_busy():
     pytest.importorskip("serial")
     far, near = os.openpty()
     device = os.ttyname(near)
-    first, second = (Line(serial_port(device), Time(), device) for _ in range(2))
+    first, second = (SerialLine(serial_port(device), Time(), device) for _ in range(2))
     assert first.open()
     assert not second.open()
     assert sentence(second.trouble) == f"{device} is in use by another program; close that first."
@@ -99,7 +99,7 @@ def test_a_port_that_another_program_holds_is_busy():
 def test_without_pyserial_the_sentence_says_so(monkeypatch):
     monkeypatch.setitem(sys.modules, "serial", None)
     monkeypatch.setitem(sys.modules, "serial.tools", None)
-    line = Line(serial_port("COM3"), Time(), "COM3")
+    line = SerialLine(serial_port("COM3"), Time(), "COM3")
     assert not line.open()
     assert sentence(line.trouble) == "The package pyserial is missing, so no radio can be used."
     assert ports() == []
@@ -121,7 +121,7 @@ def test_a_lost_port_is_opened_again_at_longer_and_longer_intervals(kind):
             raise OSError(errno.ENOENT, "not here")
         return wires[len(tries) > 1]
 
-    line = Line(open_port, time, "COM3")
+    line = SerialLine(open_port, time, "COM3")
     assert line.open()
     wires[0].cut = kind(errno.EIO, "Input/output error")
     assert line.read() == b""
@@ -139,7 +139,7 @@ def test_a_lost_port_is_opened_again_at_longer_and_longer_intervals(kind):
 @pytest.mark.parametrize("kind", FAILURES)
 def test_a_write_that_fails_loses_the_port(kind):
     wire = Wire(Time())
-    line = Line(lambda: wire, wire.time, "COM3")
+    line = SerialLine(lambda: wire, wire.time, "COM3")
     line.open()
     wire.cut = kind(errno.EIO, "Input/output error")
     line.write(b"x")
@@ -150,7 +150,7 @@ def test_a_write_that_fails_loses_the_port(kind):
 def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stays_open():
     serial = pytest.importorskip("serial")
     wire = Wire(Time())
-    line = Line(lambda: wire, wire.time, "COM3")
+    line = SerialLine(lambda: wire, wire.time, "COM3")
     line.open()
     wire.cut = serial.SerialTimeoutException("Write timeout")
     for _ in range(49):
@@ -170,7 +170,7 @@ def test_writes_that_time_out_now_and_then_are_no_trouble():
     """A starved process: pyserial raises although all bytes were taken."""
     serial = pytest.importorskip("serial")
     wire = Wire(Time())
-    line = Line(lambda: wire, wire.time, "COM3")
+    line = SerialLine(lambda: wire, wire.time, "COM3")
     line.open()
     for i in range(500):
         wire.cut = serial.SerialTimeoutException("Write timeout") if i % 10 else None
@@ -186,7 +186,7 @@ def test_a_reader_that_pauses_is_not_taken_for_an_unplugged_radio():
     far, near = os.openpty()
     os.set_blocking(far, False)
     device, time = os.ttyname(near), Time()
-    line = Line(serial_port(device), time, device)
+    line = SerialLine(serial_port(device), time, device)
     assert line.open()
     while not line._held_up:  # the buffer of the terminal fills up
         line.write(bytes(1000))
@@ -209,7 +209,7 @@ def test_stale_commands_in_a_full_buffer_are_dropped():
     far, near = os.openpty()
     os.set_blocking(far, False)
     device, time = os.ttyname(near), Time()
-    line, taken = Line(serial_port(device), time, device), 0
+    line, taken = SerialLine(serial_port(device), time, device), 0
     assert line.open()
     while not line._held_up:
         line.write(b"old!" * 250)

@@ -3,8 +3,8 @@
 import pytest
 
 from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.radio.stock_protocol import Stock, motors
-from pigaming_app.hardware.signals import Telemetry, Wheels
+from pigaming_app.hardware.radio.stock_protocol import StockProtocol, motors
+from pigaming_app.hardware.signals import Telemetry, WheelCommand
 from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time, Wire, run
 
@@ -41,10 +41,10 @@ class Robot(Wire):
 @pytest.mark.parametrize(
     ("wheels", "line"),
     [
-        (Wheels(1.0, 1.0), "C1 7F C5 7F"),
-        (Wheels(-1.0, 1.0), "C2 7F C5 7F"),
-        (Wheels(0.5, -0.5), "C1 40 C6 40"),
-        (Wheels(9.0, float("nan")), "C1 7F C5 00"),
+        (WheelCommand(1.0, 1.0), "C1 7F C5 7F"),
+        (WheelCommand(-1.0, 1.0), "C2 7F C5 7F"),
+        (WheelCommand(0.5, -0.5), "C1 40 C6 40"),
+        (WheelCommand(9.0, float("nan")), "C1 7F C5 00"),
         (None, "C1 00 C5 00"),
     ],
 )
@@ -60,8 +60,8 @@ def time():
 
 def test_the_robot_drives_tells_its_battery_and_stops_at_the_end(time):
     robot = Robot(time)
-    with Link(lambda: robot, time, Stock(2)) as link:
-        run(link, time, 1.0, lambda: link.send([None, None, Wheels(0.5, -1.0)]))
+    with Link(lambda: robot, time, StockProtocol(2)) as link:
+        run(link, time, 1.0, lambda: link.send([None, None, WheelCommand(0.5, -1.0)]))
         assert (robot.left, robot.right) == (128, -255)
         assert link.trouble is None
         assert link.telemetry[2] == Telemetry(2, 4.75, 0, pytest.approx(time(), abs=0.25))
@@ -72,36 +72,36 @@ def test_the_robot_drives_tells_its_battery_and_stops_at_the_end(time):
 
 def test_once_known_the_robot_is_not_stopped_by_questions(time):
     robot = Robot(time)
-    link = Link(lambda: robot, time, Stock())
-    run(link, time, 2.0, lambda: link.send([Wheels(1.0, 1.0)]))
+    link = Link(lambda: robot, time, StockProtocol())
+    run(link, time, 2.0, lambda: link.send([WheelCommand(1.0, 1.0)]))
     assert set(robot.log[1:]) == {(255, 255)}
     assert b"".join(data for _, data in robot.written).count(0x81) == 1
 
 
 def test_nobody_commanding_stops_it(time):
     robot = Robot(time)
-    link = Link(lambda: robot, time, Stock())
-    link.send([Wheels(1.0, 1.0)])
+    link = Link(lambda: robot, time, StockProtocol())
+    link.send([WheelCommand(1.0, 1.0)])
     run(link, time, 0.15)
     assert (robot.left, robot.right) == (0, 0)
 
 
 def test_something_else_at_the_line_is_named(time):
     robot = Robot(time, b"v2.041")
-    link = Link(lambda: robot, time, Stock(), name="COM3")
+    link = Link(lambda: robot, time, StockProtocol(), name="COM3")
     run(link, time, 0.1)
     assert sentence(link.trouble) == "What answers at COM3 is no 3pi with the stock program: it sends 'v2.041'."
 
 
 def test_nobody_at_the_line_is_named(time):
-    link = Link(lambda: Wire(time), time, Stock(), name="COM3")
+    link = Link(lambda: Wire(time), time, StockProtocol(), name="COM3")
     run(link, time, 1.2)
     assert link.trouble.key == "radio_mute"
 
 
 def test_noise_that_nobody_asked_for_is_no_battery(time):
     robot = Robot(time)
-    link = Link(lambda: robot, time, Stock())
+    link = Link(lambda: robot, time, StockProtocol())
     run(link, time, 0.1)
     robot.coming += b"\x01\x02\x03\x04\x05\x06\x07"
     run(link, time, 0.5)

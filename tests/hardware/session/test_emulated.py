@@ -57,7 +57,7 @@ def test_camera_and_radio_are_closed_once_and_opened_anew(
     assert session.open() is rig
     closed: list[str] = []
     monkeypatch.setattr(rig.link, "close", lambda: closed.append("link"))
-    monkeypatch.setattr(rig.eye, "close", lambda: closed.append("camera"))
+    monkeypatch.setattr(rig.camera, "close", lambda: closed.append("camera"))
     session.close()
     session.close()
     assert closed == ["link", "camera"]

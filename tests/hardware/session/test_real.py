@@ -4,7 +4,7 @@ import numpy as np
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.real import SizedCamera
-from pigaming_app.hardware.signals import Frame
+from pigaming_app.hardware.signals import CameraFrame
 from tests.hardware.grounds import nominal
 from tests.hardware.sentences import sentence
 
@@ -15,9 +15,9 @@ class Eye:
     trouble: OperatorMessage | None = None
 
     def __init__(self, *sizes: tuple[int, int]) -> None:
-        self.frames = [Frame(np.zeros((h, w), np.uint8), 0.1 * i, i) for i, (w, h) in enumerate(sizes)]
+        self.frames = [CameraFrame(np.zeros((h, w), np.uint8), 0.1 * i, i) for i, (w, h) in enumerate(sizes)]
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         return self.frames.pop(0) if self.frames else None
 
     def close(self) -> None:

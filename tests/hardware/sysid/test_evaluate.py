@@ -7,10 +7,10 @@ import pytest
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import UNMEASURED
-from pigaming_app.hardware.recordings import Course, Recorder, Run, RunError, load
-from pigaming_app.hardware.signals import Fix, Wheels
-from pigaming_app.hardware.sysid.evaluate import TooShort, errors, measure, predictions, replay
-from pigaming_app.hardware.sysid.excitation import Dance
+from pigaming_app.hardware.recordings import Recording, RecordingError, RecordingWriter, RobotRecording, load
+from pigaming_app.hardware.signals import Fix, WheelCommand
+from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
+from pigaming_app.hardware.sysid.excitation import ExcitationPattern
 from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, tell
 from tests.floor import floor
@@ -24,7 +24,7 @@ def danced(seconds, noise=0.0, train=TRUE, fps=30):
     """A run on the mat: what all were told, and where they were seen, with some noise."""
     mat = Mat(train=train)
     world = floor(poses=[(robot.x, robot.y, robot.heading) for robot in mat.robots])
-    plant, dance, chance = RealPlant(world, mat.rig), Dance(), np.random.default_rng(1)
+    plant, dance, chance = RealPlant(world, mat.rig), ExcitationPattern(), np.random.default_rng(1)
     told_at, wheels, seen_at, poses = [], [], [], []
     send = mat.send
     mat.send = lambda one: (told_at.append(mat.now), wheels.append(one), send(one))
@@ -38,8 +38,8 @@ def danced(seconds, noise=0.0, train=TRUE, fps=30):
     courses = {}
     for i in range(4):
         told = np.array([one[i] or (0.0, 0.0) for one in wheels])
-        courses[i] = Course(np.array(told_at), told, np.array(seen_at), seen[:, i])
-    return Run(MM, courses)
+        courses[i] = RobotRecording(np.array(told_at), told, np.array(seen_at), seen[:, i])
+    return Recording(MM, courses)
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def run():
 
 def test_a_track_of_both_wheels_alike_is_straight_and_late():
     told = np.array([0.0])
-    course = Course(told, np.array([[0.5, 0.5]]), np.array([0.0, 3.0]), np.zeros((2, 3)))
+    course = RobotRecording(told, np.array([[0.5, 0.5]]), np.array([0.0, 3.0]), np.zeros((2, 3)))
     even = Drivetrain(Wheel(700.0, 0.0), Wheel(700.0, 0.0), 60.0, 0.1, 0.2)
     x, y, heading = track(course, even, 0.0, 3.0).at(np.array([3.0]))[0]
     assert x == pytest.approx(350.0 * (3.0 - 0.1 - 0.2), abs=0.5 * 0.005 * 350.0)
@@ -78,7 +78,7 @@ def test_wheels_lag_and_dead_time_are_found_within_one_hundredth():
 
 
 def test_what_was_identified_foresees_much_better_what_was_held_out(run):
-    for verdict in measure(Run(run.mm, {i: run.courses[i] for i in (1, 3)})):
+    for verdict in measure(Recording(run.mm, {i: run.courses[i] for i in (1, 3)})):
         for before, after in zip(verdict.before.mm, verdict.after.mm, strict=True):
             assert after < 0.35 * before
         assert verdict.after.mm[0] < 6.0
@@ -91,13 +91,13 @@ def test_the_true_model_foresees_a_run_without_noise_and_so_does_what_was_identi
     course = run.courses[2]
     assert errors(course, TRUE, run.mm).mm[2] < 0.05
     assert len(predictions(course, TRUE, 1.0)) >= 40
-    (verdict,) = measure(Run(run.mm, {2: course}))
+    (verdict,) = measure(Recording(run.mm, {2: course}))
     assert verdict.after.mm[2] < 0.5
     assert verdict.before.mm[2] > 50.0
 
 
 def test_a_run_of_a_few_seconds_is_too_short():
-    with refused(TooShort, "Robot 1"):
+    with refused(RecordingTooShort, "Robot 1"):
         measure(danced(5.0))
 
 
@@ -105,14 +105,14 @@ def test_a_robot_that_stood_still_is_left_out():
     run = danced(22.0)
     still = run.courses[0]
     still.poses[:] = still.poses[0]
-    assert [one.robot for one in measure(Run(run.mm, {0: still, 1: run.courses[1]}))] == [1]
-    with refused(TooShort, "No robot"):
-        measure(Run(run.mm, {0: still}))
+    assert [one.robot for one in measure(Recording(run.mm, {0: still, 1: run.courses[1]}))] == [1]
+    with refused(RecordingTooShort, "No robot"):
+        measure(Recording(run.mm, {0: still}))
 
 
 def test_a_run_played_again_in_the_simulator_stays_near_for_a_while_and_nearer_when_it_knows_the_robots(run):
     def miss(drivetrains):
-        again = replay(Run(run.mm, {0: run.courses[0].between(0.0, 8.0)}), drivetrains)[0]
+        again = replay(Recording(run.mm, {0: run.courses[0].between(0.0, 8.0)}), drivetrains)[0]
         return float(np.hypot(*(again.seen - again.predicted)[:, :2].T).mean())
 
     assert miss([TRUE] * 4) < 0.3 * miss([NOMINAL] * 4)
@@ -120,15 +120,15 @@ def test_a_run_played_again_in_the_simulator_stays_near_for_a_while_and_nearer_w
 
 
 def test_the_result_is_a_file_that_the_simulator_reads():
-    (verdict,) = measure(Run(MM, {2: danced(25.0).courses[2]}))
+    (verdict,) = measure(Recording(MM, {2: danced(25.0).courses[2]}))
     (found,) = parse(tell([verdict.drivetrain]), "robots.toml")
     assert found.base == pytest.approx(verdict.drivetrain.base, abs=1e-3)
 
 
 def test_a_recorded_run_comes_back_as_it_was(tmp_path):
-    recorder = Recorder(tmp_path / "run.jsonl", 1.3)
+    recorder = RecordingWriter(tmp_path / "run.jsonl", 1.3)
     for i in range(60):
-        recorder.sent(0.02 * i, [Wheels(0.1, 0.2), None, None, None])
+        recorder.sent(0.02 * i, [WheelCommand(0.1, 0.2), None, None, None])
         recorder.seen(0.02 * i + 0.05, 0.02 * i, [Fix(0, 100.0 + i, 200.0, 6.2 + 0.01 * i, 0.02 * i)])
     recorder.close()
     run = load(tmp_path / "run.jsonl")
@@ -143,8 +143,8 @@ def test_a_recorded_run_comes_back_as_it_was(tmp_path):
 def test_a_recording_that_breaks_off_leaves_the_one_before(tmp_path):
     path = tmp_path / "run.jsonl"
     path.write_text("the one before")
-    for end in (Recorder.discard, Recorder.close):
-        recorder = Recorder(path, 1.3)
+    for end in (RecordingWriter.discard, RecordingWriter.close):
+        recorder = RecordingWriter(path, 1.3)
         recorder.sent(0.0, [None] * 4)
         assert path.read_text() == "the one before"
         end(recorder)
@@ -171,7 +171,7 @@ def test_a_recording_that_breaks_off_leaves_the_one_before(tmp_path):
 def test_what_is_no_run_is_refused_in_one_line(tmp_path, text, said):
     file = tmp_path / "run.jsonl"
     file.write_text(text)
-    with pytest.raises(RunError, match=r"run\.jsonl") as caught:
+    with pytest.raises(RecordingError, match=r"run\.jsonl") as caught:
         load(file)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -179,7 +179,7 @@ def test_what_is_no_run_is_refused_in_one_line(tmp_path, text, said):
 
 def test_a_run_that_broke_off_in_the_middle_of_a_line_is_still_good(tmp_path):
     file = tmp_path / "run.jsonl"
-    recorder = Recorder(file, 1.3)
+    recorder = RecordingWriter(file, 1.3)
     for i in range(60):
         recorder.sent(0.02 * i, [None] * 4)
         recorder.seen(0.02 * i, 0.02 * i, [Fix(1, 5.0, 5.0, 0.0, 0.02 * i)])

@@ -4,9 +4,9 @@ import sys
 
 import pytest
 
-from pigaming_app.hardware.recordings import Run
+from pigaming_app.hardware.recordings import Recording
 from pigaming_app.hardware.sysid.evaluate import measure
-from pigaming_app.hardware.sysid.plots import NoPlots, draw
+from pigaming_app.hardware.sysid.plots import PlotsUnavailable, draw
 from pigaming_app.sim.drivetrain import MM
 from tests.hardware.sentences import refused
 from tests.hardware.sysid.test_evaluate import danced
@@ -14,7 +14,7 @@ from tests.hardware.sysid.test_evaluate import danced
 
 @pytest.fixture(scope="module")
 def run():
-    return Run(MM, {1: danced(24.0, noise=1.0).courses[1]})
+    return Recording(MM, {1: danced(24.0, noise=1.0).courses[1]})
 
 
 def test_two_pictures_are_drawn(run, tmp_path):
@@ -26,5 +26,5 @@ def test_two_pictures_are_drawn(run, tmp_path):
 
 def test_without_matplotlib_there_is_one_sentence(run, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with refused(NoPlots, "matplotlib"):
+    with refused(PlotsUnavailable, "matplotlib"):
         draw(run, [], tmp_path)

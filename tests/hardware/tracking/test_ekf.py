@@ -6,13 +6,13 @@ from math import cos, degrees, hypot, pi, sin, sqrt, tau
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.control.motion_model import Rolling, Wear
+from pigaming_app.hardware.control.motion_model import MotionState, WheelCorrection
 from pigaming_app.hardware.signals import Fix
-from pigaming_app.hardware.tracking.ekf import NEVER, Follower
+from pigaming_app.hardware.tracking.ekf import NEVER, PoseFilter
 from pigaming_app.sim.drivetrain import NOMINAL
 
 MM = 1.32
-FRESH = Wear(1.0, 1.0, 1.0, 0.0, 0.0)
+FRESH = WheelCorrection(1.0, 1.0, 1.0, 0.0, 0.0)
 PROMPT = replace(NOMINAL, dead_time=0.0)
 
 
@@ -22,7 +22,7 @@ def fix(x, y, heading=0.0, captured=0.0):
 
 def follower(x=500.0, y=400.0, heading=0.0, train=PROMPT):
     """One that saw its robot at time 0."""
-    robot = Follower(train, MM)
+    robot = PoseFilter(train, MM)
     assert robot.correct(fix(x, y, heading))
     return robot
 
@@ -34,7 +34,7 @@ def drive(robot, twist, begin, end):
 
 
 def test_the_motors_follow_exactly_whatever_the_steps():
-    one, many = Rolling(0.0, 0.0, 0.0), Rolling(0.0, 0.0, 0.0)
+    one, many = MotionState(0.0, 0.0, 0.0), MotionState(0.0, 0.0, 0.0)
     one.roll(200.0, 200.0, FRESH, 62.0, 0.08, 0.1)
     for _ in range(50):
         many.roll(200.0, 200.0, FRESH, 62.0, 0.08, 0.002)
@@ -44,7 +44,7 @@ def test_the_motors_follow_exactly_whatever_the_steps():
 
 def test_a_robot_on_one_wheel_turns_round_the_other():
     """Left wheel 62 px from the right, which stands: a full circle about it after pi * 62 * 2 px of the left wheel."""
-    robot = Rolling(0.0, 0.0, 0.0)
+    robot = MotionState(0.0, 0.0, 0.0)
     robot.left = 124.0
     for _ in range(1000):
         robot.roll(124.0, 0.0, FRESH, 62.0, 0.08, pi / 1000.0)
@@ -53,13 +53,13 @@ def test_a_robot_on_one_wheel_turns_round_the_other():
 
 
 def test_a_wheel_told_less_than_its_stiction_stands():
-    robot = Rolling(0.0, 0.0, 0.0)
+    robot = MotionState(0.0, 0.0, 0.0)
     robot.roll(20.0, -20.0, FRESH._replace(stiction=25.0), 62.0, 0.08, 1.0)
     assert (robot.x, robot.heading) == (0.0, 0.0)
 
 
 def test_a_robot_that_was_never_seen_is_nowhere():
-    assert Follower(NOMINAL, MM).at(5.0).age == NEVER
+    assert PoseFilter(NOMINAL, MM).at(5.0).age == NEVER
 
 
 def test_a_robot_at_rest_stays_where_it_was_seen():
@@ -163,7 +163,7 @@ class Stranger:
 def errors(stranger, seconds, seed=1, noise=(0.7, 0.012), fps=30, late=0.06):
     """Play for so long, a random stick: what `at` says less the truth, every tick (s, mm, degrees)."""
     random = np.random.default_rng(seed)
-    robot, twist, told, frames, found = Follower(NOMINAL, MM), (0.0, 0.0), [], [], []
+    robot, twist, told, frames, found = PoseFilter(NOMINAL, MM), (0.0, 0.0), [], [], []
     for step in range(round(seconds * 500)):
         now = step * 0.002
         if step % 10 == 0:
@@ -206,7 +206,7 @@ def test_what_the_wheels_do_is_learnt_on_the_way():
 
 
 def test_a_robot_that_stands_still_teaches_nothing():
-    robot = Follower(NOMINAL, MM)
+    robot = PoseFilter(NOMINAL, MM)
     random = np.random.default_rng(4)
     for frame in range(3000):
         x, y, heading = random.normal((500.0, 400.0, 1.0), (0.7, 0.7, 0.012)).tolist()

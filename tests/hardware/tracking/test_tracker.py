@@ -7,7 +7,7 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.signals import Frame, Mark  # noqa: E402
+from pigaming_app.hardware.signals import CameraFrame, DetectedMarker  # noqa: E402
 from pigaming_app.hardware.tracking.tracker import Tracker  # noqa: E402
 from tests.hardware.grounds import nominal  # noqa: E402
 from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
@@ -20,7 +20,7 @@ POSES = ((300.0, 200.0, 0.4), (1300.0, 250.0, 2.5), (1200.0, 700.0, 4.0), (250.0
 def marks(poses, height=70.0):
     """What a perfect camera sees of robots: {robot: pose}, or pairs."""
     pairs = poses.items() if isinstance(poses, dict) else poses
-    return [Mark(robot, GROUND.seen_at(square(pose, EDGE), height)) for robot, pose in pairs]
+    return [DetectedMarker(robot, GROUND.seen_at(square(pose, EDGE), height)) for robot, pose in pairs]
 
 
 def photo(poses, seed=1, height=70.0, noise=2.0):
@@ -49,7 +49,7 @@ class Mat:
             self.frames += 1
             self.clock.now = self.frames / 30.0
             picture = photo(poses, seed=self.frames % 3, **how)
-            fixes = self.tracker.see(Frame(picture, self.clock.now, self.frames))
+            fixes = self.tracker.see(CameraFrame(picture, self.clock.now, self.frames))
         return {fix.robot for fix in fixes}
 
     def away(self, robot, pose):
@@ -129,7 +129,7 @@ def test_a_marker_in_a_hand_does_not_take_the_robot_along():
         mat.clock.now = mat.frames / 30.0
         both = marks({0: POSES[0]}) + marks({0: (700.0, 500.0, 0.0)}, height=600.0)
         picture = speckled(lids([(mark.number, mark.corners) for mark in both], SIZE))
-        mat.tracker.see(Frame(picture, mat.clock.now, mat.frames))
+        mat.tracker.see(CameraFrame(picture, mat.clock.now, mat.frames))
     assert mat.tracker.refused == {0: "size"}
     assert mat.tracker.doubled() == set()
     assert mat.away(0, POSES[0])[0] < 1.0
@@ -150,7 +150,7 @@ def test_a_robot_just_outside_of_the_arena_is_still_followed():
 def test_the_mirror_image_of_a_marker_is_nobody():
     mat = Mat()
     picture = np.ascontiguousarray(photo({0: POSES[0]})[:, ::-1])
-    mat.tracker.see(Frame(picture, 0.0, 1))
+    mat.tracker.see(CameraFrame(picture, 0.0, 1))
     assert mat.tracker.sense(mat.clock.now)[0].age == 1e9
 
 
@@ -191,5 +191,5 @@ def test_a_picture_without_robots_costs_nothing_but_time(wide):
     tracker = Tracker(nominal((wide, wide * 9 // 16)), lambda: 0.0)
     noise = np.random.default_rng(1).integers(0, 255, (wide * 9 // 16, wide), dtype=np.uint8)
     for frame in range(3):
-        assert tracker.see(Frame(noise, frame * 0.1, frame)) == []
-    assert tracker.see(Frame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []
+        assert tracker.see(CameraFrame(noise, frame * 0.1, frame)) == []
+    assert tracker.see(CameraFrame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []

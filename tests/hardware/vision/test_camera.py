@@ -12,7 +12,7 @@ cv2 = pytest.importorskip("cv2")
 from pigaming_app.hardware.vision import camera as reader  # noqa: E402
 from pigaming_app.hardware.vision import discovery as cameras  # noqa: E402
 from pigaming_app.hardware.vision.camera import Camera, lock  # noqa: E402
-from pigaming_app.hardware.vision.markers import NoVision  # noqa: E402
+from pigaming_app.hardware.vision.markers import OpenCVMissing  # noqa: E402
 from tests.hardware.sentences import refused, sentence  # noqa: E402
 
 LONG = 5.0  # s after which a test gives up waiting
@@ -212,7 +212,7 @@ def test_other_systems_get_one_sentence_too(monkeypatch):
 
 def test_without_opencv_there_is_one_sentence(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "cv2", None)
-    with refused(NoVision, "install opencv-python-headless"):
+    with refused(OpenCVMissing, "install opencv-python-headless"):
         Camera(0)
 
 

@@ -5,15 +5,15 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.signals import Mark  # noqa: E402
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, Markers, Spot, listed  # noqa: E402
+from pigaming_app.hardware.signals import DetectedMarker  # noqa: E402
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, listed  # noqa: E402
 from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
 
 
 def test_markers_of_others_are_not_looked_at():
     places = ((0, (200.0, 200.0, 0.4)), (17, (800.0, 200.0, 2.0)), (11, (600.0, 500.0, 4.0)))
     picture = speckled(lids([(number, square(pose, 30.0)) for number, pose in places], SIZE))
-    found = Markers(ROBOT_IDS).everywhere(picture)
+    found = MarkerDetector(ROBOT_IDS).everywhere(picture)
     assert [mark.number for mark in found] == [0]
 
 
@@ -22,10 +22,10 @@ def test_markers_of_others_are_not_looked_at():
 def test_markers_are_found_however_large(edge, way):
     corners = square((400.3, 300.8, 0.7), edge)
     picture = speckled(lids([(3, corners)], SIZE))
-    markers = Markers(ROBOT_IDS)
+    markers = MarkerDetector(ROBOT_IDS)
     found = {
         "glance": lambda: markers.glance(picture, edge, dim=False),
-        "near": lambda: [markers.near(picture, Spot(405.0, 296.0, 1.3 * edge + 8.0, edge), 3)],
+        "near": lambda: [markers.near(picture, SearchWindow(405.0, 296.0, 1.3 * edge + 8.0, edge), 3)],
         "everywhere": lambda: markers.everywhere(picture),
     }[way]()
     assert [mark.number for mark in found] == [3]
@@ -45,12 +45,12 @@ def striped(corners, bright=210):
 
 def test_what_is_projected_across_a_marker_does_not_hide_it():
     """Hard bright edges hide a marker from the plain detector (HARDWARE.md: 0 to 48 %); its black is still darkest."""
-    markers = Markers(ROBOT_IDS)
+    markers = MarkerDetector(ROBOT_IDS)
     near, glanced, tries = 0, 0, 20
     for i in range(tries):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = striped(corners)
-        mark = markers.near(picture, Spot(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3)
+        mark = markers.near(picture, SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3)
         near += mark is not None
         glanced += len(markers.glance(picture, 37.0))
     assert near == tries
@@ -59,30 +59,30 @@ def test_what_is_projected_across_a_marker_does_not_hide_it():
 
 def test_a_blurred_marker_is_found_where_it_must_be():
     """As behind a lens out of focus, or in a long exposure of a robot that turns."""
-    markers = Markers(ROBOT_IDS)
+    markers = MarkerDetector(ROBOT_IDS)
     for i in range(10):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = cv2.GaussianBlur(lids([(3, corners)], SIZE, ground=150.0), (0, 0), 2.2)
-        assert markers.near(speckled(picture), Spot(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
+        assert markers.near(speckled(picture), SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
 
 
 @pytest.mark.parametrize("light", [0.2, 0.5, 1.0])
 def test_markers_are_found_in_dim_light(light):
-    markers = Markers(ROBOT_IDS)
+    markers = MarkerDetector(ROBOT_IDS)
     for i in range(5):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = speckled(light * lids([(3, corners)], SIZE, ground=150.0), noise=1.5)
-        assert markers.near(picture, Spot(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
+        assert markers.near(picture, SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
         assert len(markers.glance(picture, 37.0)) == 1
 
 
 def test_corners_are_exact_to_a_tenth_of_a_pixel():
-    markers = Markers(ROBOT_IDS)
+    markers = MarkerDetector(ROBOT_IDS)
     misses = []
     for i in range(12):
         corners = square((400.3 + 0.37 * i, 300.8 - 0.21 * i, 0.7 + 0.5 * i), 34.0)
         picture = speckled(lids([(3, corners)], SIZE), seed=i)
-        mark = markers.near(picture, Spot(402.0, 298.0, 52.0, 34.0), 3)
+        mark = markers.near(picture, SearchWindow(402.0, 298.0, 52.0, 34.0), 3)
         misses.append(markers.exact(picture, [mark])[0].corners - corners)
     assert np.sqrt(np.square(misses).mean()) < 0.1
     assert np.abs(np.mean(misses, axis=1)).max() < 0.1  # of the middle
@@ -91,16 +91,18 @@ def test_corners_are_exact_to_a_tenth_of_a_pixel():
 def test_corners_that_cannot_be_made_exact_stay_as_they_are():
     corners = square((400.0, 300.0, 0.2), 34.0)
     for picture in (np.full((720, 1280), 90, np.uint8), np.zeros((720, 1280), np.uint8)):
-        assert np.array_equal(Markers(ROBOT_IDS).exact(picture, [Mark(0, corners)])[0].corners, corners)
-    assert Markers(ROBOT_IDS).exact(picture, []) == []
+        assert np.array_equal(
+            MarkerDetector(ROBOT_IDS).exact(picture, [DetectedMarker(0, corners)])[0].corners, corners
+        )
+    assert MarkerDetector(ROBOT_IDS).exact(picture, []) == []
 
 
 def test_near_the_edge_of_the_picture_a_marker_is_found_if_it_is_all_there():
     corners = square((40.0, 36.0, 0.2), 34.0)
     picture = speckled(lids([(1, corners)], SIZE))
-    markers = Markers(ROBOT_IDS)
-    assert markers.near(picture, Spot(40.0, 36.0, 60.0, 34.0), 1) is not None
-    assert markers.near(picture, Spot(-300.0, 36.0, 60.0, 34.0), 1) is None
+    markers = MarkerDetector(ROBOT_IDS)
+    assert markers.near(picture, SearchWindow(40.0, 36.0, 60.0, 34.0), 1) is not None
+    assert markers.near(picture, SearchWindow(-300.0, 36.0, 60.0, 34.0), 1) is None
 
 
 @pytest.mark.parametrize(

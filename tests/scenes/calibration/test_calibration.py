@@ -15,8 +15,8 @@ from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration import height_procedure as standing
 from pigaming_app.hardware.calibration import procedure as calibrating
 from pigaming_app.hardware.calibration.corner_pin import CornerPin
-from pigaming_app.hardware.calibration.ground_plane import NoGround
-from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError
+from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.serial_line import ERRORS
 from pigaming_app.hardware.session import store
@@ -38,7 +38,7 @@ LONG = 30.0  # s after which a test gives up waiting
 
 @pytest.fixture
 def arcade(controls: Controls, _home: None) -> Operated:
-    arcade = Operated(controls, EmulatedSite(2))
+    arcade = Operated(controls, EmulatedCalibrationSite(2))
     arcade.open(CalibrationPage(arcade.house, arcade.site))
     return arcade
 
@@ -112,7 +112,7 @@ def test_a_calibration_that_is_too_bad_cannot_be_saved(arcade: Operated, monkeyp
     arcade.press(Act.RIGHT)
     arcade.press(Act.FIRE)
     arcade.shown(CalibrationPage)
-    with pytest.raises(NoGround):
+    with pytest.raises(CalibrationError):
         store.load(store.calibration_file(arcade.site.name), arcade.house.canvas.projection, (1920, 1080))
 
 
@@ -199,7 +199,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
 
 @pytest.mark.usefixtures("_home", "_no_threads_stay")
 def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -> None:
-    site = EmulatedSite(1, live=True)
+    site = EmulatedCalibrationSite(1, live=True)
     arcade = Operated(controls, site)
     arcade.open(CalibrationPage(arcade.house, site))
     end = time.monotonic() + LONG
@@ -242,12 +242,12 @@ def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Oper
     store.save(finding.ground, store.calibration_file(arcade.site.name))
     here = arcade.house.canvas.projection
     for key, where, size in (("other_display", "2: 640 × 480", (1920, 1080)), ("other_camera", here, (1280, 720))):
-        with pytest.raises(NoGround) as refused:
+        with pytest.raises(CalibrationError) as refused:
             store.load(store.calibration_file(arcade.site.name), where, size)
         assert refused.value.message.key == key
     file = store.calibration_file(arcade.site.name)
     file.write_text(file.read_text().replace("height = ", "height = 1"))
-    with pytest.raises(NoGround) as refused:
+    with pytest.raises(CalibrationError) as refused:
         store.load(store.calibration_file(arcade.site.name), here, (1920, 1080))
     assert refused.value.message.key == "changed"
 

@@ -10,14 +10,14 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration import camera_task as looking
-from pigaming_app.hardware.calibration.site import Measures, RealSite
-from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.calibration.site import Measurements, RealCalibrationSite
+from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision import camera
 from pigaming_app.hardware.vision import discovery as cameras
-from pigaming_app.hardware.vision.discovery import Known
-from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.hardware.vision.discovery import CameraInfo
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration import boards_page as boards
 from pigaming_app.scenes.calibration import setup_page as page
 from pigaming_app.scenes.calibration.result_page import ResultPage
@@ -58,7 +58,7 @@ class Driver:
 
 
 def real(controls: Controls, driver: Driver) -> Operated:
-    site = RealSite(driver)
+    site = RealCalibrationSite(driver)
     arcade = Operated(controls, site)
     arcade.open(CalibrationPage(arcade.house, site))
     return arcade
@@ -74,7 +74,7 @@ def until(arcade: Operated, true: Any) -> None:
 
 @pytest.fixture
 def _one_camera(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr("pigaming_app.hardware.calibration.site.cameras", lambda: [Known(3, "Bright Eye")])
+    monkeypatch.setattr("pigaming_app.hardware.calibration.site.cameras", lambda: [CameraInfo(3, "Bright Eye")])
     monkeypatch.setattr(camera, "STALE", 0.1)
     monkeypatch.setattr(camera, "RETRY", 0.02)
     monkeypatch.setattr(cameras, "NODES", tmp_path)
@@ -118,7 +118,7 @@ def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
 def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
     controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(RealSite, "settle", 0.05)
+    monkeypatch.setattr(RealCalibrationSite, "settle", 0.05)
     monkeypatch.setattr(looking, "BLIND", 0.5)
     driver = Driver()
     arcade = real(controls, driver)
@@ -137,12 +137,12 @@ def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
 def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
     controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    missing = NoVision(OperatorMessage("no_opencv"))
+    missing = OpenCVMissing(OperatorMessage("no_opencv"))
 
     def none(*_: object, **__: object) -> object:
         raise missing
 
-    monkeypatch.setattr(RealSite, "open", none)
+    monkeypatch.setattr(RealCalibrationSite, "open", none)
     monkeypatch.setattr(boards, "picture", none)
     arcade = real(controls, Driver())
     first = arcade.shown(CalibrationPage)
@@ -187,13 +187,13 @@ def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls
     assert not wrong
     assert (settings.arena_mm, settings.lid_mm, settings.camera) == (first.measures.width, 67.0, 3)
     again = CalibrationPage(arcade.house, arcade.site)
-    assert again.measures == Measures(first.measures.width, 2500.0, 67.0)
+    assert again.measures == Measurements(first.measures.width, 2500.0, 67.0)
 
 
 class Overhead(Driver):
     """A driver whose camera hangs over an emulated mat, and sends its pictures in colour."""
 
-    def __init__(self, site: EmulatedSite) -> None:
+    def __init__(self, site: EmulatedCalibrationSite) -> None:
         super().__init__()
         self.site = site
 
@@ -207,8 +207,8 @@ class Overhead(Driver):
 def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
     controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(RealSite, "settle", 0.3)
-    mat = EmulatedSite(4)
+    monkeypatch.setattr(RealCalibrationSite, "settle", 0.3)
+    mat = EmulatedCalibrationSite(4)
     mat.clear(True)
     arcade = real(controls, Overhead(mat))
     arcade.house.canvas.watchers.append(lambda window: mat.see(pixels_of(window)))

@@ -10,7 +10,7 @@ pytest.importorskip("cv2")
 from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision import markers
-from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.app import App, Options
 from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, PinPage, handle
 from pigaming_app.storage.safe_files import NotSaved
@@ -137,7 +137,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def none() -> object:
-        raise NoVision(OperatorMessage("no_opencv"))
+        raise OpenCVMissing(OperatorMessage("no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.corner_pin.opencv", none)
     assert markers.opencv is not none
@@ -145,7 +145,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
     page = arcade.shown(PinPage)
     assert page.sentence == arcade.house.words("hardware.no_opencv")
     assert page.corners == [0, 0, 1920, 0, 1920, 1080, 0, 1080]
-    with pytest.raises(NoVision):
+    with pytest.raises(OpenCVMissing):
         arcade.house.canvas.pin(CornerPin(ASKEW))
     arcade.house.settings.corners = ASKEW
     app = App(Options(headless=True), arcade.house, [])

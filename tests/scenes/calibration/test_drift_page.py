@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration.camera_task import SPOT
-from pigaming_app.hardware.emulator.site import EmulatedSite
+from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.calibration.drift_page import CheckPage
 from pigaming_app.scenes.calibration.height_page import DISC
@@ -47,7 +47,7 @@ STATES: dict[str, dict[str, Any]] = {
 def test_no_sentence_runs_into_the_spot(
     controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str, state: str
 ) -> None:
-    arcade = Operated(controls, EmulatedSite(2))
+    arcade = Operated(controls, EmulatedCalibrationSite(2))
     arcade.house.words = Words(language)
     with measuring(monkeypatch) as screen:
         page = CheckPage(arcade.house, arcade.site)

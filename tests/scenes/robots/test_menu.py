@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.vision.markers import NoVision
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.corner_pin_page import PinPage
 from pigaming_app.scenes.calibration.drift_page import CheckPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
@@ -68,7 +68,7 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     assert arcade.shown(RobotsMenu).navigation.sentence == arcade.house.words("app.unsaved")
 
     def none() -> bytes:
-        raise NoVision(OperatorMessage("no_opencv"))
+        raise OpenCVMissing(OperatorMessage("no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
     arcade.press(Act.FIRE)

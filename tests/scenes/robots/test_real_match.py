@@ -12,7 +12,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
-from pigaming_app.hardware.session.robot_session import NoRobots
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
@@ -336,7 +336,7 @@ def test_what_cannot_be_used_is_said_and_simulated_robots_play(
     arcade: Arcade, mat: EmulatedSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def missing() -> None:
-        raise NoRobots(OperatorMessage("no_camera", number=3))
+        raise RobotsUnavailable(OperatorMessage("no_camera", number=3))
 
     monkeypatch.setattr(mat, "open", missing)
     page = match_of(arcade.house, match_for("pitanks", "normal easy off off", 0.1), [], (0,))

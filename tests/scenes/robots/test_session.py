@@ -13,7 +13,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.hardware.calibration.ground_plane import written
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
-from pigaming_app.hardware.session.robot_session import NoRobots
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Turn
@@ -77,14 +77,14 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
 
 
 def test_without_a_calibration_there_are_no_real_robots(home: Path) -> None:
-    with pytest.raises(NoRobots) as refused:
+    with pytest.raises(RobotsUnavailable) as refused:
         real_mat().open()
     assert "no calibration" in sentence(refused.value)
 
 
 def test_a_calibration_of_another_display_is_refused(home: Path) -> None:
     calibrate("2: 1280 × 720")
-    with pytest.raises(NoRobots) as refused:
+    with pytest.raises(RobotsUnavailable) as refused:
         real_mat().open()
     assert "2: 1280 × 720" in sentence(refused.value)
     assert HERE in sentence(refused.value)
@@ -94,7 +94,7 @@ def test_a_broken_calibration_is_refused_in_one_line(home: Path) -> None:
     calibrate(HERE)
     file = folders().config / "calibration.toml"
     file.write_text(file.read_text(encoding="utf-8").replace("width_mm = 2", "width_mm = 3"), encoding="utf-8")
-    with pytest.raises(NoRobots) as refused:
+    with pytest.raises(RobotsUnavailable) as refused:
         real_mat().open()
     assert "\n" not in sentence(refused.value)
 
@@ -103,7 +103,7 @@ def test_a_computer_without_opencv_says_so(home: Path, monkeypatch: pytest.Monke
     calibrate(HERE)
     monkeypatch.setitem(sys.modules, "cv2", None)
     for mat in (real_mat(), EmulatedSession(live=False)):
-        with pytest.raises(NoRobots) as refused:
+        with pytest.raises(RobotsUnavailable) as refused:
             mat.open()
         assert "opencv" in sentence(refused.value).lower()
 
