@@ -38,13 +38,13 @@ class RealMatch(MatchScene):
     """A match in which the robots of the seats `real` are real ones. Raises RobotsUnavailable."""
 
     def __init__(
-        self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], mat: RobotSession
+        self, house: House, setup: Setup, devices: Sequence[Device | None], real: Collection[int], session: RobotSession
     ) -> None:
         if reason := unfit(house.settings):
             raise refused(reason)
-        rig = mat.open()
+        rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
-        self.mat = mat
+        self.session = session
         super().__init__(house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen))
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
@@ -73,7 +73,7 @@ class RealMatch(MatchScene):
         """Stop the robots; let go of camera and radio, unless the next match has them already."""
         if not self.gone:
             self.gone = True
-            self.mat.close()
+            self.session.close()
 
     def on(self, press: Press) -> Turn:
         """As in every match. STOP stops all robots. While places are taken, START begins as they stand, EXTRA
@@ -105,7 +105,7 @@ class RealMatch(MatchScene):
         """Let the match run on, unless something is wrong with a robot in it."""
         if self.repeated or self.stopped:
             return super().update(seconds)
-        seconds = self.mat.advance(seconds)
+        seconds = self.session.advance(seconds)
         if self.gathering is not None:
             return self._gather(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
@@ -141,7 +141,7 @@ class RealMatch(MatchScene):
 
     def hold(self, seconds: float) -> None:
         """Let time pass under a page: all robots stand, and faults come and go."""
-        self._rest(self.mat.advance(seconds))
+        self._rest(self.session.advance(seconds))
 
     def shine(self, screen: pygame.Surface) -> None:
         """The corner markers and the discs, over everything."""

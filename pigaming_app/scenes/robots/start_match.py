@@ -18,12 +18,12 @@ def match_of(
     `speed`: times real time, for a match without real robots.
     """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
-    if not real or house.mat is None:
+    if not real or house.session is None:
         return MatchScene(house, setup, devices, speed)
     from pigaming_app.scenes.robots.match_scene import RealMatch
     from pigaming_app.scenes.robots.unavailable import Refused
 
     try:
-        return RealMatch(house, setup, devices, real, house.mat)
+        return RealMatch(house, setup, devices, real, house.session)
     except RobotsUnavailable as trouble:
         return Refused(house, setup, devices, real, trouble.message)

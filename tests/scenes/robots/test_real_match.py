@@ -54,7 +54,7 @@ def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
 @pytest.fixture
 def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
     arcade = Arcade(controls)
-    arcade.house.mat = mat
+    arcade.house.session = mat
     return arcade
 
 
@@ -70,7 +70,7 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
     for _ in range(round(seconds * FPS)):
         arcade.frame(1 / FPS, draw=lit)
         if lit:
-            mat = arcade.house.mat
+            mat = arcade.house.session
             assert isinstance(mat, EmulatedSession)
             mat.show(lambda: pixels_of(arcade.screen))
 
