@@ -93,8 +93,8 @@ def opened(options: Options) -> "Iterator[App]":
     pygame.font.init()
     house = House(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
     house.sounds.volume(settings.music, settings.sounds)
-    house.mat = mat = _mat(options, settings, canvas)
-    house.stops.append(mat.close)
+    house.session = session = _session(options, settings, canvas)
+    house.stops.append(session.close)
     house.backstage.then = house.compiler.start
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
@@ -105,7 +105,7 @@ def opened(options: Options) -> "Iterator[App]":
         house.backstage.end()
         house.compiler.end()
         gc.unfreeze()
-        mat.end()
+        session.end()
         house.sounds.close()
         _keep(settings, where.config)
         if scores.unsaved:
@@ -120,8 +120,8 @@ class App:
     def __init__(self, options: Options, house: House, troubles: list[str]) -> None:
         self.options, self.house = options, house
         self.notices, self.gauge = Notices(), Gauge()
-        mat = house.mat
-        self.window = CameraWindow(mat) if isinstance(mat, EmulatedSession) and mat.live else None
+        session = house.session
+        self.window = CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -355,20 +355,20 @@ class App:
         self.gauge.draw(screen)
 
 
-def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSession | RealSession:
+def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSession | RealSession:
     """Where real robots drive."""
     if options.emulate is None:
         return RealSession(settings, lambda: canvas.projection)
-    mat = EmulatedSession(options.emulate, options.step is None, lambda: canvas.projection)
-    canvas.watchers.append(lambda window: mat.show(lambda: _projected(canvas, window)))
+    session = EmulatedSession(options.emulate, options.step is None, lambda: canvas.projection)
+    canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     settings.real = settings.real or [1, 2, 3, 4]
     try:
-        mat.open()  # now, while nobody waits for a picture; it is closed until somebody plays
-        mat.close()
+        session.open()  # now, while nobody waits for a picture; it is closed until somebody plays
+        session.close()
     except RobotsUnavailable as trouble:
         print(f"PiGaming: {english().explained(trouble.message)}", file=sys.stderr)
-    return mat
+    return session
 
 
 def _projected(canvas: Canvas, window: pygame.Surface) -> object:

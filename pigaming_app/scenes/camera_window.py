@@ -17,8 +17,8 @@ log = logging.getLogger("pigaming")
 class CameraWindow:
     """The window; where the system gives no second one, the log says so and the arcade goes on."""
 
-    def __init__(self, mat: EmulatedSession) -> None:
-        self.mat = mat
+    def __init__(self, session: EmulatedSession) -> None:
+        self.session = session
         self.window: pygame.Window | None = None
         self._shown, self._age = -1, 0.0
         try:
@@ -36,7 +36,7 @@ class CameraWindow:
     def update(self, seconds: float) -> None:
         """Show the newest picture, if there is a new one and it is time to."""
         self._age += seconds
-        frame = self.mat.newest
+        frame = self.session.newest
         if self.window is None or self._age < EVERY or frame is None or frame.number == self._shown:
             return
         from pigaming_app.ui.draw.pixels import grey_surface

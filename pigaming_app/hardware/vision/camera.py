@@ -1,7 +1,7 @@
 """A camera, read by a thread that keeps the newest picture and throws the rest away.
 
-Health is the age of the newest picture: drivers repeat, block and lie. `trouble` is the fault as a message; a camera that
-comes back is used again. Exposure, white balance, gain and focus are locked once they have settled, because what a
+Health is the age of the newest picture: drivers repeat, block and lie. `trouble` is the fault as a message; a camera
+that comes back is used again. Exposure, white balance, gain and focus are locked once they have settled, because what a
 camera corrects by itself looks to the tracker as if the arena had changed.
 """
 

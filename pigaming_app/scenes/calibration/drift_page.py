@@ -42,8 +42,8 @@ class CheckPage:
 
     def entered(self) -> None:
         """Look."""
-        if self.house.mat is not None:
-            self.house.mat.close()
+        if self.house.session is not None:
+            self.house.session.close()
         self.work.begin()
 
     def left(self) -> None:

@@ -42,7 +42,7 @@ log = logging.getLogger("pigaming")
 def site_of(house: House) -> CalibrationSite:
     """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
     try:
-        return house.mat.site if house.mat is not None else RealCalibrationSite()
+        return house.session.site if house.session is not None else RealCalibrationSite()
     except RobotsUnavailable:
         return RealCalibrationSite()  # without OpenCV there is nothing; the page says so
 
@@ -243,8 +243,8 @@ class CalibrationPage:
     def _look(self) -> None:
         """Look through the camera that is chosen, once the one before is free."""
         self._state_of = (0, 0)
-        if self.house.mat is not None:
-            self.house.mat.close()
+        if self.house.session is not None:
+            self.house.session.close()
         self.left()
         self.preview = CameraPreview(self.site, self.number)
         self.preview.begin()

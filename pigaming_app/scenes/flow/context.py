@@ -32,7 +32,7 @@ class House:
     canvas: Canvas
     kiosk: bool = False
     idle: float = 0.0  # seconds since anyone pressed anything
-    mat: "RobotSession | None" = None  # where real robots drive
+    session: "RobotSession | None" = None  # where real robots drive
     compiler: Compiler = field(default_factory=Compiler)  # of the Lab's training
     backstage: Backstage = field(default_factory=Backstage)
     stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
@@ -40,7 +40,7 @@ class House:
     @property
     def robots(self) -> bool:
         """Whether real robots can be chosen for a match."""
-        return self.mat is not None and (self.mat.emulated or self.settings.mat)
+        return self.session is not None and (self.session.emulated or self.settings.mat)
 
     def prompts(
         self,

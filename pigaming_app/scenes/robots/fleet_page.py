@@ -48,12 +48,12 @@ class RobotsPage:
     """The page of a house whose mat may be used."""
 
     def __init__(self, house: House) -> None:
-        assert house.mat is not None
+        assert house.session is not None
         self.house = house
-        self.check = Checkup(house.mat, house.settings)
+        self.check = Checkup(house.session, house.settings)
         self.flood = Flood()
         self.flood.level = 0.0
-        self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
+        self.names = ROWS if not house.session.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
         self.focus = Focus(dials.spots(self.names), "pair")
         self.anew, self.age = 0.0, EVERY
         self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
@@ -187,7 +187,7 @@ class RobotsPage:
 
     def _trouble(self) -> str | None:
         """What camera or radio say is wrong."""
-        told = self.check.mat.trouble
+        told = self.check.session.trouble
         return self.house.words.sentence(told) if told else None
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:

@@ -32,7 +32,7 @@ class RobotStatus:
 class Checkup:
     """A look at the robots. `sentence`: why they cannot be used, or what has come of something."""
 
-    mat: RobotSession
+    session: RobotSession
     settings: Settings
     rig: Rig | None = None
     link: Any = None
@@ -54,16 +54,16 @@ class Checkup:
         """Open everything, or as much as there is."""
         self.refusal = None
         try:
-            self.rig = self.mat.open()
+            self.rig = self.session.open()
             self.link = self.rig.link
         except RobotsUnavailable as trouble:
             self.refusal = trouble.message
-            self.rig, self.link = None, self.mat.listen()
+            self.rig, self.link = None, self.session.listen()
 
     def end(self) -> None:
         """Stop the robots and let go."""
         self.stop()
-        self.mat.close()
+        self.session.close()
         self.rig = self.link = None
 
     @property
@@ -101,7 +101,7 @@ class Checkup:
 
     def update(self, seconds: float) -> bool:
         """Let time pass; true at the moment in which something is done."""
-        seconds = self.mat.advance(seconds)
+        seconds = self.session.advance(seconds)
         if self.rig is None:
             return False
         self._count(self.rig, seconds)

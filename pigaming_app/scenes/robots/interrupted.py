@@ -19,7 +19,7 @@ class InterruptedMatch(Held, Protocol):
 
     match: Match
     plant: MixedPlant
-    mat: RobotSession
+    session: RobotSession
 
     @property
     def real(self) -> set[int]:

@@ -48,15 +48,15 @@ class RealMatch(MatchScene):
         setup: Setup,
         devices: Sequence[Device | None],
         real: Collection[int],
-        mat: RobotSession,
+        session: RobotSession,
         match_of: MatchOf,
         game_choice: After | None = None,
     ) -> None:
         if reason := unfit(house.settings):
             raise refused(reason)
-        rig = mat.open()
+        rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
-        self.mat, self.match_of = mat, match_of
+        self.session, self.match_of = session, match_of
         super().__init__(
             house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen), game_choice=game_choice
         )
@@ -87,7 +87,7 @@ class RealMatch(MatchScene):
         """Stop the robots; let go of camera and radio, unless the next match has them already."""
         if not self.gone:
             self.gone = True
-            self.mat.close()
+            self.session.close()
 
     def on(self, press: Press) -> Turn:
         """As in every match. STOP stops all robots. While places are taken, START begins as they stand, EXTRA
@@ -119,7 +119,7 @@ class RealMatch(MatchScene):
         """Let the match run on, unless something is wrong with a robot in it."""
         if self.repeated or self.stopped:
             return super().update(seconds)
-        seconds = self.mat.advance(seconds)
+        seconds = self.session.advance(seconds)
         if self.gathering is not None:
             return self._gather(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
@@ -155,7 +155,7 @@ class RealMatch(MatchScene):
 
     def hold(self, seconds: float) -> None:
         """Let time pass under a page: all robots stand, and faults come and go."""
-        self._rest(self.mat.advance(seconds))
+        self._rest(self.session.advance(seconds))
 
     def shine(self, screen: pygame.Surface) -> None:
         """The corner markers and the discs, over everything."""

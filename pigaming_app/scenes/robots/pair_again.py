@@ -53,7 +53,7 @@ class PairAgain:
 
     def update(self, seconds: float) -> Turn:
         """Look for all robots, then let one after the other spin."""
-        seconds = self.match.mat.advance(seconds)
+        seconds = self.match.session.advance(seconds)
         self.clock += seconds
         self.flood.update(seconds, bool(self.missing) and not self.sentence)
         for _ in range(self.pace.due(seconds)):

@@ -24,7 +24,7 @@ def match_of(
     `speed`: times real time, for a match without real robots. `game_choice`: see `Results`.
     """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
-    if not real or house.mat is None:
+    if not real or house.session is None:
         return MatchScene(house, setup, devices, speed, game_choice=game_choice)
     from pigaming_app.scenes.robots.match_scene import RealMatch
     from pigaming_app.scenes.robots.unavailable import Refused
@@ -33,6 +33,6 @@ def match_of(
         return match_of(house, setup, devices, real, game_choice=game_choice)
 
     try:
-        return RealMatch(house, setup, devices, real, house.mat, again, game_choice)
+        return RealMatch(house, setup, devices, real, house.session, again, game_choice)
     except RobotsUnavailable as trouble:
         return Refused(house, setup, devices, real, trouble.message, again)

@@ -185,7 +185,7 @@ def test_whoever_comes_back_from_the_choice_of_the_arena_has_to_be_ready_again(a
 
 
 def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(arcade: Arcade) -> None:
-    arcade.house.mat = EmulatedSession(live=False)
+    arcade.house.session = EmulatedSession(live=False)
     arcade.house.settings.real = [2]
     arcade.open(Lobby(arcade.house, "pitanks"))
     arcade.press(Act.FIRE)
@@ -207,7 +207,7 @@ def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls, home: Path, language: str) -> None:
     arcade = Arcade(controls, language)
-    arcade.house.mat = EmulatedSession(live=False)
+    arcade.house.session = EmulatedSession(live=False)
     arcade.house.settings.radio, arcade.house.settings.real = "stock", [1]
     arcade.open(Lobby(arcade.house, "pitanks"))
     arcade.press(Act.FIRE)

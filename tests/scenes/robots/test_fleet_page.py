@@ -27,7 +27,7 @@ def mat() -> Iterator[EmulatedSession]:
 @pytest.fixture
 def arcade(controls: Controls, home: Path, mat: EmulatedSession) -> Iterator[Arcade]:
     arcade = Arcade(controls)
-    arcade.house.mat = mat
+    arcade.house.session = mat
     arcade.open(RobotsPage(arcade.house))
     arcade.wait(2.0, fps=50)
     yield arcade
@@ -135,7 +135,7 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
     arcade = Arcade(controls, "pt")
     settings = arcade.house.settings
     settings.port = "/dev/nowhere"
-    arcade.house.mat = mat = RealSession(settings, lambda: "1")
+    arcade.house.session = mat = RealSession(settings, lambda: "1")
     arcade.open(RobotsPage(arcade.house))
     try:
         page = arcade.shown(RobotsPage)
@@ -152,4 +152,4 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         arcade.wait(1.5, draw=True)
     finally:
         arcade.press(Act.BACK)
-    assert arcade.house.mat.trouble is None
+    assert arcade.house.session.trouble is None

@@ -10,6 +10,7 @@ import pytest
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
@@ -54,7 +55,7 @@ def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
 @pytest.fixture
 def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
     arcade = Arcade(controls)
-    arcade.house.mat = mat
+    arcade.house.session = mat
     return arcade
 
 
@@ -70,7 +71,7 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
     for _ in range(round(seconds * FPS)):
         arcade.frame(1 / FPS, draw=lit)
         if lit:
-            mat = arcade.house.mat
+            mat = arcade.house.session
             assert isinstance(mat, EmulatedSession)
             mat.show(lambda: pixels_of(arcade.screen))
 
@@ -159,6 +160,19 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
     until(arcade, RealMatch)
     play(arcade, 2.5)
     assert match.match.state.tick > before
+
+
+def test_a_match_drives_with_the_drift_that_its_session_measures(arcade: Arcade, mat: EmulatedSession) -> None:
+    """The scene paints the corner markers; that they have moved is measured without it."""
+    match = begun(arcade)
+    before, mat.arena.camera.painter.refresh = mat.arena.camera.painter.refresh, 1
+    play(arcade, 1.5, lit=True)
+    assert 0.0 < match.plant.rig.drift() < WARN
+    mat.arena.faults.switch("camera_bumped", True)
+    play(arcade, 2.5, lit=True)
+    assert match.plant.rig.drift() > PAUSE
+    assert arcade.shown(Trouble).faults[0].name == "drift"
+    mat.arena.camera.painter.refresh = before
 
 
 def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedSession) -> None:

@@ -132,7 +132,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
 ) -> None:
     calibrate(HERE)
     arcade = Arcade(controls, "pt")
-    arcade.house.mat = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
+    arcade.house.session = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
     match = match_of(arcade.house, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
     assert isinstance(match, RealMatch)
@@ -158,7 +158,7 @@ class Failing(RealMatch):
 
     def update(self, seconds: float) -> Turn:
         turn = super().update(seconds)
-        if any(robot.left or robot.right for robot in cast(EmulatedSession, self.mat).arena.robots):
+        if any(robot.left or robot.right for robot in cast(EmulatedSession, self.session).arena.robots):
             raise RuntimeError("on purpose")
         return turn
 
@@ -172,9 +172,9 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
 
     def first(house: House) -> RealMatch:
         houses.append(house)
-        assert isinstance(house.mat, EmulatedSession)
+        assert isinstance(house.session, EmulatedSession)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
-        return Failing(house, Setup("pitanks", "classic", seats, 0.1, 3, "plain"), [], (0, 1), house.mat)
+        return Failing(house, Setup("pitanks", "classic", seats, 0.1, 3, "plain"), [], (0, 1), house.session)
 
     code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
     assert code == int(alone)
