@@ -34,6 +34,7 @@ def test_on_the_emulated_arena_the_wizard_finds_what_is_true(tmp_path):
     assert told["lids_max_mm"] <= 4.0
 
 
+@pytest.mark.long
 def test_a_folder_that_cannot_be_written_is_said_and_is_no_success(tmp_path):
     (tmp_path / "config").write_text("a file in the way")
     ran = calibrate(tmp_path, "--emulate", "--json")

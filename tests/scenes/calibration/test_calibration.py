@@ -88,6 +88,7 @@ def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operate
     arcade.shown(ResultPage)
 
 
+@pytest.mark.long
 def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operated) -> None:
     arcade.begin()
     result = arcade.pictures(ResultPage, covered=True)
@@ -196,6 +197,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
     assert arcade.stack.top is arcade.setup
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("_home", "_no_threads_stay")
 def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -> None:
     site = EmulatedSite(1, live=True)

@@ -11,6 +11,7 @@ from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.input.events import Act
+from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import arcade, begun, kept, mat, match_for, play, until
 
@@ -37,7 +38,7 @@ def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
     return match
 
 
-@pytest.mark.parametrize("fault", WIRING)
+@pytest.mark.parametrize("fault", one_in(3, WIRING))
 def test_a_fault_present_from_the_start_is_named_within_three_seconds(
     arcade: Arcade, mat: EmulatedMat, fault: str
 ) -> None:
@@ -52,7 +53,7 @@ def test_a_fault_present_from_the_start_is_named_within_three_seconds(
     assert mat.arena.clock() - max(mat.arena.ran) > 1.5
 
 
-@pytest.mark.parametrize("fault", ["motors_reversed", "pinned"])
+@pytest.mark.parametrize("fault", one_in(2, ["motors_reversed", "pinned"]))
 def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
     arcade: Arcade, mat: EmulatedMat, fault: str
 ) -> None:
@@ -82,6 +83,7 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(arcad
     assert match.gathering is not None
 
 
+@pytest.mark.long
 def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcade, mat: EmulatedMat) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)
@@ -114,6 +116,7 @@ def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedMat
     assert max(mat.arena.ran) - stopped < 0.3
 
 
+@pytest.mark.long
 def test_a_single_reversed_motor_drives_off_only_a_hand_wide_while_pairing(arcade: Arcade, mat: EmulatedMat) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motor_reversed", True, 1)

@@ -23,6 +23,7 @@ from pigaming_app.scenes.robots.unavailable import Refused
 from pigaming_app.ui.draw.ink import GREY
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
+from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -115,6 +116,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
     until(arcade, Results)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
 def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: str) -> None:
     match = match_of(arcade.house, match_for(game, "normal easy normal easy", 0.05), [], (0, 2))
@@ -128,15 +130,18 @@ def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: 
 
 @pytest.mark.parametrize(
     ("fault", "says"),
-    [
-        ("camera_frozen", "camera"),
-        ("marker_covered", "lost"),
-        ("marker_held", "held"),
-        ("marker_twice", "twice"),
-        ("radio_unplugged", "radio"),
-        ("robot_off", "silent"),
-        ("battery_low", "empty"),
-    ],
+    one_in(
+        5,
+        [
+            ("camera_frozen", "camera"),
+            ("marker_covered", "lost"),
+            ("marker_held", "held"),
+            ("marker_twice", "twice"),
+            ("radio_unplugged", "radio"),
+            ("robot_off", "silent"),
+            ("battery_low", "empty"),
+        ],
+    ),
 )
 def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
     arcade: Arcade, mat: EmulatedMat, fault: str, says: str
@@ -279,6 +284,7 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> No
     assert mat.open() is again.plant.rig
 
 
+@pytest.mark.long
 def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedMat) -> None:
     mat.arena.faults.switch("marker_covered", True, 1)
     mat.arena.faults.switch("robot_off", True, 2)
