@@ -11,9 +11,5 @@ def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
 
     A tuple holds the values of several arguments.
     """
-    return [
-        case
-        if i % count == 0
-        else pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=pytest.mark.long)
-        for i, case in enumerate(cases)
-    ]
+    values = [case if isinstance(case, tuple) else (case,) for case in cases]
+    return [pytest.param(*value, marks=[pytest.mark.long] if i % count else []) for i, value in enumerate(values)]

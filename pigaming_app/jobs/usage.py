@@ -64,7 +64,7 @@ def parser() -> argparse.ArgumentParser:
     _arena_options(fidelity)
     doctor = jobs.add_parser("doctor", help="what is there, what is missing, what to do")
     doctor.add_argument("--json", action="store_true")
-    jobs.add_parser("test", help="lint, types, tests; further arguments go to pytest")
+    jobs.add_parser("test", help="lint, types, tests; --quick, --long, further words go to pytest")
     return main
 
 

@@ -1,29 +1,11 @@
-"""Every test of the scenes runs without a screen and without a sound card."""
+"""Fixtures of the tests of scenes."""
 
-import os
 import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
-os.environ["SDL_VIDEODRIVER"] = "dummy"
-os.environ["SDL_AUDIODRIVER"] = "dummy"
-os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
-os.environ["SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS"] = "1"  # as in the arcade: pads count though a window was closed
-
-import pygame
 import pytest
-
-from pigaming_app.ui.input.controls import Controls
-
-
-@pytest.fixture
-def controls() -> Iterator[Controls]:
-    pygame.display.init()
-    pygame.display.set_mode((1920, 1080))
-    pygame.event.clear()
-    yield Controls()
-    pygame.event.clear()
 
 
 @pytest.fixture

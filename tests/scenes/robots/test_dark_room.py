@@ -13,10 +13,9 @@ from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.take_places import Gathering
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
-from tests.scenes.robots.test_real_match import arcade, kept, mat, match_for, play
+from tests.scenes.robots.test_real_match import match_for, play
 
 pytest.importorskip("cv2")
-__all__ = ["arcade", "kept", "mat"]  # fixtures
 ALL = (0, 1, 2, 3)
 
 

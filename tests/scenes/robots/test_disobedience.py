@@ -13,10 +13,9 @@ from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.input.events import Act
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
-from tests.scenes.robots.test_real_match import arcade, begun, kept, mat, match_for, play, until
+from tests.scenes.robots.test_real_match import begun, match_for, play, until
 
 pytest.importorskip("cv2")
-__all__ = ["arcade", "kept", "mat"]  # fixtures
 WIRING = ("lids_swapped", "motors_reversed", "motors_swapped", "motor_reversed", "pinned")
 
 

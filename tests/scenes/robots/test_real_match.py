@@ -1,9 +1,7 @@
 """Matches with real robots as people live them, on the emulated arena in made-up time."""
 
-from collections.abc import Iterator
 from math import hypot
 
-import numpy as np
 import pygame
 import pytest
 
@@ -29,31 +27,6 @@ from tests.ui.input.virtual_pad import VirtualPad
 
 pytest.importorskip("cv2")
 FPS = 50
-
-
-@pytest.fixture(scope="module")
-def kept() -> EmulatedMat:
-    """One arena for all, because making and calibrating it takes a while."""
-    return EmulatedMat(live=False)
-
-
-@pytest.fixture
-def mat(kept: EmulatedMat) -> Iterator[EmulatedMat]:
-    arena = kept.arena
-    arena.project(np.zeros((1080, 1920), np.uint8))  # not what the test before showed last
-    for robot, pose in enumerate(((180, 260, 0.4), (1300, 700, 2.9), (1300, 200, 3.9), (300, 700, 5.5))):
-        arena.place(robot, pose)
-    yield kept
-    for name, robot in arena.faults.on():
-        arena.faults.switch(name, False, robot)
-    kept.close()
-
-
-@pytest.fixture
-def arcade(controls: Controls, mat: EmulatedMat) -> Arcade:
-    arcade = Arcade(controls)
-    arcade.house.mat = mat
-    return arcade
 
 
 def match_for(game: str, brains: str, minutes: float) -> Setup:
@@ -87,11 +60,19 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
     match = match_of(arcade.house, match_for("pitanks", "normal easy off off", minutes), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
+    started(arcade, match)
+    return match
+
+
+def started(arcade: Arcade, match: RealMatch) -> None:
+    """Let the robots begin as they stand, and wait until they drive."""
     play(arcade, 1.0)
     arcade.press(Act.START)
-    play(arcade, 5.0)
-    assert match.match.seconds > 0.5
-    return match
+    for _ in range(round(5.0 * FPS)):
+        if match.match.seconds > 0.5:
+            return
+        arcade.frame(1 / FPS)
+    raise AssertionError("the match does not begin")
 
 
 def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedMat) -> None:
@@ -277,10 +258,7 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> No
     again = arcade.shown(RealMatch)
     assert again is not match
     assert again.real == {0, 1}
-    play(arcade, 1.0)
-    arcade.press(Act.START)
-    play(arcade, 4.8)
-    assert again.match.seconds > 0.5
+    started(arcade, again)
     assert mat.open() is again.plant.rig
 
 
