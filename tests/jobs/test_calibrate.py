@@ -10,6 +10,8 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app.cli import main
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -62,9 +64,10 @@ def test_the_sheet_is_written_where_it_was_asked_for(tmp_path):
         (("--camera", "first"), "first"),
     ],
 )
-def test_what_cannot_be_done_is_one_line(tmp_path, arguments, part):
-    ran = calibrate(tmp_path, *arguments)
-    assert ran.returncode == 2
-    assert part in ran.stderr
-    assert ran.stderr.count("\n") == 1
-    assert ran.stdout == ""
+def test_what_cannot_be_done_is_one_line(tmp_path, monkeypatch, capsys, arguments, part):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    assert main(["calibrate", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert part in err
+    assert err.count("\n") == 1
+    assert out == ""

@@ -25,9 +25,9 @@ from pigaming_app.ui.draw import surface_cache
 from pigaming_app.ui.draw.ink import PLAYERS
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Act
 from tests.bench.memory import press
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import Arcade, Floor
 
 
 @pytest.fixture
@@ -107,18 +107,12 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
     assert not (tmp_path / "data" / "pigaming.log").read_text()
 
 
-class Leaving:
+class Leaving(Floor):
     """A scene in a reference cycle that leaves the stack in its third frame."""
 
     def __init__(self, turn: Turn) -> None:
         self.turn, self.frames = turn, 0
         self.cycle = lambda: self.turn
-
-    def entered(self) -> None:
-        pass
-
-    def on(self, press: Press) -> Turn:
-        return None
 
     def update(self, seconds: float) -> Turn:
         self.frames += 1

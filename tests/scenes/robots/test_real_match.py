@@ -112,7 +112,7 @@ def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: 
 @pytest.mark.parametrize(
     ("fault", "says"),
     one_in(
-        5,
+        7,
         [
             ("camera_frozen", "camera"),
             ("marker_covered", "lost"),
@@ -251,6 +251,7 @@ def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     until(arcade, RealMatch, 2.0)
 
 
+@pytest.mark.long
 def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
     match.restart()
