@@ -1,24 +1,22 @@
 """Tests touch no screen, no sound card and no file of the user but the cache of compiled code."""
 
 import os
+import pickle
 import tempfile
 import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import pytest
 
 from pigaming_app.sim.kernel import _cache_folder
 
-if TYPE_CHECKING:
-    from pigaming_app.ui.input.controls import Controls
-
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["SDL_AUDIODRIVER"] = "dummy"
-os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
 os.environ["SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS"] = "1"  # as in the arcade: pads count though a window was closed
+os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))  # before home moves: compiling takes long
 
 
@@ -30,20 +28,8 @@ def _a_home_of_their_own() -> Iterator[None]:
 
 
 @pytest.fixture
-def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The user's folders of one test."""
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
-    return tmp_path / "home"
-
-
-@pytest.fixture
-def _home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-
-
-@pytest.fixture
-def controls() -> "Iterator[Controls]":
-    """The devices of an arcade whose window is open, but seen by nobody."""
+def controls() -> Iterator[Any]:
+    """The controls of an arcade whose window is open, and whose queue of events is empty."""
     import pygame
 
     from pigaming_app.ui.input.controls import Controls
@@ -53,6 +39,45 @@ def controls() -> "Iterator[Controls]":
     pygame.event.clear()
     yield Controls()
     pygame.event.clear()
+
+
+@pytest.fixture
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The user's folders of one test."""
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+    return tmp_path / "home"
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _one_calibration(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Each emulated arena is calibrated once a session, and all workers share the result.
+
+    The wizard does not take this way: it calibrates in every test.
+    """
+    from pigaming_app.hardware.proof import testbed
+
+    worker = os.environ.get("PYTEST_XDIST_WORKER", "")
+    folder = tmp_path_factory.getbasetemp()
+    folder = folder.parent if worker else folder
+    calibrated = testbed.calibrated
+
+    def once(arena: Any) -> Any:
+        pace = arena.camera.pace
+        file = folder / f"ground-{arena.camera.painter._seed}-{pace.fps}-{pace.delay}-{arena._unrest}.pickle"
+        if not file.exists():
+            unfinished = file.with_suffix(f".{worker or 'new'}")
+            unfinished.write_bytes(pickle.dumps(calibrated(arena)))
+            unfinished.replace(file)
+        return pickle.loads(file.read_bytes())
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(testbed, "calibrated", once)
+        yield
+
+
+@pytest.fixture
+def _home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
 
 
 @pytest.fixture

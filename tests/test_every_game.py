@@ -128,8 +128,7 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
 
     from pigaming_app.scenes.views.registry import VIEWS
 
-    if game not in VIEWS:
-        return
+    assert game in VIEWS, f"{game} has no view: add one to scenes.views.VIEWS"
     from pigaming_app.scenes.views.benchmark.pitanks import Full
 
     pygame.display.init()
@@ -149,3 +148,9 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
             scene.draw(screen, match.state, 0.5, 0.02)
         assert digest(match.state) == before
     assert pygame.image.tobytes(screen, "RGB") != blank
+
+
+def test_a_game_without_a_view_fails(monkeypatch):
+    monkeypatch.setitem(games(), "unseen", games()["pitanks"])
+    with pytest.raises(AssertionError, match="unseen has no view"):
+        test_every_match_draws_headless_and_drawing_changes_nothing("unseen", arenas("pitanks")[0])

@@ -1,4 +1,4 @@
-"""Linter, formatter, type checker and tests, on all cores. Unknown options and files go to pytest."""
+"""Linter, formatter, type checker and tests, side by side on all cores. Unknown options and files go to pytest."""
 
 import os
 import subprocess
@@ -6,45 +6,85 @@ import sys
 import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import NamedTuple
 
 from pigaming_app import INSTALLED, ROOT
 from pigaming_app.jobs.refusal import Refusal
 
-TOOLS: dict[str, tuple[str, ...]] = {
+RUFF: dict[str, tuple[str, ...]] = {
     "ruff check": ("ruff", "check", "--quiet", "."),
     "ruff format": ("ruff", "format", "--check", "--quiet", "."),
-    "mypy": ("mypy", "--no-error-summary"),
 }
-WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "loadfile", "--no-loadscope-reorder")
+MYPY = {"mypy": ("mypy", "--no-error-summary")}
+UNITS = tuple(f"tests/{room}" for room in (
+    "sim", "games", "ai/brain", "ai/pitanks", "ai/factory", "ai/race", "ai/qlearning", "storage", "test_layers.py",
+))  # fmt: skip
+WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "worksteal")
 UNSEEN = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+
+
+class ToolResult(NamedTuple):
+    """The end of a tool's run; `output` holds both of its streams."""
+
+    name: str
+    code: int
+    seconds: float
+    output: str
 
 
 def options(parser: ArgumentParser) -> None:
     """Declare the options; `for_pytest` collects the unknown ones."""
     parser.set_defaults(for_pytest=[])
+    selection = parser.add_mutually_exclusive_group()
+    selection.add_argument("--quick", action="store_true", help=f"ruff and the unit tests: {', '.join(UNITS)}")
+    selection.add_argument("--long", action="store_true", help="the long proofs: only the tests marked `long`")
 
 
 def run(arguments: Namespace) -> int:
-    """Run every tool, also after one has failed; 0 if all pass. Raises Refusal.
+    """Run pytest and, beside it, the other tools; 0 if all pass. Raises Refusal.
 
-    The summary of pytest comes last on standard output; failures before it are named after it on standard error.
+    The summary of pytest comes last on standard output; the other tools report after it on standard error.
     """
     if INSTALLED:
         raise Refusal("an installed package has no tests: run main.py test in a clone")
-    failed = [name for name, tool in TOOLS.items() if not _passes(name, tool)]
-    code = _code(("pytest", *WORKERS, *arguments.for_pytest))
-    if failed:
-        print(f"FAILED before the tests: {', '.join(failed)}", file=sys.stderr)
-    return code or int(bool(failed))
+    tools = {} if arguments.long else RUFF if arguments.quick else RUFF | MYPY
+    marked = ("-m", "long" if arguments.long else "not long")
+    for_pytest = arguments.for_pytest
+    units = UNITS if arguments.quick and not any(map(_is_path, for_pytest)) else ()
+    with ThreadPoolExecutor(1) as beside:
+        results = beside.map(_run, tools.items())
+        with _python(("pytest", *WORKERS, *marked, *for_pytest, *units)) as pytest:
+            code = pytest.wait()
+        failed = [_report(result) for result in results]
+    return code or int(any(failed))
 
 
-def _passes(name: str, tool: Sequence[str]) -> bool:
+def _is_path(word: str) -> bool:
+    return Path(ROOT, word.partition("::")[0]).exists()
+
+
+def _run(tool: tuple[str, Sequence[str]]) -> ToolResult:
+    """Run a tool at a lower priority than the tests, which take longer."""
+    name, words = tool
     start = time.perf_counter()
-    code = _code(tool)
-    print(f"{name}: {'failed' if code else 'passed'} ({time.perf_counter() - start:.1f} s)", flush=True)
-    return code == 0
+    with _python(words, subprocess.PIPE) as process:
+        if sys.platform != "win32":
+            os.setpriority(os.PRIO_PROCESS, process.pid, 10)
+        output, _ = process.communicate()
+    return ToolResult(name, process.returncode, time.perf_counter() - start, output.decode(errors="replace"))
 
 
-def _code(tool: Sequence[str]) -> int:
-    command = [sys.executable, "-m", *tool]
-    return subprocess.run(command, cwd=ROOT, env={**os.environ, **UNSEEN}, check=False).returncode
+def _python(words: Sequence[str], output: int | None = None) -> subprocess.Popen[bytes]:
+    """Start a module of this Python; `output` is the destination of both its streams."""
+    command, environment = [sys.executable, "-m", *words], {**os.environ, **UNSEEN}
+    errors = None if output is None else subprocess.STDOUT
+    return subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=errors)
+
+
+def _report(result: ToolResult) -> bool:
+    """Print the result of a tool; true if it failed."""
+    verdict = "FAILED" if result.code else "passed"
+    print(f"{result.output}{result.name}: {verdict} ({result.seconds:.1f} s)", file=sys.stderr)
+    return result.code != 0

@@ -192,6 +192,7 @@ def test_other_requirements_are_installed_when_the_list_has_changed(furnished):
 # The first start
 
 
+@pytest.mark.long
 def test_offline_one_line_says_what_to_do_and_nothing_is_lost(clone):
     offline = {"PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull, "PIP_NO_CACHE_DIR": "1"}
     assert "is not to be had: if this machine is online" in refused(started(clone, "doctor", **offline))

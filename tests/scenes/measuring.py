@@ -4,7 +4,7 @@
 """
 
 import functools
-import gc
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -127,11 +127,14 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 
 
 def forget() -> None:
-    """Empty every cache of the scenes."""
+    """Empty every cache of what is drawn."""
     surfaces.clear()
-    for cached in gc.get_objects():
-        if isinstance(cached, functools._lru_cache_wrapper) and cached.__module__.startswith("pigaming_app.scenes"):
-            cached.cache_clear()
+    for name, module in list(sys.modules.items()):
+        if name.startswith(("pigaming_app.scenes", "pigaming_app.ui")):
+            for part in [module, *(one for one in vars(module).values() if isinstance(one, type))]:
+                for cached in vars(part).values():
+                    if isinstance(cached, functools._lru_cache_wrapper):
+                        cached.cache_clear()
 
 
 def marks_of(ink: Any) -> list[Mark]:

@@ -12,7 +12,7 @@ from pigaming_app.scenes.app import App, Options, run
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Scene, Turn
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.ui.input.events import Press
+from tests.scenes.arcade import Floor
 
 STEP = 1 / 60
 
@@ -24,17 +24,11 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     pygame.display.quit()
 
 
-class Quiet:
-    """A scene on which nothing happens; what it does in each frame can be said."""
+class Quiet(Floor):
+    """A scene on which nothing happens, and which counts its frames."""
 
     def __init__(self, house: House) -> None:
         self.house, self.frames = house, 0
-
-    def entered(self) -> None:
-        pass
-
-    def on(self, press: Press) -> Turn:
-        return None
 
     def update(self, seconds: float) -> Turn:
         self.frames += 1

@@ -23,6 +23,7 @@ from pigaming_app.scenes.views import game_tile
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import text as texts
 from pigaming_app.ui.draw.surface_cache import surfaces
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets import labels as page
@@ -30,6 +31,7 @@ from pigaming_app.ui.widgets import player_card
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import Prompts, places
 from pigaming_app.ui.window import Canvas
+from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
@@ -59,12 +61,15 @@ PAGES: dict[str, Callable[[Arcade], Scene]] = {
 }
 
 
-@pytest.fixture(params=["en", "pt"])
-def arcade(
-    request: pytest.FixtureRequest, controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Arcade:
+@pytest.fixture(params=LANGUAGES)
+def language(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, language: str) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls, request.param)
+    arcade = Arcade(controls, language)
     arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     return arcade
 
@@ -76,6 +81,7 @@ def top(arcade: Arcade, name: str) -> Scene:
     return arcade.stack.top
 
 
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES), indirect=True)
 @pytest.mark.parametrize("name", PAGES)
 def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None:
     with VirtualPad() as pad:
@@ -89,6 +95,7 @@ def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None
         top(arcade, name).draw(arcade.screen)
 
 
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES), indirect=True)
 @pytest.mark.parametrize("name", PAGES)
 def test_a_mouse_may_click_anywhere(arcade: Arcade, name: str) -> None:
     for at in PLACES:

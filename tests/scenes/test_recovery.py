@@ -12,27 +12,18 @@ from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Push, Scene, Turn
 from pigaming_app.scenes.title import scene as title
-from pigaming_app.ui.input.events import Press
+from tests.scenes.arcade import Floor
 
 STEP = 1 / 30
 QUARTER = pygame.Rect(0, 0, 960, 540)
 Damage = Callable[[House, pygame.Surface], object]
 
 
-class Failing:
+class Failing(Floor):
     """A scene that does some damage to the screen and fails while it paints."""
 
     def __init__(self, house: House, damage: Damage) -> None:
         self.house, self.damage = house, damage
-
-    def entered(self) -> None:
-        pass
-
-    def on(self, press: Press) -> Turn:
-        return None
-
-    def update(self, seconds: float) -> Turn:
-        return None
 
     def draw(self, screen: pygame.Surface) -> None:
         screen.fill("black")

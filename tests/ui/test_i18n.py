@@ -18,9 +18,9 @@ def test_both_languages_have_the_same_keys() -> None:
     assert all(text.strip() for text in [*english.values(), *portuguese.values()])
 
 
-@pytest.mark.parametrize("key", sorted(texts("en")))
-def test_both_languages_are_told_the_same_values(key: str) -> None:
-    assert _holes(texts("en")[key]) == _holes(texts("pt")[key])
+def test_both_languages_are_told_the_same_values() -> None:
+    english, portuguese = texts("en"), texts("pt")
+    assert [key for key in english if _holes(english[key]) != _holes(portuguese[key])] == []
 
 
 def test_values_are_put_in_and_the_language_can_change() -> None:

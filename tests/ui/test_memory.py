@@ -24,9 +24,9 @@ from pigaming_app.ui import memory as heap
 from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Act
 from tests.bench.memory import press
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import Arcade, Floor
 
 
 @pytest.fixture
@@ -87,6 +87,7 @@ def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monk
     assert surfaces.bytes <= surface_cache.BUDGET
 
 
+@pytest.mark.long
 def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     surfaces.clear()
@@ -105,18 +106,12 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
     assert not (tmp_path / "data" / "pigaming.log").read_text()
 
 
-class Leaving:
+class Leaving(Floor):
     """A scene in a reference cycle that leaves the stack in its third frame."""
 
     def __init__(self, turn: Turn) -> None:
         self.turn, self.frames = turn, 0
         self.cycle = lambda: self.turn
-
-    def entered(self) -> None:
-        pass
-
-    def on(self, press: Press) -> Turn:
-        return None
 
     def update(self, seconds: float) -> Turn:
         self.frames += 1

@@ -223,6 +223,6 @@ def _cloth(random: np.random.Generator) -> Floats:
 
 def _vignette() -> Floats:
     """Less light towards the corners of the sensor: 30 % less in them."""
-    v, u = np.mgrid[0 : SENSOR[1], 0 : SENSOR[0]].astype(np.float32)
+    v, u = (axis.astype(np.float32) for axis in np.ogrid[0 : SENSOR[1], 0 : SENSOR[0]])
     r2 = ((u - SENSOR[0] / 2) ** 2 + (v - SENSOR[1] / 2) ** 2) / np.float32((SENSOR[0] ** 2 + SENSOR[1] ** 2) / 4)
     return np.asarray(1.0 - np.float32(0.3) * r2, dtype=np.float32)

@@ -29,6 +29,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
+from tests.cases import one_in
 from tests.games.factory.shop import Shop
 
 FLOORS = arenas("factory")
@@ -58,7 +59,7 @@ def total(match, name):
 # -------------------------------------------------------------------------------------------------------- whole matches
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", one_in(2, [1, 2]))
 @pytest.mark.parametrize("floor", FLOORS)
 def test_four_hard_drivers_spoil_nothing_and_one_team_delivers_everything(floor, seed):
     """The longest of 1000 such matches took less than 90 s."""
@@ -82,14 +83,14 @@ def test_mixed_company_gets_to_the_end():
         assert played(("easy", "normal", "hard", "normal"), floor, 5).state.winner
 
 
-@pytest.mark.parametrize("floor", FLOORS)
+@pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_eight_pallets_are_no_dead_end(floor):
     """Machines and entries are full all the time then."""
     assert played(("hard",) * 4, floor, 3, pallets=8).state.winner
 
 
 @pytest.mark.parametrize(
-    ("better", "worse", "least"), [("hard", "easy", 9), ("hard", "normal", 6), ("normal", "easy", 9)]
+    ("better", "worse", "least"), one_in(3, [("hard", "easy", 9), ("hard", "normal", 6), ("normal", "easy", 9)])
 )
 def test_the_strengths_are_ordered(better, worse, least):
     """In nine matches on all three floors, whichever side it is on; `normal` beats `hard` in one of five."""

@@ -235,6 +235,7 @@ def test_what_follows_counts_by_gamma():
     assert table.q[x * ACTIONS + DRIVE] == pytest.approx(-1.0 + 0.6 * 10.0)
 
 
+@pytest.mark.long
 def test_rewards_of_10_for_ever_tend_to_25():
     """10 / (1 - 0.6): each visit averages over all wishes so far, so it gets there slowly, and never beyond."""
     table = taught()

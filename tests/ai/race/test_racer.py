@@ -15,6 +15,7 @@ from pigaming_app.games.race.course import spot
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HZ
 from tests.bench.reference_lap import MIXTURES, STUCK, STUCK_PX, TARGETS
+from tests.cases import one_in
 
 TRACKS = arenas("race")
 REFERENCE = {"classic": 9.25, "hairpin": 10.71, "kidney": 9.34, "technical": 11.26}  # s, of tests.bench.reference_lap
@@ -70,7 +71,7 @@ def test_a_hard_driver_stays_on_the_course(track):
         assert match.state.racers[0].place.on
 
 
-@pytest.mark.parametrize("track", TRACKS)
+@pytest.mark.parametrize("track", one_in(4, TRACKS))
 def test_courses_can_be_driven_anticlockwise(track):
     arena = the_other_way_round(track)
     one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hard", "normal", "easy", "hard")))
@@ -86,7 +87,7 @@ def test_courses_can_be_driven_anticlockwise(track):
 
 
 @pytest.mark.parametrize("mixture", MIXTURES)
-@pytest.mark.parametrize("track", TRACKS)
+@pytest.mark.parametrize("track", one_in(2, TRACKS))
 def test_nobody_misses_a_line_or_is_stuck_and_all_finish(track, mixture):
     match = race(mixture, track, seed=11)
     trails = [deque(maxlen=STUCK) for _ in range(4)]

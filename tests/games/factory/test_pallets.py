@@ -29,6 +29,7 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.world import HZ
+from tests.cases import one_in
 from tests.games.factory.shop import Shop
 
 FLOORS = arenas("factory")
@@ -112,7 +113,7 @@ class Watch:
 
 
 @pytest.mark.parametrize("brains", [PAIRS, TWO])
-@pytest.mark.parametrize("pallets", [2, 5, 8])
+@pytest.mark.parametrize("pallets", one_in(3, [5, 2, 8]))
 @pytest.mark.parametrize("floor", FLOORS)
 def test_pallets_keep_their_promises_while_drivers_of_all_kinds_play(floor, pallets, brains):
     one, two, three, four = (Seat(brain, i % 2) for i, brain in enumerate(brains))
@@ -161,7 +162,7 @@ def jump(shop, present, chance, seconds):
 
 
 @pytest.mark.parametrize("present", [(0, 1, 2, 3), (0, 1)])
-@pytest.mark.parametrize("pallets", [2, 3, 4, 5, 6, 7, 8])
+@pytest.mark.parametrize("pallets", one_in(3, range(2, 9)))
 @pytest.mark.parametrize("floor", FLOORS)
 def test_pallets_keep_their_promises_while_robots_jump_from_slot_to_slot_and_press_fire(floor, pallets, present):
     """Whatever can be lifted and put anywhere soon is, right or wrong."""

@@ -26,6 +26,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.sim.action import press
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.world import DT, HZ
+from tests.cases import one_in
 
 FLOORS = arenas("factory")
 WAYS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
@@ -91,7 +92,7 @@ def time_to_process(floor, m, pose=None, stick=None):
     return 60.0
 
 
-@pytest.mark.parametrize(("floor", "m"), EVERY)
+@pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
 def test_a_robot_against_a_machine_costs_a_few_seconds_at_most(floor, m):
     """Its worker may have to go round it, and does not wait for what only turns its wheels."""
     undisturbed = time_to_process(floor, m)
@@ -115,7 +116,7 @@ def ended(floor, brains, pose=None):
     return match
 
 
-@pytest.mark.parametrize(("floor", "m"), EVERY)
+@pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
 def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floor, m):
     """The longest of 4992 such matches took 117 s; 60 s without anybody in the way."""
     poses = against(begun(floor, (PARK, None, None, None)).state, m)
@@ -124,7 +125,7 @@ def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floo
     assert match.seconds < 150.0
 
 
-@pytest.mark.parametrize(("floor", "m"), EVERY[::2])
+@pytest.mark.parametrize(("floor", "m"), one_in(3, EVERY[::2]))
 def test_and_while_one_is_parked_in_a_slot_of_a_machine(floor, m):
     state = begun(floor, (PARK, None, None, None)).state
     slot = state.slots[MACHINE_SLOTS + 2 * m + m // 2]
@@ -203,7 +204,7 @@ def test_a_worker_who_cannot_fetch_leaves_that_to_another_too():
     assert state.workers[1].task == CARRYING
 
 
-@pytest.mark.parametrize(("floor", "m"), EVERY)
+@pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
 def test_a_driver_takes_its_pallet_to_the_other_machine_if_nobody_comes_to_this_one(floor, m):
     """The place of its worker lies where nobody gets to."""
     match = begun(floor, ("hard", None, None, None))

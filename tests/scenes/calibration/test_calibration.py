@@ -2,10 +2,14 @@
 
 import ast
 import os
+import tempfile
 import time
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pygame
 import pytest
 
 pytest.importorskip("cv2")
@@ -34,6 +38,25 @@ from pigaming_app.ui.widgets import setting_row as dials
 from tests.scenes.operated import Operated
 
 LONG = 30.0  # s after which a test gives up waiting
+
+
+@pytest.fixture(scope="module")
+def made() -> Iterator[Finding]:
+    """A calibration by the wizard, made once for the tests of what comes after it."""
+    with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PIGAMING_HOME", home)
+        pygame.display.init()
+        arcade = Operated(Controls(), EmulatedCalibrationSite(2))
+        arcade.open(CalibrationPage(arcade.house, arcade.site))
+        arcade.begin()
+        yield arcade.pictures(ResultPage).finding
+
+
+def concluded(arcade: Operated, made: Finding) -> ResultPage:
+    """The page of a calibration that has been made, above the wizard's first."""
+    page = ResultPage(arcade.house, replace(made, site=arcade.site))
+    arcade.open(page)
+    return page
 
 
 @pytest.fixture
@@ -89,6 +112,7 @@ def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operate
     arcade.shown(ResultPage)
 
 
+@pytest.mark.long
 def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operated) -> None:
     arcade.begin()
     result = arcade.pictures(ResultPage, covered=True)
@@ -102,10 +126,11 @@ def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operat
     assert arcade.pictures(ResultPage).finding.good
 
 
-def test_a_calibration_that_is_too_bad_cannot_be_saved(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_calibration_that_is_too_bad_cannot_be_saved(
+    arcade: Operated, made: Finding, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("pigaming_app.hardware.calibration.solver.MEAN_MM", 0.001)
-    arcade.begin()
-    result = arcade.pictures(ResultPage)
+    result = concluded(arcade, made)
     assert result.finding.residuals is not None
     assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
     arcade.shown(ResultPage)
@@ -117,34 +142,33 @@ def test_a_calibration_that_is_too_bad_cannot_be_saved(arcade: Operated, monkeyp
 
 
 @pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root may write anywhere")
-def test_a_folder_that_cannot_be_written(arcade: Operated, tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_written(arcade: Operated, made: Finding, tmp_path: Path) -> None:
     (tmp_path / "config").mkdir()
     (tmp_path / "config").chmod(0o500)
-    arcade.begin()
-    arcade.pictures(ResultPage)
+    concluded(arcade, made)
     arcade.press(Act.FIRE)
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
 
 
-def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_cannot_be_saved_is_said_and_nothing_is_lost(
+    arcade: Operated, made: Finding, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def full(path: Path, text: str) -> None:
         raise NotSaved(f"{path} was not saved: the disk is full.")
 
-    arcade.begin()
-    arcade.pictures(ResultPage)
+    concluded(arcade, made)
     monkeypatch.setattr(store, "keep", full)
     arcade.press(Act.FIRE)
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
     monkeypatch.undo()
 
 
-def test_the_way_back_leads_out_of_every_page(arcade: Operated) -> None:
+def test_the_way_back_leads_out_of_every_page(arcade: Operated, made: Finding) -> None:
     arcade.begin()
     arcade.picture()
     arcade.press(Act.BACK)
     arcade.shown(CalibrationPage)
-    arcade.begin()
-    arcade.pictures(ResultPage)
+    concluded(arcade, made)
     arcade.press(Act.BACK)
     arcade.shown(CalibrationPage)
     arcade.press(Act.BACK)
@@ -161,19 +185,16 @@ def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
     arcade.shown(ResultPage)
 
 
-def test_nobody_puts_a_robot_on_the_outline(arcade: Operated, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_puts_a_robot_on_the_outline(arcade: Operated, made: Finding, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
-    arcade.go("by")
-    arcade.press(Act.RIGHT)
-    arcade.begin()
+    arcade.open(OutlinesPage(arcade.house, replace(made, site=arcade.site)))
     result = arcade.pictures(ResultPage)
     assert result.finding.trouble.key == "nobody"
 
 
-def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> None:
-    arcade.begin()
-    arcade.pictures(ResultPage)
+def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made: Finding) -> None:
+    concluded(arcade, made)
     arcade.press(Act.FIRE)
     arcade.press(Act.BACK)
     arcade.open(CheckPage(arcade.house, arcade.site))
@@ -197,6 +218,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
     assert arcade.stack.top is arcade.setup
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("_home", "_no_threads_stay")
 def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -> None:
     site = EmulatedCalibrationSite(1, live=True)
@@ -235,11 +257,9 @@ def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
     arcade.shown(BoardsPage)
 
 
-def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Operated, tmp_path: Path) -> None:
-    arcade.begin()
-    finding: Finding = arcade.pictures(ResultPage).finding
-    assert finding.ground is not None
-    store.save(finding.ground, store.calibration_file(arcade.site.name))
+def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Operated, made: Finding) -> None:
+    assert made.ground is not None
+    store.save(made.ground, store.calibration_file(arcade.site.name))
     here = arcade.house.canvas.projection
     for key, where, size in (("other_display", "2: 640 × 480", (1920, 1080)), ("other_camera", here, (1280, 720))):
         with pytest.raises(CalibrationError) as refused:

@@ -23,6 +23,7 @@ def test_the_markers_stand_beside_the_arena_and_on_the_canvas() -> None:
         assert place.right <= LEFT or place.left >= LEFT + WIDTH
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("controls")
 def test_who_runs_into_the_camera_is_noticed_and_who_does_not_is_left_alone(home: Path) -> None:
     mat = EmulatedSession(live=False)

@@ -41,13 +41,19 @@ STATES: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.fixture(scope="module")
+def site() -> EmulatedCalibrationSite:
+    """A site that is only asked what it is."""
+    return EmulatedCalibrationSite(2)
+
+
 @pytest.mark.usefixtures("_home")
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("state", STATES)
 def test_no_sentence_runs_into_the_spot(
-    controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str, state: str
+    controls: Controls, site: EmulatedCalibrationSite, monkeypatch: pytest.MonkeyPatch, language: str, state: str
 ) -> None:
-    arcade = Operated(controls, EmulatedCalibrationSite(2))
+    arcade = Operated(controls, site)
     arcade.house.words = Words(language)
     with measuring(monkeypatch) as screen:
         page = CheckPage(arcade.house, arcade.site)

@@ -1,29 +1,12 @@
 """Scenes that hold something are told when they are taken off the stack, however that happens."""
 
-import pygame
 import pytest
 
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Stack, Swap, Turn
-from pigaming_app.ui.input.events import Press
+from tests.scenes.arcade import Floor
 
 
-class Plain:
-    """A scene that holds nothing."""
-
-    def entered(self) -> None:
-        pass
-
-    def on(self, press: Press) -> Turn:
-        return None
-
-    def update(self, seconds: float) -> Turn:
-        return None
-
-    def draw(self, screen: pygame.Surface) -> None:
-        pass
-
-
-class Camera(Plain):
+class Camera(Floor):
     """A scene that holds a camera."""
 
     def __init__(self, name: str, told: list[str]) -> None:
@@ -33,10 +16,10 @@ class Camera(Plain):
         self.told.append(self.name)
 
 
-@pytest.mark.parametrize("turn", [Pop(), Swap(Plain()), Home(), Home(Plain()), Quit()])
+@pytest.mark.parametrize("turn", [Pop(), Swap(Floor()), Home(), Home(Floor()), Quit()])
 def test_whoever_is_taken_off_lets_go(turn: Turn) -> None:
     told: list[str] = []
-    stack = Stack(Plain())
+    stack = Stack(Floor())
     stack.turn(Push(Camera("one", told)))
     assert told == []
     stack.turn(turn)
@@ -45,7 +28,7 @@ def test_whoever_is_taken_off_lets_go(turn: Turn) -> None:
 
 def test_a_page_above_does_not_make_it_let_go_and_all_let_go_from_the_top() -> None:
     told: list[str] = []
-    stack = Stack(Plain())
+    stack = Stack(Floor())
     stack.turn(Push(Camera("low", told)))
     stack.turn(Push(Camera("high", told)))
     stack.turn(None)

@@ -36,6 +36,7 @@ SAFE = pygame.Rect(96, 54, 1728, 972)
 @pytest.fixture
 def arcade(controls: Controls, home: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setattr(progress, "MATCHES", {True: 2, False: 2})
+    monkeypatch.setattr(progress, "MINUTES", {True: 0.2, False: 0.2})
     arcade = Arcade(controls)
     arcade.open(Lab(arcade.house, fast=False))
     arcade.wait(0.5)

@@ -22,6 +22,7 @@ from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Press
+from tests.cases import one_in
 from tests.hardware.grounds import nominal
 from tests.hardware.sentences import sentence
 from tests.scenes.arcade import Arcade
@@ -166,7 +167,7 @@ class Failing(RealMatch):
         return None
 
 
-@pytest.mark.parametrize("alone", [True, False])
+@pytest.mark.parametrize("alone", one_in(2, [False, True]))
 def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, alone: bool) -> None:
     houses: list[House] = []
 

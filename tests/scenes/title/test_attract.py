@@ -16,6 +16,7 @@ from pigaming_app.scenes.title.attract import Attract, Demonstration, Page
 from pigaming_app.storage.scores import Table
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
+from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 
 LONGEST = 12.0  # s; the longest picture, machine A and then B, starts again after 9.1 s
@@ -23,7 +24,7 @@ PHASES = 0.1  # s between two frames
 FASTEST = 0.08  # s of a frame in which a match still runs at full speed
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 @pytest.mark.parametrize("game", LESSONS)
 def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls, game: str, language: str) -> None:
     arcade = Arcade(controls, language)
@@ -36,6 +37,7 @@ def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls
     assert len(frames) > LONGEST / PHASES / 2, "the pictures move"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
     home: Path, monkeypatch: pytest.MonkeyPatch, language: str

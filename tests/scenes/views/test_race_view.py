@@ -29,6 +29,7 @@ from pigaming_app.storage.safe_files import keep
 from pigaming_app.ui.draw.frame_budget import finished
 from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import LANGUAGES, Words
+from tests.cases import one_in
 
 HUMANS = ["human"] * 4
 CARD = pygame.Rect(160, 0, 316, 136)
@@ -72,7 +73,7 @@ def put(state, seat, x, y):
 
 
 @pytest.mark.parametrize("seats", [2, 3, 4])
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, seats, language):
     scene = Busy(seats, laps=1)
     view = seen(scene, ["human", "easy", "hard", "normal"], language=language)

@@ -1,0 +1,40 @@
+"""Real robots on the emulated arena in made-up time: one arena for all tests of a process."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.ui.input.controls import Controls
+from tests.scenes.arcade import Arcade
+
+
+@pytest.fixture(scope="session")
+def kept() -> Iterator[EmulatedSession]:
+    """The arena, made and calibrated once."""
+    pytest.importorskip("cv2")
+    mat = EmulatedSession(live=False)
+    yield mat
+    mat.end()
+
+
+@pytest.fixture
+def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
+    """The arena as if nothing had happened there: dark, four robots on it, no fault."""
+    arena = kept.arena
+    arena.project(np.zeros((1080, 1920), np.uint8))
+    for robot, pose in enumerate(((180, 260, 0.4), (1300, 700, 2.9), (1300, 200, 3.9), (300, 700, 5.5))):
+        arena.place(robot, pose)
+    yield kept
+    for name, robot in arena.faults.on():
+        arena.faults.switch(name, False, robot)
+    kept.close()
+
+
+@pytest.fixture
+def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
+    """An arcade beside the arena."""
+    arcade = Arcade(controls)
+    arcade.house.session = mat
+    return arcade
