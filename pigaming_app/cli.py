@@ -9,7 +9,7 @@ from typing import Any
 
 from pigaming_app.jobs import console as streams
 from pigaming_app.jobs.usage import Wrong, parser
-from pigaming_app.storage.parsing import one_line, reason
+from pigaming_app.storage.parsing import describe_error, one_line
 
 OF_ROBOTS = ("robots", "calibrate", "fidelity")
 FOLDERS = ("ghosts", "pictures", "robots")  # of files, in that for data
@@ -47,10 +47,10 @@ def _refused_in_one_line(argv: list[str]) -> int:
         refusal = str(trouble) if trouble.strerror is None else _named(trouble)
     streams.say(refusal)
     if argv and argv[0] in OF_ROBOTS:
-        from pigaming_app.storage.log import note
+        from pigaming_app.storage.log import append_line
         from pigaming_app.storage.settings import folders
 
-        note(folders().data, one_line(refusal))
+        append_line(folders().data, one_line(refusal))
     return 2
 
 
@@ -67,15 +67,15 @@ def _do(argv: list[str]) -> int:
 
 def _sweep() -> None:
     """Delete what a process that was killed left among the user's files."""
-    from pigaming_app.storage.safe_files import sweep
+    from pigaming_app.storage.safe_files import delete_temporary_files
     from pigaming_app.storage.settings import folders
 
     where = folders()
-    sweep(where.config, where.data, *(where.data / folder for folder in FOLDERS))
+    delete_temporary_files(where.config, where.data, *(where.data / folder for folder in FOLDERS))
 
 
 def _named(trouble: OSError) -> str:
-    return f"{trouble.filename or 'the output cannot be written'}: {reason(trouble)}"
+    return f"{trouble.filename or 'the output cannot be written'}: {describe_error(trouble)}"
 
 
 def mat_settings(arguments: argparse.Namespace) -> dict[str, Any]:

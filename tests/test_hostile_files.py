@@ -32,8 +32,8 @@ from pigaming_app.jobs import replay_files
 from pigaming_app.scenes.lab import table_files
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, tell
-from pigaming_app.storage.parsing import LINE
+from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, to_toml
+from pigaming_app.storage.parsing import MESSAGE_LENGTH
 from tests.hostile import HUGE, mutated, toml
 
 BYTES = (
@@ -52,7 +52,7 @@ def refused_or_used(read, errors):
     else:
         return True
     assert line.isprintable()
-    assert 0 < len(line) <= 2 * LINE
+    assert 0 < len(line) <= 2 * MESSAGE_LENGTH
     return False
 
 
@@ -71,7 +71,7 @@ def test_arenas(game, tmp_path):
 
 
 def robots_tree():
-    return tomllib.loads(tell([NOMINAL, NOMINAL]))
+    return tomllib.loads(to_toml([NOMINAL, NOMINAL]))
 
 
 def test_robots():

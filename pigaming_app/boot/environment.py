@@ -26,7 +26,7 @@ from pigaming_app.boot.interpreter import (
     site_packages,
     standing_on,
 )
-from pigaming_app.storage.safe_files import write
+from pigaming_app.storage.safe_files import write_atomic
 
 PIP_OPTIONS = ("--only-binary=:all:", "--no-input", "--disable-pip-version-check", "--retries=2", "--progress-bar=off")
 NOT_ALLOWED = {errno.EACCES, errno.EPERM, errno.EROFS}
@@ -141,7 +141,7 @@ def install(place: Path, groups: set[str]) -> None:
         code, said = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], tell=True)
         if code:
             raise Trouble(_cause(said, place, wanted))
-        write(place / "ready", "\n".join([standing_on(place), *sorted(groups)]).encode())
+        write_atomic(place / "ready", "\n".join([standing_on(place), *sorted(groups)]).encode())
     except OSError as error:
         raise Trouble(_cause(str(error), place, wanted)) from error
 

@@ -12,7 +12,7 @@ from typing import Any
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import dtype, packed
@@ -60,7 +60,7 @@ def make_step_all(judge: Callable[[Any], None]) -> Callable[[Any, Any], None]:
             match = matches[i]
             for seat in range(ROBOTS):
                 wish = actions[i][seat]
-                press(match.actions[seat], wish[0], wish[1], int(wish[2] > 0.5), int(wish[3] > 0.5))
+                set_action(match.actions[seat], wish[0], wish[1], int(wish[2] > 0.5), int(wish[3] > 0.5))
             judge(match)
             drive(match)
 

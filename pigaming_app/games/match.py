@@ -10,7 +10,7 @@ from typing import Any, Protocol
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS, Action
@@ -27,7 +27,7 @@ class Nobody:
     """An empty seat, or a robot that stands still."""
 
     def think(self, state: Any, seat: int) -> None:
-        press(state.actions[seat], 0.0, 0.0, 0, 0)
+        set_action(state.actions[seat], 0.0, 0.0, 0, 0)
 
 
 class Match:

@@ -47,13 +47,13 @@ def run(arguments: argparse.Namespace, show: Callable[[Any], int]) -> int:
 def _write(path: Path, edge: float) -> int:
     from pigaming_app.hardware.calibration.marker_sheet import sheet
     from pigaming_app.hardware.vision.markers import NoVision
-    from pigaming_app.storage.safe_files import check_target, write
+    from pigaming_app.storage.safe_files import require_writable, write_atomic
 
     if path.suffix.lower() != ".pdf":
         raise NotCalibrated(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     try:
-        check_target(path)
-        write(path, sheet(edge))
+        require_writable(path)
+        write_atomic(path, sheet(edge))
     except (NoVision, ValueError) as trouble:
         raise NotCalibrated(str(trouble)) from None
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")

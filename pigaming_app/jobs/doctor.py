@@ -14,7 +14,7 @@ from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.boot.interpreter import ARCADE, ROOT, Trouble, both_pygames, lacks, packages, requirements
-from pigaming_app.storage.parsing import json_of, one_line
+from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import folders
 
@@ -174,7 +174,7 @@ def _probed() -> dict[str, tuple[str, str]]:
     answers: dict[str, tuple[str, str]] = {}
     for line in said.decode(errors="replace").splitlines():
         with contextlib.suppress(ValueError):  # a driver may print as well
-            name, found, wrong = json_of(line)
+            name, found, wrong = parse_json(line)
             answers[str(name)] = str(found), str(wrong)
     return answers
 

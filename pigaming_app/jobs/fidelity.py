@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.session.workshop import kept_robots, open_workshop, wiring
-from pigaming_app.storage.parsing import reason
+from pigaming_app.storage.parsing import describe_error
 
 HZ = 50
 LOST = 5.0  # s of robots that cannot drive after which a recording is given up
@@ -40,11 +40,11 @@ def record(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
     from pigaming_app.hardware.recordings import Recorder
     from pigaming_app.hardware.vision.markers import NoVision
-    from pigaming_app.storage.safe_files import check_target
+    from pigaming_app.storage.safe_files import require_writable
 
     if arguments.emulate is None and wiring().radio == "stock":
         raise NotDone(NO_DEADMAN)
-    check_target(arguments.file)
+    require_writable(arguments.file)
     try:
         shop = open_workshop(arguments.emulate, arguments.camera, arguments.port)
     except (ValueError, ImportError, NoVision) as trouble:
@@ -60,7 +60,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
         finally:
             recorder.discard()
     except OSError as trouble:
-        raise NotDone(f"{arguments.file}: cannot be written ({reason(trouble)})") from None
+        raise NotDone(f"{arguments.file}: cannot be written ({describe_error(trouble)})") from None
     finally:
         shop.close()
     robots = ", ".join(str(robot + 1) for robot in present)
@@ -101,8 +101,8 @@ def identify(arguments: Namespace) -> dict[str, Any]:
     """Find the drivetrains, keep them, tell and draw how good they are."""
     from pigaming_app.hardware.session.assembly import measured
     from pigaming_app.hardware.sysid.evaluate import HORIZONS, TooShort, measure
-    from pigaming_app.sim.drivetrain import DrivetrainError, tell
-    from pigaming_app.storage.safe_files import NotSaved, keep
+    from pigaming_app.sim.drivetrain import DrivetrainError, to_toml
+    from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 
     run = _load(arguments.file)
     out = arguments.out or kept_robots(run.emulated)
@@ -111,7 +111,7 @@ def identify(arguments: Namespace) -> dict[str, Any]:
         drivetrains = list(measured(out))
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
-        keep(out, tell(drivetrains))
+        write_with_backup(out, to_toml(drivetrains))
     except (TooShort, NotSaved, DrivetrainError) as trouble:
         raise NotDone(str(trouble)) from None
     said = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on what was held out"]

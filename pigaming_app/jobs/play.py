@@ -17,8 +17,8 @@ from pigaming_app.jobs.replay_files import save
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS
-from pigaming_app.storage.parsing import ParseError, read_text, reason, shown
-from pigaming_app.storage.safe_files import NotSaved, check_target
+from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
+from pigaming_app.storage.safe_files import NotSaved, require_writable
 from pigaming_app.storage.settings import Settings, folders
 
 HELD_UP = 4.0  # s after which a picture is taken of what holds up real robots
@@ -43,7 +43,7 @@ def play(
         try:
             teams = [int(team) for team in arguments.teams.split(",")]
         except ValueError:
-            raise wrong(f"--teams: {shown(arguments.teams)}; numbers such as 0,0,1,1 are needed") from None
+            raise wrong(f"--teams: {quote(arguments.teams)}; numbers such as 0,0,1,1 are needed") from None
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
     names = list(BRAINS.get(arguments.game, {}))
     arena, minutes, seed, variant = arguments.arena, arguments.minutes, arguments.seed, arguments.variant
@@ -67,7 +67,7 @@ def _check_targets(record: Path | None, screenshot: Path | None, wrong: type[Exc
         raise wrong(f"--record: {record}: the picture has that name")
     for path in (record, screenshot):
         if path is not None:
-            check_target(path)
+            require_writable(path)
 
 
 def _plant(arguments: argparse.Namespace, real: list[int], wrong: type[Exception]) -> Callable[[Any], Plant]:
@@ -81,7 +81,7 @@ def _plant(arguments: argparse.Namespace, real: list[int], wrong: type[Exception
     except DrivetrainError as error:
         raise wrong(str(error)) from None
     except (OSError, ParseError) as error:
-        raise wrong(f"{arguments.robots}: cannot be read ({reason(error)})") from None
+        raise wrong(f"{arguments.robots}: cannot be read ({describe_error(error)})") from None
     return lambda world: SimPlant(world, drivetrains)
 
 
@@ -92,9 +92,9 @@ def _real(arguments: argparse.Namespace, setup: Setup, speed: float, wrong: type
     try:
         seats = there if text == "all" else sorted({int(one) - 1 for one in text.split(",") if one})
     except ValueError:
-        raise wrong(f"--real: {shown(text)}; numbers such as 1,3, or all, are needed") from None
+        raise wrong(f"--real: {quote(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in there]:
-        raise wrong(f"--real: nobody sits on seat {shown(stray[0])}")
+        raise wrong(f"--real: nobody sits on seat {quote(stray[0])}")
     if seats and arguments.record is not None:
         raise wrong("--record: what real robots do cannot be played out again; record it with `fidelity record`")
     if seats and speed != 1.0 and not arguments.headless:
@@ -123,7 +123,7 @@ def _speed(text: str, wrong: type[Exception]) -> float:
     except ValueError:
         speed = 0.0
     if not SLOWEST_RATE <= speed <= FASTEST_RATE:
-        raise wrong(f"--speed: {shown(text)}; a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}, or max, is needed")
+        raise wrong(f"--speed: {quote(text)}; a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}, or max, is needed")
     return speed
 
 

@@ -25,7 +25,7 @@ from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError
 from pigaming_app.scenes.lab import table_files
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
-from pigaming_app.storage.safe_files import check_target, write
+from pigaming_app.storage.safe_files import require_writable, write_atomic
 
 BAR = 24  # characters
 SHOWN_EVERY = 0.1  # s
@@ -59,9 +59,9 @@ def train(arguments: argparse.Namespace) -> int:
         seconds = _train(course, arguments, points, stopped)
         table_files.save(course.trained(arguments.out.stem), arguments.out)
         if arguments.csv:
-            write(arguments.csv, _csv_of(points))
+            write_atomic(arguments.csv, _csv_of(points))
         if arguments.curve:
-            write(arguments.curve, _curve_of(points, arguments))
+            write_atomic(arguments.curve, _curve_of(points, arguments))
     _tell(course, arguments, points, seconds, bool(stopped))
     return 130 if stopped else 0
 
@@ -87,7 +87,7 @@ def _check(arguments: argparse.Namespace) -> None:
         if realpath(path) in taken:
             raise ChoiceError(f"--{option}: {path}: another file of this training has that name")
         taken.add(realpath(path))
-        check_target(path)
+        require_writable(path)
     if arguments.curve and find_spec("matplotlib") is None:
         raise ChoiceError("--curve: matplotlib is missing; `pip install matplotlib`, or use --csv")
 

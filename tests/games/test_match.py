@@ -7,7 +7,7 @@ import pytest
 from pigaming_app.ai import make
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match, Nobody
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
 
 
@@ -23,7 +23,7 @@ class Steady:
         self.linear, self.angular = linear, angular
 
     def think(self, state, seat):
-        press(state.actions[seat], self.linear, self.angular, 0, 0)
+        set_action(state.actions[seat], self.linear, self.angular, 0, 0)
 
 
 def with_scores(scores, teams=(0, 1, 2, 3), brains=("random",) * 4):

@@ -4,10 +4,10 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.brain.thoughts import Thoughts
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import seeded, uniform
 
 HOLD = 10  # ticks for which a random action is held
 
@@ -27,17 +27,17 @@ def wake(mind: Any, seed: int) -> None:
 @kernel
 def stand_still(match: Any, seat: int, mind: Any, known: Any) -> None:
     """Nothing at all."""
-    press(match.actions[seat], 0.0, 0.0, 0, 0)
+    set_action(match.actions[seat], 0.0, 0.0, 0, 0)
 
 
 @kernel
 def do_anything(match: Any, seat: int, mind: Any, known: Any) -> None:
     """Every fifth of a second another of the 3 x 3 x 2 x 2 actions."""
     if match.tick % HOLD == 0:
-        linear = float(int(chance(mind) * 3.0)) - 1.0
-        angular = float(int(chance(mind) * 3.0)) - 1.0
-        fire = int(chance(mind) * 2.0)
-        press(match.actions[seat], linear, angular, fire, int(chance(mind) * 2.0))
+        linear = float(int(uniform(mind) * 3.0)) - 1.0
+        angular = float(int(uniform(mind) * 3.0)) - 1.0
+        fire = int(uniform(mind) * 2.0)
+        set_action(match.actions[seat], linear, angular, fire, int(uniform(mind) * 2.0))
 
 
 def explain_standing(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:

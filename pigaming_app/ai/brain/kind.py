@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any, Protocol
 
 from pigaming_app.ai.brain.thoughts import Thoughts
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import packed, record
 
 
@@ -87,4 +87,4 @@ class Hands:
     def think(self, state: Any, seat: int) -> None:
         """Set the seat's action from how the device is held right now."""
         held = self.read()
-        press(state.actions[seat], held.linear, held.angular, int(held.fire), int(held.turbo))
+        set_action(state.actions[seat], held.linear, held.angular, int(held.fire), int(held.turbo))

@@ -10,10 +10,10 @@ from pigaming_app.ai.brain.steering import turning
 from pigaming_app.ai.brain.unstick import choose_escape, held_up
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import SLOTS, WORKERS
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.world import CELL, HZ
 
 PERIOD = 5
@@ -41,7 +41,7 @@ def drive_to(view: Any, mind: Any, action: Any) -> None:
     moved = not errand.wanted or errand.goal_x != slot.x or errand.goal_y != slot.y
     errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
     if moved:  # the way comes with the next view
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.near and view.goal_distance < STAND_OFF and view.straight:
         make_way(view, mind, action)
@@ -63,7 +63,7 @@ def make_way(view: Any, mind: Any, action: Any) -> None:
             nearest = person.distance
             speed = -0.6 if abs(person.bearing) < 1.57 else 0.6
     mind.held_up = 0
-    press(action, speed, 0.0, 0, 0)
+    set_action(action, speed, 0.0, 0, 0)
 
 
 @kernel
@@ -71,14 +71,14 @@ def handle(view: Any, mind: Any, action: Any, slot: Any) -> None:
     """Turn to the slot, bring the fork over it, press."""
     dx, dy = view.fork_x - slot.x, view.fork_y - slot.y
     if dx * dx + dy * dy < AT * AT:
-        press(action, 0.0, 0.0, 0 if action.fire else 1, 0)
+        set_action(action, 0.0, 0.0, 0 if action.fire else 1, 0)
         return
     speed = 0.0
     if abs(view.goal_bearing) < 0.5:
         speed = (view.goal_distance - view.fork) / 40.0
         if speed > 0.0 and room(view, 0.0, 0.0) < 20.0:
             speed = 0.0
-    press(action, speed, turning(view.goal_bearing, view.angular, view.turn_rate, PERIOD), 0, 0)
+    set_action(action, speed, turning(view.goal_bearing, view.angular, view.turn_rate, PERIOD), 0, 0)
 
 
 @kernel
@@ -101,7 +101,7 @@ def follow_round(view: Any, mind: Any, action: Any) -> None:
     if not free and ahead < 80.0:
         speed = 0.0
     dash = mind.dash and view.goal_distance > 350.0 and view.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
-    press(action, speed, turning(bearing, view.angular, view.turn_rate, PERIOD), 0, 1 if dash else 0)
+    set_action(action, speed, turning(bearing, view.angular, view.turn_rate, PERIOD), 0, 1 if dash else 0)
 
 
 @kernel
@@ -147,7 +147,7 @@ def lose_patience(view: Any, mind: Any) -> None:
     if mind.late <= PATIENCE:
         return
     if mind.shun > 0 and mind.shunned == mind.target:
-        mind.detour, mind.via = DETOUR, int(chance(mind) * SLOTS)
+        mind.detour, mind.via = DETOUR, int(uniform(mind) * SLOTS)
     mind.shunned, mind.shun, mind.least, mind.late, mind.plan_in = mind.target, SHUN, 1e9, 0, 0
 
 
@@ -159,7 +159,7 @@ def make_detour(view: Any, mind: Any, action: Any) -> None:
     errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
     mind.detour -= PERIOD
     if moved:
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
         return
     if view.goal_distance < STAND_OFF:
         mind.detour = 0
@@ -183,4 +183,4 @@ def free_itself(view: Any, mind: Any, action: Any) -> None:
         if person.distance < STOP:
             ahead = abs(person.bearing) < 1.57
             mind.escape = -0.8 if ahead else 0.8
-    press(action, mind.escape, mind.escape_turn, 0, 0)
+    set_action(action, mind.escape, mind.escape_turn, 0, 0)

@@ -13,10 +13,10 @@ from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.factory.driving import drive_to, feel_held_up, free_itself, lose_patience, make_detour
 from pigaming_app.ai.factory.task_allocation import choose_job
 from pigaming_app.games.factory.observation import Eyes, View, see
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import HZ
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
@@ -80,7 +80,7 @@ def act(view: Any, mind: Any, action: Any) -> None:
     mind.resting -= PERIOD
     if view.frozen or mind.resting > 0:
         mind.held_up = 0
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.freeing > 0:
         free_itself(view, mind, action)
@@ -98,7 +98,7 @@ def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> A
 
     def fill(mind: ForemanMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
-        mind.resting = int(chance(mind) * START)  # nobody begins on the same tick
+        mind.resting = int(uniform(mind) * START)  # nobody begins on the same tick
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
         mind.eyes.delay = delay
 

@@ -9,7 +9,7 @@ from typing import Any
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, A, B
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 
 NO = 1e8  # a cost that says: impossible
 SPEED = 230.0  # px/s that a robot makes on the way, to weigh ways against waiting
@@ -166,7 +166,7 @@ def share_out(view: Any, mind: Any) -> int:
             continue
         cost = away(view, s) + then + shyness(mind, s) - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
-            cost += mind.noise * NOISE * chance(mind)
+            cost += mind.noise * NOISE * uniform(mind)
         if not alone:
             cost += best_other(view, view.others[mate], s, queue)
         if cost < least:

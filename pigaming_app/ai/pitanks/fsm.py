@@ -14,11 +14,11 @@ from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.brain.steering import approach, turning
 from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
 from pigaming_app.games.pitanks.observation import OTHERS, Eyes, View, see
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import bell, chance, seeded
+from pigaming_app.sim.rng import bell, seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HZ
 
@@ -74,7 +74,7 @@ def act(view: Any, mind: Any, action: Any) -> None:
     """The machine: remember, choose the state, let the state act."""
     mind.since += PERIOD
     pick_target(view, mind)
-    err(mind)
+    draw_error(mind)
     feel_held_up(view, mind, action)
     state = mind.state
     if state == DEFEND:
@@ -116,7 +116,7 @@ def defend(view: Any, mind: Any, action: Any) -> int:
 def attack(view: Any, mind: Any, action: Any) -> int:
     """Close in on the target round the walls, aim, fire."""
     if mind.target < 0:
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
         return ATTACK
     if view.cover and (view.lead > 0 or (view.lead == 0 and mind.unseen == 0 and mind.since > 4 * HZ)):
         return DEFEND
@@ -172,13 +172,13 @@ def pick_target(view: Any, mind: Any) -> None:
 
 
 @kernel
-def err(mind: Any) -> None:
+def draw_error(mind: Any) -> None:
     """Draw the error of the aim anew now and then."""
     mind.bias_left -= PERIOD
     if mind.bias_left <= 0:
         mind.bias_left = NEW_AIM
         mind.bias = 2.0 * mind.spread * bell(mind)
-        mind.weave = 1.0 if chance(mind) < 0.5 else -1.0
+        mind.weave = 1.0 if uniform(mind) < 0.5 else -1.0
 
 
 @kernel
@@ -207,14 +207,14 @@ def follow(view: Any, mind: Any, action: Any) -> None:
     if view.straight and near < 1.0:
         speed *= 0.3 + 0.7 * near
     dash = 1 if view.goal_distance > 300.0 and view.turbo > 0.5 and abs(bearing) < 0.3 else 0
-    press(action, speed, turning(bearing, view.angular, view.turn_rate, PERIOD), snap_shot(view, mind), dash)
+    set_action(action, speed, turning(bearing, view.angular, view.turn_rate, PERIOD), snap_shot(view, mind), dash)
 
 
 @kernel
 def shoot(view: Any, mind: Any, action: Any, speed: float) -> None:
     """Turn to the target's aim, and fire when it is on it."""
     aim = view.others[mind.target].aim + mind.bias
-    press(action, speed, turning(aim, view.angular, view.turn_rate, PERIOD), snap_shot(view, mind), 0)
+    set_action(action, speed, turning(aim, view.angular, view.turn_rate, PERIOD), snap_shot(view, mind), 0)
 
 
 @kernel
@@ -249,7 +249,7 @@ def duel(view: Any, mind: Any, action: Any, other: Any) -> None:
         shoot(view, mind, action, ahead)
     else:
         aside = other.bearing + SWERVE * mind.weave
-        press(action, ahead, turning(aside, view.angular, view.turn_rate, PERIOD), 0, 0)
+        set_action(action, ahead, turning(aside, view.angular, view.turn_rate, PERIOD), 0, 0)
 
 
 @kernel

@@ -9,10 +9,10 @@ from typing import Annotated, Any, NamedTuple
 from pigaming_app.ai.brain.unstick import Reflex
 from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
 from pigaming_app.ai.qlearning.rewards import Knobs, worth_of_action, worth_of_change
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 
 ACTIONS = 18
 PAIRS = STATES * ACTIONS
@@ -133,7 +133,7 @@ def draw(table: Any, state: int, heat: float, owner: Any) -> int:
     whole = 0.0
     for k in range(first, first + ACTIONS):
         whole += exp((table.q[k] - most) / heat)
-    ball = chance(owner) * whole
+    ball = uniform(owner) * whole
     for a in range(ACTIONS):
         ball -= exp((table.q[first + a] - most) / heat)
         if ball < 0.0:
@@ -144,7 +144,7 @@ def draw(table: Any, state: int, heat: float, owner: Any) -> int:
 @kernel
 def push(action: Any, move: int) -> None:
     """Set stick and button to one of the 18 moves."""
-    press(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
+    set_action(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
 
 
 def preferences(table: Any, state: int, heat: float) -> list[float]:

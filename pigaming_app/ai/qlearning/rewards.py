@@ -11,7 +11,7 @@ from pigaming_app.ai.qlearning.features import opponent_of, wall_of
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.sweep import clear
-from pigaming_app.sim.toml_table import quoted
+from pigaming_app.sim.toml_table import quote
 
 AHEAD = 0  # the sector in which a robot looks
 CREEP = 10.0  # px/s below which a robot does not move
@@ -61,9 +61,9 @@ class Recipe:
             value, (low, high) = getattr(self, field.name), BOUNDS.get(field.name, ANY)
             if isinstance(value, bool) or not isinstance(value, int if field.type is int else int | float):
                 kind = "whole number" if field.type is int else "number"
-                raise TypeError(f"{field.name}: {quoted(value)} is not a {kind}")
+                raise TypeError(f"{field.name}: {quote(value)} is not a {kind}")
             if not low <= value <= high:
-                raise ValueError(f"{field.name}: {quoted(value)}, but {low:g} to {high:g} are possible")
+                raise ValueError(f"{field.name}: {quote(value)}, but {low:g} to {high:g} are possible")
 
 
 @record

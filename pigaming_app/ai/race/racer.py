@@ -16,7 +16,7 @@ from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
 from pigaming_app.ai.race.overtaking import EDGE, choose_lane, held_to
 from pigaming_app.games.race.observation import OTHERS, Eyes, View, see
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -72,7 +72,7 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
 def act(view: Any, mind: Any, action: Any) -> None:
     """Remember, choose the state, let the state act."""
     mind.since += PERIOD
-    err(mind)
+    draw_error(mind)
     mind.eyes.look = look_ahead(view)
     feel_held_up(view, mind, action)
     if mind.state == BREAK_FREE:
@@ -113,7 +113,7 @@ def go_back(view: Any, action: Any) -> int:
         bearing, ahead = turn_to(bearing + pi), -1.0
     if abs(bearing) > 0.9:
         ahead = 0.0
-    press(action, ahead, 2.0 * bearing, 0, 0)
+    set_action(action, ahead, 2.0 * bearing, 0, 0)
     return GO_BACK if view.past > -SLACK else RACE
 
 
@@ -129,7 +129,7 @@ def break_free(view: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def err(mind: Any) -> None:
+def draw_error(mind: Any) -> None:
     """Draw the error of the line anew now and then."""
     mind.stray_left -= PERIOD
     if mind.stray_left <= 0:
@@ -169,20 +169,20 @@ def pursue(view: Any, mind: Any, action: Any, x: float, y: float) -> None:
     dy = y - view.y - LATE * view.linear * sin(middle)
     bearing = turn_to(atan2(dy, dx) - heading)
     if abs(bearing) > 1.2:
-        press(action, 0.0, 3.0 * bearing, 0, 0)
+        set_action(action, 0.0, 3.0 * bearing, 0, 0)
         return
     bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
     held = held_to(view, mind)
-    dash = use_turbo(view, mind, bend) if held > 1.0 else 0
+    dash = wants_turbo(view, mind, bend) if held > 1.0 else 0
     full = view.speed * (view.turbo_factor if dash else 1.0)
     speed, most = mind.speed * view.pace, GRIP * view.turn_rate / (abs(bend) * full + 1e-9)
     speed = speed if speed < most else most
     speed = speed if speed < held else held
-    press(action, speed, bend * speed * full / view.turn_rate, 0, dash)
+    set_action(action, speed, bend * speed * full / view.turn_rate, 0, dash)
 
 
 @kernel
-def use_turbo(view: Any, mind: Any, bend: float) -> int:
+def wants_turbo(view: Any, mind: Any, bend: float) -> int:
     """1 where the way is straight enough, the meter full enough to begin, and it is not wanted for somebody ahead."""
     if not view.on or abs(bend) * view.turbo_factor * view.speed > 0.8 * view.turn_rate or view.pace < 1.0:
         return 0

@@ -32,7 +32,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.factory.workers import fits, run_crew
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, burn, stop, stop_all
+from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
 from pigaming_app.sim.world import ROBOTS
 
 APART = 6.0  # px more than a touch at which a touch has ended
@@ -201,7 +201,7 @@ def steer(match: Any, k: int) -> None:
         stop(robot)
         return
     speed = rules.speed
-    burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
+    use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
     if robot.boosting:
         speed *= rules.turbo_factor
     robot.ask_linear = action.linear * speed

@@ -5,7 +5,7 @@ from typing import Any
 from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS, SHIELD
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import CELL, COLUMNS, ROBOTS, ROWS
 
@@ -80,12 +80,12 @@ def drop_pickup(match: Any) -> None:
     if free < 0:
         return
     for _ in range(8):
-        column = 2 + int(chance(match) * (COLUMNS - 4))
-        row = 2 + int(chance(match) * (ROWS - 4))
+        column = 2 + int(uniform(match) * (COLUMNS - 4))
+        row = 2 + int(uniform(match) * (ROWS - 4))
         x, y = column * CELL, row * CELL
         if not match.grid[row * COLUMNS + column] & BLOCKED and lonely(match, x, y):
             pickup = match.pickups[free]
-            pickup.kind = int(chance(match) * KINDS)
+            pickup.kind = int(uniform(match) * KINDS)
             pickup.alive = match.rules.pickup_life
             pickup.x, pickup.y = x, y
             return

@@ -14,7 +14,7 @@ from pigaming_app.games.pitanks.items import lay_mine, mind_mines, mind_pickups,
 from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
 from pigaming_app.sim.grid import ONE_NEAR, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, burn, stop_all
+from pigaming_app.sim.robot import RADIUS, stop_all, use_turbo
 from pigaming_app.sim.sweep import meets_bounds, meets_disc, meets_wall, off_wall
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
@@ -63,7 +63,7 @@ def steer(match: Any, k: int) -> None:
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     speed = rules.speed
     if rules.turbo:
-        burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
+        use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
         if robot.boosting:
             speed *= rules.turbo_factor
     if match.tanks[k].powers[SPEED]:

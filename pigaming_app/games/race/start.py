@@ -55,13 +55,13 @@ def _lines(table: Table, course: Course) -> tuple[float, ...]:
     shares = table.numbers("lines", LINES, 0.0, 1.0)
     gaps = [(shares[(i + 1) % LINES] - shares[i]) % 1.0 for i in range(LINES)]
     if 1.0 in shares:
-        raise table.wrong("lines", "1 is the same place as 0, write 0")
+        raise table.error("lines", "1 is the same place as 0, write 0")
     if abs(sum(gaps) - 1.0) > 1e-9:
-        raise table.wrong("lines", "must lie in the order of the way round")
+        raise table.error("lines", "must lie in the order of the way round")
     for i, gap in enumerate(gaps):
         if gap * course.length < APART:
             reason = f"{gap * course.length:.0f} px to the next, but at least {APART:g} px are needed"
-            raise table.wrong(f"lines[{i + 1}]", reason)
+            raise table.error(f"lines[{i + 1}]", reason)
     return tuple(share * course.length for share in shares)
 
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.messages import Said
 from pigaming_app.hardware.signals import Fix, Mark
-from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.toml_table import FieldError, Table
 from pigaming_app.sim.world import WIDTH
-from pigaming_app.storage.parsing import ParseError, shown, toml_of
+from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
 VERSION = 1
 LID = 70.0  # mm from the mat to the marker on a robot
@@ -126,18 +126,18 @@ def written(ground: Ground) -> str:
 def read(text: str, display: str, camera: tuple[int, int]) -> Ground:
     """The calibration that a file holds, for this display and a camera of this size. Raises NoGround."""
     try:
-        entries = toml_of(text)
+        entries = parse_toml(text)
     except ParseError as error:
         raise NoGround(Said(f"The calibration cannot be read ({error}): calibrate again.", "damaged")) from error
     if entries.get("version") != VERSION:
-        sentence = f"The calibration is of version {shown(entries.get('version'))}, not {VERSION}: calibrate again."
+        sentence = f"The calibration is of version {quote(entries.get('version'))}, not {VERSION}: calibrate again."
         raise NoGround(Said(sentence, "version"))
     check = entries.pop("check", None)
     if check != _check(entries):
         raise NoGround(Said("The calibration was changed by hand or is damaged: calibrate again.", "damaged"))
     try:
         ground = _ground(Table(entries))
-    except (Wrong, np.linalg.LinAlgError) as wrong:
+    except (FieldError, np.linalg.LinAlgError) as wrong:
         raise NoGround(Said(f"The calibration cannot be used ({wrong}): calibrate again.", "damaged")) from wrong
     if ground.display != display:
         sentence = f"The calibration was made on display {ground.display}, not {display}: calibrate again."
@@ -176,14 +176,14 @@ def _ground(table: Table) -> Ground:
     plane = table.numbers("plane", 9, -1e6, 1e6)
     foot = table.numbers("foot", 2, -1e5, 1e5)
     if not np.isfinite(np.linalg.inv(np.array(plane).reshape(3, 3))).all():
-        raise table.wrong("plane", "not a plane that can be seen")
+        raise table.error("plane", "not a plane that can be seen")
     cx, cy = lens.numbers("centre", 2, 0, 16384)
     display = table.entries.get("display")
     if not isinstance(display, str):
-        raise table.wrong("display", "a text is missing")
+        raise table.error("display", "a text is missing")
     lid, above = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
     if lid >= above:
-        raise table.wrong("lid", "as high as the camera")
+        raise table.error("lid", "as high as the camera")
     return Ground(
         display,
         Lens((int(width), int(height)), lens.number("k1"), lens.number("k2"), (cx, cy)),

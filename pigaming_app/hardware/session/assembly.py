@@ -21,7 +21,7 @@ from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.parsing import ParseError, read_text, reason, toml_of
+from pigaming_app.storage.parsing import ParseError, describe_error, parse_toml, read_text
 
 STOCK = "stock"  # one robot as it is sold, on a cable
 NO_PORT = "no serial port"
@@ -59,7 +59,7 @@ def measured(path: Path) -> tuple[Drivetrain, ...]:
     except FileNotFoundError:
         found = ()
     except (OSError, ParseError) as error:
-        raise DrivetrainError(f"{path.name}: cannot be read ({reason(error)})") from None
+        raise DrivetrainError(f"{path.name}: cannot be read ({describe_error(error)})") from None
     return (*found, *(UNMEASURED,) * (ROBOTS - len(found)))
 
 
@@ -67,7 +67,7 @@ def ground_of(path: Path) -> Ground:
     """The calibration in a file, whichever display it was made on. Raises NoGround."""
     try:
         text = read_text(path)
-        entries = toml_of(text)
+        entries = parse_toml(text)
         wide, high = entries["lens"]["size"]
         return read(text, str(entries["display"]), (int(wide), int(high)))
     except FileNotFoundError:

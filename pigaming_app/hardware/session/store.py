@@ -5,8 +5,8 @@ from pathlib import Path
 from pigaming_app.hardware.calibration.ground_plane import Ground, NoGround, read, written
 from pigaming_app.hardware.calibration.site import Site
 from pigaming_app.hardware.messages import Said
-from pigaming_app.storage.parsing import ParseError, read_text, reason
-from pigaming_app.storage.safe_files import keep
+from pigaming_app.storage.parsing import ParseError, describe_error, read_text
+from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.storage.settings import folders
 
 NONE = Said("There is no calibration yet: calibrate the camera.", "none")
@@ -24,10 +24,12 @@ def load(projection: str, site: Site, camera: tuple[int, int]) -> Ground:
     except FileNotFoundError:
         raise NoGround(NONE) from None
     except (OSError, ParseError) as error:
-        raise NoGround(Said(f"{path(site)} cannot be read ({reason(error)}): calibrate again.", "damaged")) from error
+        raise NoGround(
+            Said(f"{path(site)} cannot be read ({describe_error(error)}): calibrate again.", "damaged")
+        ) from error
     return read(text, projection, camera)
 
 
 def save(ground: Ground, site: Site) -> None:
     """Keep a calibration; the one before stays beside it as `.bak`. Raises NotSaved."""
-    keep(path(site), written(ground))
+    write_with_backup(path(site), written(ground))

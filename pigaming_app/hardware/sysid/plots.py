@@ -8,7 +8,7 @@ from typing import Any
 from pigaming_app.hardware.recordings import Run
 from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Verdict, predictions
 from pigaming_app.sim.drivetrain import NOMINAL
-from pigaming_app.storage.safe_files import write
+from pigaming_app.storage.safe_files import write_atomic
 
 SHOWN = 6  # predictions drawn for each robot
 
@@ -29,7 +29,7 @@ def draw(run: Run, verdicts: Sequence[Verdict], folder: Path) -> list[Path]:
         paint(figure, run, verdicts)
         picture = BytesIO()
         figure.savefig(picture, dpi=120, format="png")
-        write(folder / name, picture.getvalue())
+        write_atomic(folder / name, picture.getvalue())
         made.append(folder / name)
     return made
 

@@ -8,7 +8,7 @@ from pigaming_app.scenes.calibration.messages import paragraph, tell
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.options.page import Value
-from pigaming_app.storage.safe_files import NotSaved, write
+from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw.ink import FOCUS, GREY, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.ui.draw.layers import Lit, backdrop
@@ -106,7 +106,7 @@ class RobotsMenu:
 
         path, words = folders().data / SHEET, self.house.words
         try:
-            write(path, sheet())
+            write_atomic(path, sheet())
             self.sentence = words("robots.written", path=path)
         except NoVision as missing:
             log.warning("%s", missing)

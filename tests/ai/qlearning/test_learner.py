@@ -35,7 +35,7 @@ from pigaming_app.ai.qlearning.player import think, wake
 from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe, worth_of_action, worth_of_change
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
 
 FIRE = MOVES.index((0.0, 0.0, 1))
@@ -135,7 +135,7 @@ def test_among_several_the_nearest_of_another_team_is_the_opponent():
 
 def act(match, linear, fire):
     action = match.actions[0]
-    press(action, linear, 0.0, fire, 0)
+    set_action(action, linear, 0.0, fire, 0)
     return action
 
 
@@ -308,7 +308,7 @@ def test_a_player_draws_at_the_last_temperature_and_changes_nothing_but_its_acti
         moves.add(mind.move)
     assert moves == {FIRE, DRIVE}  # equals are drawn alike: it is a roulette, not the first of the best
     assert digest(table) == known
-    press(match.actions[0], 0.0, 0.0, 0, 0)
+    set_action(match.actions[0], 0.0, 0.0, 0, 0)
     assert digest(match) == before
 
 

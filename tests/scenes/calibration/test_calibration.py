@@ -131,7 +131,7 @@ def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monk
 
     arcade.begin()
     arcade.pictures(ResultPage)
-    monkeypatch.setattr(kept, "keep", full)
+    monkeypatch.setattr(kept, "write_with_backup", full)
     arcade.press(Act.FIRE)
     assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).sentence
     monkeypatch.undo()

@@ -26,7 +26,7 @@ from pigaming_app.scenes.views.race.track import edges, sign_post
 from pigaming_app.scenes.views.sprites.pickups import glyph
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
-from pigaming_app.storage.safe_files import keep
+from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.ui.draw.frame_budget import finished
 from pigaming_app.ui.i18n import LANGUAGES, Words
 
@@ -457,7 +457,7 @@ def test_a_ghost_of_another_engine_that_no_robot_could_drive_is_dropped_with_a_w
     scene = Busy(2)
     ghosts.write(tmp_path, scene.arena, a_ghost()).join()
     path = file_of(tmp_path, scene.arena)
-    keep(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
+    write_with_backup(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
     view = seen(scene)
     view.for_real(tmp_path)
     assert view.haunt.ghost is None
