@@ -145,11 +145,11 @@ def duel(arguments: argparse.Namespace) -> int:
     from pigaming_app.ai import BRAINS
     from pigaming_app.ai.experiments import league
     from pigaming_app.games.registry import games
-    from pigaming_app.games.setup import one_of
+    from pigaming_app.games.setup import require_one_of
 
-    one_of("game", arguments.game, list(games()))
+    require_one_of("game", arguments.game, list(games()))
     for brain in (arguments.left, arguments.right):
-        one_of("brain", brain, list(BRAINS[arguments.game]))
+        require_one_of("brain", brain, list(BRAINS[arguments.game]))
     result = league.duel(
         arguments.game,
         arguments.left,
@@ -190,13 +190,13 @@ def train(arguments: argparse.Namespace) -> int:
 def bench(arguments: argparse.Namespace) -> int:
     """How fast it all is here."""
     from pigaming_app.games.registry import games
-    from pigaming_app.games.setup import one_of
+    from pigaming_app.games.setup import require_one_of
     from pigaming_app.jobs.bench import job as benches
 
     if arguments.game == "robots":
         figures = _bench_robots()
     else:
-        one_of("game", arguments.game, [*games(), "robots"])
+        require_one_of("game", arguments.game, [*games(), "robots"])
         figures = benches.measure(arguments.game)
     if arguments.json:
         print(json.dumps(figures))

@@ -20,7 +20,7 @@ from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games import arenas, replay
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.replay import ReplayError
-from pigaming_app.games.setup import choose
+from pigaming_app.games.setup import make_setup
 from pigaming_app.hardware import recordings as runs
 from pigaming_app.hardware.calibration import ground_plane as ground
 from pigaming_app.hardware.calibration.ground_plane import NoGround
@@ -176,7 +176,7 @@ def test_ghosts(tmp_path, caplog):
 
 
 def packed_replay(path):
-    match = seated(choose("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
+    match = seated(make_setup("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
     while not match.over:
         match.tick()
     replay_files.save(match, path)

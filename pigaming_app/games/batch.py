@@ -19,7 +19,7 @@ from pigaming_app.sim.record import dtype, packed
 from pigaming_app.sim.world import ROBOTS
 
 
-def started(setups: Sequence[Setup]) -> list[Any]:
+def initial_states(setups: Sequence[Setup]) -> list[Any]:
     """A plain record for each setup, ready for its first tick. Raises ArenaError."""
     arenas = {(setup.game, setup.arena): load(setup.game, setup.arena) for setup in setups}
     states = []
@@ -32,7 +32,7 @@ def started(setups: Sequence[Setup]) -> list[Any]:
 
 def matches(setups: Sequence[Setup]) -> Any:
     """One match for each setup, all of one game, as a NumPy array (n,) of the game's record. Raises ArenaError."""
-    return packed(started(setups))
+    return packed(initial_states(setups))
 
 
 def step_all(matches: Any, actions: Any) -> None:

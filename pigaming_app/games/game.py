@@ -55,7 +55,7 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class Feat:
+class RecordKind:
     """A table of the best. `timed`: it holds milliseconds, and less is better; else points, and more is."""
 
     name: str
@@ -79,7 +79,7 @@ class Game:
     sides: str  # FREE, ALONE or PAIRS
     teams: tuple[int, int, int, int]  # of the seats, if nobody says otherwise
     columns: tuple[str, ...]  # keys of `facts`, as the table of results shows them
-    feats: tuple[Feat, ...]
+    feats: tuple[RecordKind, ...]
     read: Callable[[Table], Layout]  # what an arena file of this game holds besides its title; raises Wrong
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
     judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, ask for speeds

@@ -23,7 +23,7 @@ class Brain(Protocol):
         """Set `state.actions[seat]` for this tick."""
 
 
-class Nobody:
+class IdlePlayer:
     """An empty seat, or a robot that stands still."""
 
     def think(self, state: Any, seat: int) -> None:
@@ -31,7 +31,7 @@ class Nobody:
 
 
 class Match:
-    """A match of any game. All brains are `Nobody` until somebody sits down."""
+    """A match of any game. All brains are `IdlePlayer` until somebody sits down."""
 
     def __init__(
         self, setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, arena: Arena | None = None
@@ -44,8 +44,8 @@ class Match:
         self.game.start(self.state, self.arena, setup)
         self.plant = plant(self.state) if callable(plant) else plant
         self.plant.place([(robot.x, robot.y, robot.heading) for robot in self.state.robots])
-        self.brains: list[Brain] = [Nobody() for _ in range(ROBOTS)]
-        self.log = Log()
+        self.brains: list[Brain] = [IdlePlayer() for _ in range(ROBOTS)]
+        self.log = ActionLog()
         self.series: list[list[tuple[float, int]]] = [[(0.0, 0)] for _ in range(ROBOTS)]
 
     def sit(self, seat: int, brain: Brain) -> None:
@@ -105,7 +105,7 @@ class Match:
         return Outcome(rows, winners, tuple(tuple(line) for line in self.series), state.tick * DT)
 
 
-class Log:
+class ActionLog:
     """What every seat did on every tick, three bytes a seat: stick in 64ths, buttons and aim."""
 
     def __init__(self) -> None:

@@ -80,7 +80,7 @@ def play(replay: Replay) -> Match:
     """The match that a replay holds, before its first tick; its seats do what the file says."""
     match = Match(replay.setup, arena=parse(replay.setup.game, replay.source, replay.setup.arena))
     for seat in range(ROBOTS):
-        match.sit(seat, Player(replay.ticks))
+        match.sit(seat, ReplayPlayer(replay.ticks))
     return match
 
 
@@ -92,7 +92,7 @@ def verify(replay: Replay) -> bool:
     return digest(match.state) == replay.digest
 
 
-class Player:
+class ReplayPlayer:
     """A brain that does what a replay says; when that ends, nothing."""
 
     def __init__(self, ticks: bytes) -> None:

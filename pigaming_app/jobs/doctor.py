@@ -182,9 +182,9 @@ def _probed() -> dict[str, tuple[str, str]]:
 def _engine() -> Line:
     try:
         from pigaming_app.ai import seated
-        from pigaming_app.games.setup import choose
+        from pigaming_app.games.setup import make_setup
 
-        match = seated(choose("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
+        match = seated(make_setup("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
         for _ in range(50):
             match.tick()
     except Exception as error:  # whatever is broken in it, the report is wanted

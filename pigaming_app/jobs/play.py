@@ -12,7 +12,7 @@ from typing import Any
 from pigaming_app.ai import BRAINS, seated
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.setup import choose
+from pigaming_app.games.setup import make_setup
 from pigaming_app.jobs.replay_files import save
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -47,7 +47,7 @@ def play(
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
     names = list(BRAINS.get(arguments.game, {}))
     arena, minutes, seed, variant = arguments.arena, arguments.minutes, arguments.seed, arguments.variant
-    setup = choose(arguments.game, seats, arena, minutes, seed, variant, teams, names, goal)
+    setup = make_setup(arguments.game, seats, arena, minutes, seed, variant, teams, names, goal)
     speed = _speed(arguments.speed, wrong)
     real = _real(arguments, setup, speed, wrong)
     if real:

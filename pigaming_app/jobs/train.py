@@ -51,7 +51,7 @@ def train(arguments: argparse.Namespace) -> int:
     _check(arguments)
     course = _begin(arguments)
     points: list[Point] = []
-    if course.fast and not training.cached():
+    if course.fast and not training.is_compiled():
         print("compiling the training, once", file=sys.stderr)
     course.warm()
     with _interrupts() as stopped:

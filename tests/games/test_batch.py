@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pigaming_app.games.batch import matches, started, step_all
+from pigaming_app.games.batch import initial_states, matches, step_all
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action
@@ -54,7 +54,7 @@ def alone():
 
 
 def test_plain_matches_at_once_are_the_same_matches_alone(alone):
-    states = started(setups())
+    states = initial_states(setups())
     for tick in range(TICKS):
         step_all(states, wishes(tick).tolist())
     assert [digest(state) for state in states] == alone

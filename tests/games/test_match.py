@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.ai import make
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match, Nobody
+from pigaming_app.games.match import IdlePlayer, Match
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
 
@@ -44,7 +44,7 @@ def test_a_seat_is_handed_over_in_the_middle_of_a_match():
     for _ in range(50):
         match.tick()
     assert match.state.robots[0].x < x - 100.0
-    match.sit(0, Nobody())
+    match.sit(0, IdlePlayer())
     for _ in range(40):
         match.tick()
     assert abs(match.state.robots[0].linear) < 1.0

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
@@ -19,7 +19,7 @@ class SimpleMind:
     random: int
 
 
-def wake(mind: Any, seed: int) -> None:
+def reset(mind: Any, seed: int) -> None:
     """A fresh mind."""
     mind.random = seeded(seed)
 
@@ -53,5 +53,5 @@ def explain_anything(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
     return Thoughts("random", "dice", names={"percent": 6}, moves=moves, chosen=chosen)
 
 
-IDLE = Kind("idle", SimpleMind, stand_still, wake, explain=explain_standing)
-RANDOM = Kind("random", SimpleMind, do_anything, wake, explain=explain_anything)
+IDLE = BrainKind("idle", SimpleMind, stand_still, reset, explain=explain_standing)
+RANDOM = BrainKind("random", SimpleMind, do_anything, reset, explain=explain_anything)

@@ -15,20 +15,20 @@ from pigaming_app.sim.record import packed, record
 
 
 @record
-class Nothing:
+class NoWeights:
     """What a hand-written brain has learned."""
 
     nothing: int
 
 
 @cache
-def nothing(fast: bool) -> Any:
+def no_weights(fast: bool) -> Any:
     """Nothing learned, in either body."""
-    return packed([Nothing()]) if fast else [Nothing()]
+    return packed([NoWeights()]) if fast else [NoWeights()]
 
 
 @dataclass(frozen=True)
-class Kind:
+class BrainKind:
     """A sort of brain: `think(match, seat, mind, known)` sets the seat's action, `wake(mind, seed)` fills a fresh mind.
 
     `known(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
@@ -40,14 +40,14 @@ class Kind:
     mind: type
     think: Callable[[Any, int, Any, Any], None]
     wake: Callable[[Any, int], None]
-    known: Callable[[bool], Any] = nothing
+    known: Callable[[bool], Any] = no_weights
     explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
 
 
-class Thinker:
+class BrainPlayer:
     """A brain of some kind on a seat of a plain match."""
 
-    def __init__(self, kind: Kind, seed: int) -> None:
+    def __init__(self, kind: BrainKind, seed: int) -> None:
         self.kind = kind
         self.mind = kind.mind()
         self.known = kind.known(False)[0]
@@ -62,7 +62,7 @@ class Thinker:
         return self.kind.explain(state, seat, self.mind, self.known) if self.kind.explain else None
 
 
-class Held(Protocol):
+class Controller(Protocol):
     """Anything that is held like a pad: stick in [-1, 1], two buttons."""
 
     @property
@@ -78,10 +78,10 @@ class Held(Protocol):
     def turbo(self) -> bool: ...
 
 
-class Hands:
+class HumanPlayer:
     """A person: `read` is called on the tick on which it acts."""
 
-    def __init__(self, read: Callable[[], Held]) -> None:
+    def __init__(self, read: Callable[[], Controller]) -> None:
         self.read = read
 
     def think(self, state: Any, seat: int) -> None:

@@ -40,7 +40,7 @@ class Thoughts:
     chosen: str | Move = ""  # a key of `wishes` or of `moves`
 
 
-def share(value: float) -> float:
+def clamp(value: float) -> float:
     """A number held within 0..1."""
     return min(1.0, max(0.0, value))
 

@@ -80,13 +80,13 @@ class Reflex:
 
 
 @kernel
-def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
+def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
     """1 if the reflex has set the action of the next `period` ticks. `mind` has it as `reflex`, and a generator."""
     reflex = mind.reflex
     if not reflex.on:
         return 0
     robot, action = match.robots[seat], match.actions[seat]
-    feel(match, robot, opponent, reflex, action, period)
+    update_reflex(match, robot, opponent, reflex, action, period)
     classic = not match.rules.turbo
     if reflex.held_up >= (LONG if classic else PATIENCE) or reflex.waited >= WAITING:
         reflex.left, reflex.held_up, reflex.waited = SHORTLY if classic else LETTING_GO, 0, 0
@@ -106,7 +106,7 @@ def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
 
 
 @kernel
-def feel(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
+def update_reflex(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
     """Count for how long it has pushed against something that is not its opponent, or has waited for nobody."""
     dx, dy = robot.x - reflex.x, robot.y - reflex.y
     if dx * dx + dy * dy > SOMEWHERE * SOMEWHERE:

@@ -9,8 +9,8 @@ from functools import cache
 from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.games.batch import started
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
@@ -72,13 +72,13 @@ def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loo
 class Batch:
     """Many matches of one game, all with the same kinds of brains, in either body."""
 
-    def __init__(self, setups: Sequence[Setup], kinds: Sequence[Kind | None], fast: bool) -> None:
+    def __init__(self, setups: Sequence[Setup], kinds: Sequence[BrainKind | None], fast: bool) -> None:
         """One match for each setup; kinds of the seats, None (or nothing more) for an empty one; `fast`: compiled."""
         self.fast = fast
         self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
-        minds = [[awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
+        minds = [[fresh_mind(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
         columns = [list(column) for column in zip(*minds, strict=True)]
-        states = started(setups)
+        states = initial_states(setups)
         self.matches: Any = packed(states) if fast else states
         self.minds = [packed(column) for column in columns] if fast else columns
         self.known = [kind.known(fast) for kind in self.kinds]
@@ -107,7 +107,7 @@ class Batch:
         return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
 
 
-def awake(kind: Kind, seed: int, seat: int) -> Any:
+def fresh_mind(kind: BrainKind, seed: int, seat: int) -> Any:
     """A fresh mind for a seat of the match with that seed."""
     mind = kind.mind()
     kind.wake(mind, seed * ROBOTS + seat)

@@ -167,7 +167,7 @@ def make_detour(view: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+def detect_stuck(view: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
     if held_up(mind, view.x, view.y, False, HELD_UP, PERIOD) > HELD_UP_TICKS:
         mind.held_up, mind.freeing = 0, FREEING
@@ -175,7 +175,7 @@ def feel_held_up(view: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def free_itself(view: Any, mind: Any, action: Any) -> None:
+def back_out(view: Any, mind: Any, action: Any) -> None:
     """Back out with a turn, but not over anybody."""
     mind.freeing -= PERIOD
     for w in range(WORKERS):

@@ -9,10 +9,10 @@ three strengths differ in speed, in how long they think after each job, and in h
 
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.factory.driving import drive_to, feel_held_up, free_itself, lose_patience, make_detour
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.factory.driving import back_out, detect_stuck, drive_to, lose_patience, make_detour
 from pigaming_app.ai.factory.task_allocation import choose_job
-from pigaming_app.games.factory.observation import Eyes, View, see
+from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -28,8 +28,8 @@ START = 20  # ticks within which it wakes up
 class ForemanMind:
     """What the driver remembers."""
 
-    eyes: Eyes
-    sight: View  # numba takes no field named view
+    eyes: Senses
+    sight: Observation  # numba takes no field named view
     random: int
     speed: float  # share of full speed
     pause: int  # ticks for which it thinks after each job
@@ -62,7 +62,7 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
     if (match.tick + seat) % PERIOD:
         return
     action = match.actions[seat]
-    see(match, seat, mind.eyes, mind.sight)
+    observe(match, seat, mind.eyes, mind.sight)
     act(mind.sight, mind, action)
     action.aim = mind.target + 1
 
@@ -83,17 +83,17 @@ def act(view: Any, mind: Any, action: Any) -> None:
         set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.freeing > 0:
-        free_itself(view, mind, action)
+        back_out(view, mind, action)
         return
     if mind.detour > 0:
         make_detour(view, mind, action)
     else:
         drive_to(view, mind, action)
         lose_patience(view, mind)
-    feel_held_up(view, mind, action)
+    detect_stuck(view, mind, action)
 
 
-def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
+def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
     """A function that fills a fresh mind: share of full speed, s of thinking, misreckoning, s of late eyes, turbo."""
 
     def fill(mind: ForemanMind, seed: int) -> None:
@@ -105,6 +105,6 @@ def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> A
     return fill
 
 
-EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
-NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
-HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))
+EASY = BrainKind("easy", ForemanMind, think, make_reset(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
+NORMAL = BrainKind("normal", ForemanMind, think, make_reset(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
+HARD = BrainKind("hard", ForemanMind, think, make_reset(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))

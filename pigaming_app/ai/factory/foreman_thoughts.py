@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from math import pi, tau
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Sight, Thoughts, blend, share, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Sight, Thoughts, blend, clamp, towards
 from pigaming_app.ai.factory.driving import HELD_UP_TICKS, LOOK, ROBOT_ROOM, room
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, away, cheapest_place, cost_of
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, B
@@ -72,11 +72,11 @@ def _wishes(view: Any, mind: Any) -> dict[str, float]:
         if name in JOBS and not view.carries:
             cost = cost_of(view, s, QUEUE)
             if cost < NO / 2.0:
-                wishes[name] = max(wishes[name], share(1.0 - (away(view, s) + cost) / DEAR))
+                wishes[name] = max(wishes[name], clamp(1.0 - (away(view, s) + cost) / DEAR))
     place = cheapest_place(view, mind) if view.carries else -1
-    wishes["put"] = share(1.0 - 0.8 * away(view, place) / FAR) if place >= 0 else 0.0
+    wishes["put"] = clamp(1.0 - 0.8 * away(view, place) / FAR) if place >= 0 else 0.0
     wishes["wait"] = 1.0 if mind.near or view.frozen or mind.resting > 0 else 0.0
-    wishes["free"] = 1.0 if mind.freeing > 0 else share(mind.held_up / HELD_UP_TICKS)
+    wishes["free"] = 1.0 if mind.freeing > 0 else clamp(mind.held_up / HELD_UP_TICKS)
     return wishes
 
 
@@ -109,7 +109,7 @@ def _sights(view: Any, mind: Any, doing: str) -> Iterator[Sight]:
 
 def _rose(view: Any, mind: Any, doing: str) -> list[float]:
     """Where it wants to go, and which ways are not free."""
-    taken = [share(room(view, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
+    taken = [clamp(room(view, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
     if doing in ("frozen", "ponder"):
         return taken
     if doing == "free":

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.steering import bearing, follow, turning
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
@@ -70,7 +70,7 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
         return
     robot, action, opponent = match.robots[seat], match.actions[seat], nearest_opponent(match, seat)
     mind.since += period
-    feel_held_up(robot, mind, action)
+    detect_stuck(robot, mind, action)
     if opponent < 0:
         set_action(action, 0.0, 0.0, 0, 0)
     elif mind.state == BREAK_FREE:
@@ -125,7 +125,7 @@ def break_free(robot: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def feel_held_up(robot: Any, mind: Any, action: Any) -> None:
+def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
     if mind.state == BREAK_FREE:
         return
@@ -199,7 +199,7 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     set_action(match.actions[seat], 0.0, stick, fire, 0)
 
 
-def machine(name: str, unknown: Unknown) -> Kind:
+def machine(name: str, unknown: Unknown) -> BrainKind:
     """The machine with these numbers."""
 
     def wake(mind: Any, seed: int) -> None:
@@ -207,7 +207,7 @@ def machine(name: str, unknown: Unknown) -> Kind:
             setattr(mind.numbers, key, number)
         mind.random = seeded(seed)
 
-    return Kind(name, ClassicMind, think, wake)
+    return BrainKind(name, ClassicMind, think, wake)
 
 
 CLASSIC = machine("classic", Unknown())

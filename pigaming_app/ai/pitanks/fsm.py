@@ -10,10 +10,10 @@ The three strengths differ in how late they see others and how badly they aim, n
 from math import pi
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.steering import approach, turning
 from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
-from pigaming_app.games.pitanks.observation import OTHERS, Eyes, View, see
+from pigaming_app.games.pitanks.observation import OTHERS, Observation, Senses, observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
@@ -38,8 +38,8 @@ DEFEND, ATTACK, BREAK_FREE = range(3)
 class FsmMind:
     """What the machine remembers."""
 
-    eyes: Eyes
-    sight: View  # numba takes no field named view
+    eyes: Senses
+    sight: Observation  # numba takes no field named view
     spread: float  # rad, standard deviation of the aim
     patience: int  # ticks of seeing nobody in a level match after which it goes out
     dodges: int  # 1: it drives out of the way of bullets
@@ -65,7 +65,7 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
     """Look and decide every PERIOD ticks; in between the stick stays as it is."""
     if (match.tick + seat) % PERIOD:
         return
-    see(match, seat, mind.eyes, mind.sight)
+    observe(match, seat, mind.eyes, mind.sight)
     act(mind.sight, mind, match.actions[seat])
 
 
@@ -75,7 +75,7 @@ def act(view: Any, mind: Any, action: Any) -> None:
     mind.since += PERIOD
     pick_target(view, mind)
     draw_error(mind)
-    feel_held_up(view, mind, action)
+    detect_stuck(view, mind, action)
     state = mind.state
     if state == DEFEND:
         after = defend(view, mind, action)
@@ -182,7 +182,7 @@ def draw_error(mind: Any) -> None:
 
 
 @kernel
-def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+def detect_stuck(view: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
     if mind.state == BREAK_FREE:
         return
@@ -268,7 +268,7 @@ def dodge(view: Any, action: Any) -> None:
     action.linear = -side * ahead
 
 
-def wake(delay: float, spread: float, patience: float) -> Any:
+def make_reset(delay: float, spread: float, patience: float) -> Any:
     """A function that fills a fresh mind: seeing `delay` s late, aiming `spread` rad wide, patient for so many s."""
 
     def fill(mind: FsmMind, seed: int) -> None:
@@ -278,7 +278,7 @@ def wake(delay: float, spread: float, patience: float) -> Any:
     return fill
 
 
-EASY = Kind("easy", FsmMind, think, wake(delay=0.42, spread=0.14, patience=4.0))
-NORMAL = Kind("normal", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5))
-HARD = Kind("hard", FsmMind, think, wake(delay=0.12, spread=0.045, patience=1.5))
-FSM = Kind("fsm", FsmMind, think, wake(delay=0.24, spread=0.09, patience=2.5))
+EASY = BrainKind("easy", FsmMind, think, make_reset(delay=0.42, spread=0.14, patience=4.0))
+NORMAL = BrainKind("normal", FsmMind, think, make_reset(delay=0.24, spread=0.09, patience=2.5))
+HARD = BrainKind("hard", FsmMind, think, make_reset(delay=0.12, spread=0.045, patience=1.5))
+FSM = BrainKind("fsm", FsmMind, think, make_reset(delay=0.24, spread=0.09, patience=2.5))

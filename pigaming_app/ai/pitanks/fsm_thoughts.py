@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from math import cos, pi, sin
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, Sight, Thoughts, blend, share, towards
+from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, Sight, Thoughts, blend, clamp, towards
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS, Action
@@ -28,11 +28,11 @@ def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
         "cover": _cover(view, mind),
         "attack": 1.0 - _cover(view, mind),
         "fire": _fire(view, mind),
-        "dodge": share(2.0 - 2.0 * view.threat / SOON) if mind.dodges else 0.0,
-        "free": 1.0 if mind.state == fsm.BREAK_FREE else share(mind.held_up / fsm.HELD_UP_TICKS),
+        "dodge": clamp(2.0 - 2.0 * view.threat / SOON) if mind.dodges else 0.0,
+        "free": 1.0 if mind.state == fsm.BREAK_FREE else clamp(mind.held_up / fsm.HELD_UP_TICKS),
     }
     if match.rules.pickups:
-        wishes["collect"] = share(1.0 - view.prize_distance / DETOUR) if view.prize else 0.0
+        wishes["collect"] = clamp(1.0 - view.prize_distance / DETOUR) if view.prize else 0.0
     return Thoughts(
         doing=doing,
         because=_because(view, mind, doing),
@@ -91,7 +91,7 @@ def _cover(view: Any, mind: Any) -> float:
     """How much it wants to be in cover: level, less and less while nobody shows."""
     if not view.cover or view.lead < 0 or mind.target < 0:
         return 0.0
-    return 1.0 if view.lead > 0 else share(1.0 - mind.unseen / max(1, mind.patience))
+    return 1.0 if view.lead > 0 else clamp(1.0 - mind.unseen / max(1, mind.patience))
 
 
 def _fire(view: Any, mind: Any) -> float:
@@ -100,7 +100,7 @@ def _fire(view: Any, mind: Any) -> float:
         return 0.0
     other = view.others[mind.target]
     wide = RADIUS / (other.distance + 1.0)
-    return share(wide / (abs(other.aim + mind.bias) + 1e-9))
+    return clamp(wide / (abs(other.aim + mind.bias) + 1e-9))
 
 
 def _facts(view: Any, mind: Any) -> dict[str, float]:

@@ -3,10 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.brain.unstick import free
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.unstick import act_on_reflex
 from pigaming_app.ai.qlearning.features import nearest_opponent, situation
-from pigaming_app.ai.qlearning.learner import LearnerMind, Table, draw, push
+from pigaming_app.ai.qlearning.learner import LearnerMind, Table, apply_move, sample_move
 from pigaming_app.ai.qlearning.thoughts import explain
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import packed, unpack
@@ -19,20 +19,20 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
     if match.tick % known.knobs.period:
         return
     opponent = nearest_opponent(match, seat)
-    if opponent >= 0 and not free(match, seat, opponent, mind, known.knobs.period):
+    if opponent >= 0 and not act_on_reflex(match, seat, opponent, mind, known.knobs.period):
         mind.state = situation(match, seat, opponent, known.knobs.incoming)
-        mind.move = draw(known, mind.state, known.knobs.cold, mind)
-        push(match.actions[seat], mind.move)
+        mind.move = sample_move(known, mind.state, known.knobs.cold, mind)
+        apply_move(match.actions[seat], mind.move)
 
 
-def wake(mind: Any, seed: int) -> None:
+def reset(mind: Any, seed: int) -> None:
     """A fresh mind, which does what the table says and nothing else."""
     mind.random = seeded(seed)
 
 
-def wake_with_reflex(mind: Any, seed: int) -> None:
+def reset_with_reflex(mind: Any, seed: int) -> None:
     """A fresh mind that also frees itself where it pushes and gets nowhere."""
-    wake(mind, seed)
+    reset(mind, seed)
     mind.reflex.on = 1
 
 
@@ -52,6 +52,6 @@ class Learned:
         return self.bodies[fast]
 
 
-def player(name: str, known: Callable[[bool], Any], reflex: bool = False) -> Kind:
+def player(name: str, known: Callable[[bool], Any], reflex: bool = False) -> BrainKind:
     """The kind of brain that plays by a table; with `reflex`, as on a seat, it also frees itself where it is stuck."""
-    return Kind(name, LearnerMind, think, wake_with_reflex if reflex else wake, known, explain)
+    return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, known, explain)

@@ -75,7 +75,7 @@ RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}
 
 
 @kernel
-def worth_of_action(match: Any, seat: int, opponent: int, state: int, action: Any, knobs: Any) -> float:
+def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any, knobs: Any) -> float:
     """The reward for an action in a state as such, the moment it is chosen."""
     worth = 0.0
     if action.fire and not (knobs.loaded and match.tanks[seat].cooldown):
@@ -93,7 +93,7 @@ def worth_of_action(match: Any, seat: int, opponent: int, state: int, action: An
 
 
 @kernel
-def worth_of_change(before: int, after: int, knobs: Any) -> float:
+def transition_reward(before: int, after: int, knobs: Any) -> float:
     """The reward for what came of an action: the state before it and the state at the next decision."""
     worth: float = knobs.behind if exposed(after) and (knobs.behind_always or not exposed(before)) else 0.0
     return worth

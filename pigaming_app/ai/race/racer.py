@@ -12,10 +12,10 @@ inside to pass them.
 from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
 from pigaming_app.ai.race.overtaking import EDGE, choose_lane, held_to
-from pigaming_app.games.race.observation import OTHERS, Eyes, View, see
+from pigaming_app.games.race.observation import OTHERS, Observation, Senses, observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
@@ -40,8 +40,8 @@ RACE, GO_BACK, BREAK_FREE = range(3)
 class RacerMind:
     """What the driver remembers."""
 
-    eyes: Eyes
-    sight: View  # numba takes no field named view
+    eyes: Senses
+    sight: Observation  # numba takes no field named view
     speed: float  # share of full speed that it dares
     line: float  # share of the way from the middle of the course to the fastest line that it uses
     spread: float  # px, how far it strays from the line that it means
@@ -64,7 +64,7 @@ def think(match: Any, seat: int, mind: Any, known: Any) -> None:
     """Look and decide every PERIOD ticks; in between the stick stays as it is."""
     if (match.tick + seat) % PERIOD:
         return
-    see(match, seat, mind.eyes, mind.sight)
+    observe(match, seat, mind.eyes, mind.sight)
     act(mind.sight, mind, match.actions[seat])
 
 
@@ -74,7 +74,7 @@ def act(view: Any, mind: Any, action: Any) -> None:
     mind.since += PERIOD
     draw_error(mind)
     mind.eyes.look = look_ahead(view)
-    feel_held_up(view, mind, action)
+    detect_stuck(view, mind, action)
     if mind.state == BREAK_FREE:
         after = break_free(view, mind, action)
     elif mind.state == GO_BACK:
@@ -147,7 +147,7 @@ def look_ahead(view: Any) -> float:
 
 
 @kernel
-def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+def detect_stuck(view: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
     if mind.state == BREAK_FREE:
         return
@@ -193,7 +193,7 @@ def wants_turbo(view: Any, mind: Any, bend: float) -> int:
     return 1 if view.boosting or view.turbo > mind.boost else 0
 
 
-def wake(speed: float, line: float, spread: float, boost: float, delay: float) -> Any:
+def make_reset(speed: float, line: float, spread: float, boost: float, delay: float) -> Any:
     """A function that fills a fresh mind: see RacerMind; seeing others `delay` s late."""
 
     def fill(mind: RacerMind, seed: int) -> None:
@@ -204,6 +204,6 @@ def wake(speed: float, line: float, spread: float, boost: float, delay: float) -
     return fill
 
 
-EASY = Kind("easy", RacerMind, think, wake(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35))
-NORMAL = Kind("normal", RacerMind, think, wake(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
-HARD = Kind("hard", RacerMind, think, wake(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))
+EASY = BrainKind("easy", RacerMind, think, make_reset(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35))
+NORMAL = BrainKind("normal", RacerMind, think, make_reset(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
+HARD = BrainKind("hard", RacerMind, think, make_reset(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))

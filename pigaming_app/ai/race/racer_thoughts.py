@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from math import atan2, pi
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Sight, Thoughts, blend, share, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Sight, Thoughts, blend, clamp, towards
 from pigaming_app.ai.race import racer
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, blocked, held_to
 from pigaming_app.games.race.observation import OTHERS
@@ -75,16 +75,16 @@ def _wishes(view: Any, mind: Any) -> dict[str, float]:
     room, own = mark.half - EDGE, mind.line * mark.ideal
     costs = blocked(view, mind, own)
     sides = [blocked(view, mind, min(room, max(-room, own + side * CLEAR))) for side in (-1.0, 1.0)]
-    left, right = (share(costs / TROUBLE) * share(1.0 - side / TROUBLE) for side in sides)
+    left, right = (clamp(costs / TROUBLE) * clamp(1.0 - side / TROUBLE) for side in sides)
     may = view.on and view.pace >= 1.0
     return {
         "left": left,
-        "line": share(1.0 - costs / TROUBLE),
+        "line": clamp(1.0 - costs / TROUBLE),
         "right": right,
-        "brake": share(1.0 - min(view.pace, held_to(view, mind), 1.0)),
-        "turbo": 1.0 if view.boosting else share(view.turbo / max(0.1, mind.boost)) if may else 0.0,
-        "back": 1.0 if mind.state == racer.GO_BACK else share(view.past / racer.SLACK),
-        "free": 1.0 if mind.state == racer.BREAK_FREE else share(mind.held_up / racer.HELD_UP_TICKS),
+        "brake": clamp(1.0 - min(view.pace, held_to(view, mind), 1.0)),
+        "turbo": 1.0 if view.boosting else clamp(view.turbo / max(0.1, mind.boost)) if may else 0.0,
+        "back": 1.0 if mind.state == racer.GO_BACK else clamp(view.past / racer.SLACK),
+        "free": 1.0 if mind.state == racer.BREAK_FREE else clamp(mind.held_up / racer.HELD_UP_TICKS),
     }
 
 
@@ -130,4 +130,4 @@ def _rose(view: Any, mind: Any, x: float, y: float) -> list[float]:
         return towards(0.0 if mind.escape > 0.0 else pi)
     wanted = towards(turn_to(atan2(y - view.y, x - view.x) - view.heading))
     close = [one for one in view.others if one.present and one.distance < NEAR]
-    return blend(wanted, *(towards(one.bearing, -share(1.5 - 1.5 * one.distance / NEAR)) for one in close))
+    return blend(wanted, *(towards(one.bearing, -clamp(1.5 - 1.5 * one.distance / NEAR)) for one in close))

@@ -19,7 +19,7 @@ OTHERS = ROBOTS - 1
 
 
 @record
-class Eyes:
+class Senses:
     """What shapes the view of one seat, and what it asks of the navigator."""
 
     delay: float  # s by which others are seen late
@@ -57,7 +57,7 @@ class Person:
 
 
 @record
-class Place:
+class SlotView:
     """A slot."""
 
     kind: int
@@ -76,7 +76,7 @@ class Place:
 
 
 @record
-class View:
+class Observation:
     """What one seat sees."""
 
     x: float
@@ -96,7 +96,7 @@ class View:
     lead: int  # own team's deliveries less the others'
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
-    slots: Annotated[list[Place], SLOTS]
+    slots: Annotated[list[SlotView], SLOTS]
     way_x: float  # where to drive now to get on with the errand
     way_y: float
     way_bearing: float
@@ -107,7 +107,7 @@ class View:
 
 
 @kernel
-def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+def observe(match: Any, seat: int, eyes: Any, view: Any) -> None:
     """Fill the view of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
     view.x, view.y, view.heading = robot.x, robot.y, robot.heading
@@ -120,16 +120,16 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     view.seconds_left = (rules.ticks - match.tick) * 0.02
     view.lead = match.delivered[robot.team] - match.delivered[1 - robot.team]
     for i in range(OTHERS):
-        see_other(match, robot, (seat + 1 + i) % ROBOTS, eyes.delay, view.others[i])
+        observe_other(match, robot, (seat + 1 + i) % ROBOTS, eyes.delay, view.others[i])
     for w in range(WORKERS):
-        see_person(match, robot, w, view.people[w])
+        observe_person(match, robot, w, view.people[w])
     for s in range(SLOTS):
-        see_slot(match, seat, s, view.slots[s])
-    see_way(match, robot, eyes, view)
+        observe_slot(match, seat, s, view.slots[s])
+    observe_way(match, robot, eyes, view)
 
 
 @kernel
-def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
+def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
     """Robot j as `robot` sees it."""
     seen, load, motion = match.robots[j], match.loads[j], match.motions[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -145,7 +145,7 @@ def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
 
 
 @kernel
-def see_person(match: Any, robot: Any, w: int, person: Any) -> None:
+def observe_person(match: Any, robot: Any, w: int, person: Any) -> None:
     """Worker w as `robot` sees it."""
     worker = match.workers[w]
     person.x, person.y, person.walking = worker.x, worker.y, worker.walking
@@ -156,7 +156,7 @@ def see_person(match: Any, robot: Any, w: int, person: Any) -> None:
 
 
 @kernel
-def see_slot(match: Any, seat: int, s: int, place: Any) -> None:
+def observe_slot(match: Any, seat: int, s: int, place: Any) -> None:
     """Slot s as the robot of a seat sees it."""
     slot, team = match.slots[s], match.robots[seat].team
     place.kind, place.machine, place.x, place.y = slot.kind, slot.machine, slot.x, slot.y
@@ -177,7 +177,7 @@ def see_slot(match: Any, seat: int, s: int, place: Any) -> None:
 
 
 @kernel
-def see_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
+def observe_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
     """Where to drive now to get on with the errand."""
     errand = eyes.errand
     if not errand.wanted:

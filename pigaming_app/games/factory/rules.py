@@ -11,7 +11,7 @@ from math import cos, sin
 from typing import Any
 
 from pigaming_app.games.factory.pallets import free_shelf, move, ship, stock_up
-from pigaming_app.games.factory.pedestrians import observe
+from pigaming_app.games.factory.pedestrians import track_motion
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DELIVERED,
@@ -46,7 +46,7 @@ def judge(match: Any) -> None:
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
-            observe(match.motions[k], match.robots[k])
+            track_motion(match.motions[k], match.robots[k])
             grip(match, k)
     age(match)
     for team in range(TEAMS):

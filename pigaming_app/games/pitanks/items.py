@@ -26,7 +26,7 @@ def lay_mine(match: Any, k: int) -> int:
 
 
 @kernel
-def mind_mines(match: Any) -> None:
+def update_mines(match: Any) -> None:
     """Mines arm, go off under an opponent, and vanish in the end."""
     rules = match.rules
     reach = RADIUS + rules.mine_radius
@@ -50,7 +50,7 @@ def mind_mines(match: Any) -> None:
 
 
 @kernel
-def mind_pickups(match: Any) -> None:
+def update_pickups(match: Any) -> None:
     """Pick-ups appear, are taken by whoever touches them, and vanish in the end."""
     rules = match.rules
     reach = RADIUS + rules.pickup_reach

@@ -22,7 +22,7 @@ BESIDE = 22.0  # px between a robot in cover and the wall
 
 
 @record
-class Eyes:
+class Senses:
     """What shapes the view of one seat, and what it asks of the navigator."""
 
     delay: float  # s by which others are seen late
@@ -47,7 +47,7 @@ class Other:
 
 
 @record
-class View:
+class Observation:
     """What one seat sees."""
 
     x: float
@@ -84,7 +84,7 @@ class View:
 
 
 @kernel
-def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+def observe(match: Any, seat: int, eyes: Any, view: Any) -> None:
     """Fill the view of one seat."""
     robot, tank = match.robots[seat], match.tanks[seat]
     view.x, view.y, view.heading = robot.x, robot.y, robot.heading
@@ -97,22 +97,22 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     for i in range(OTHERS):
         j = (seat + 1 + i) % ROBOTS
         other = view.others[i]
-        see_other(match, robot, j, eyes.delay, other)
+        observe_other(match, robot, j, eyes.delay, other)
         if other.present and not other.mate and (nearest < 0 or other.distance < view.others[nearest].distance):
             nearest = i
     view.lead = lead(match, seat)
     view.cover = 0
     if nearest >= 0:
-        see_cover(match, robot, view.others[nearest].x, view.others[nearest].y, view)
-    see_threat(match, seat, robot, eyes.delay, view)
+        observe_cover(match, robot, view.others[nearest].x, view.others[nearest].y, view)
+    observe_threat(match, seat, robot, eyes.delay, view)
     view.prize = 0
     if match.rules.pickups:
-        see_prize(match, robot, view)
-    see_way(match, robot, eyes, view)
+        observe_pickup(match, robot, view)
+    observe_way(match, robot, eyes, view)
 
 
 @kernel
-def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
+def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
     """Robot j as `robot` sees it."""
     seen = match.robots[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -152,7 +152,7 @@ def lead(match: Any, seat: int) -> int:
 
 
 @kernel
-def see_cover(match: Any, robot: Any, from_x: float, from_y: float, view: Any) -> None:
+def observe_cover(match: Any, robot: Any, from_x: float, from_y: float, view: Any) -> None:
     """The nearest place from which an inner wall hides this robot from (from_x, from_y)."""
     least = 1e9
     for i in range(match.wall_count):
@@ -184,7 +184,7 @@ def see_cover(match: Any, robot: Any, from_x: float, from_y: float, view: Any) -
 
 
 @kernel
-def see_threat(match: Any, seat: int, robot: Any, delay: float, view: Any) -> None:
+def observe_threat(match: Any, seat: int, robot: Any, delay: float, view: Any) -> None:
     """The soonest bullet that would hit if nobody moved; those fired less than `delay` ago are not seen yet."""
     view.threat, view.threat_bearing, view.threat_side = 9.0, 0.0, 0.0
     reach = RADIUS + match.rules.bullet_radius
@@ -210,7 +210,7 @@ def see_threat(match: Any, seat: int, robot: Any, delay: float, view: Any) -> No
 
 
 @kernel
-def see_prize(match: Any, robot: Any, view: Any) -> None:
+def observe_pickup(match: Any, robot: Any, view: Any) -> None:
     """The nearest pick-up."""
     least = 1e9
     for pickup in match.pickups:
@@ -224,7 +224,7 @@ def see_prize(match: Any, robot: Any, view: Any) -> None:
 
 
 @kernel
-def see_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
+def observe_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
     """Where to drive now to get on with the errand."""
     errand = eyes.errand
     if not errand.wanted:

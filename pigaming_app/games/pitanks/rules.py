@@ -10,7 +10,7 @@ walls; a mine, which your next shot lays behind you.
 from math import cos, sin
 from typing import Any
 
-from pigaming_app.games.pitanks.items import lay_mine, mind_mines, mind_pickups, score
+from pigaming_app.games.pitanks.items import lay_mine, score, update_mines, update_pickups
 from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
 from pigaming_app.sim.grid import ONE_NEAR, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
@@ -35,8 +35,8 @@ def judge(match: Any) -> None:
     if fly(match):
         strike(match)
     if match.rules.pickups:
-        mind_mines(match)
-        mind_pickups(match)
+        update_mines(match)
+        update_pickups(match)
     for k in range(ROBOTS):
         if match.robots[k].present:
             steer(match, k)

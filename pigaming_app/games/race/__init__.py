@@ -1,16 +1,16 @@
 """Robot Race: first round the course wins."""
 
-from pigaming_app.games.game import ALONE, Feat, Game
-from pigaming_app.games.race.observation import Eyes, View, see
+from pigaming_app.games.game import ALONE, Game, RecordKind
+from pigaming_app.games.race.observation import Observation, Senses, observe
 from pigaming_app.games.race.rules import judge
-from pigaming_app.games.race.start import GOALS, LAPS, facts, feat, read, standing, start, times
+from pigaming_app.games.race.start import GOALS, LAPS, ranking_key, read, records, start, stats, times
 from pigaming_app.games.race.state import Race
 
 RACE = Game(
     name="race",
     state=Race,
-    eyes=Eyes,
-    view=View,
+    eyes=Senses,
+    view=Observation,
     variants=("standard",),
     minutes=(10,),
     default_minutes=10,
@@ -19,14 +19,14 @@ RACE = Game(
     sides=ALONE,
     teams=(0, 1, 2, 3),
     columns=("laps", "best", "total"),
-    feats=(Feat("lap", timed=True), Feat("race", timed=True, by_goal=True)),
+    feats=(RecordKind("lap", timed=True), RecordKind("race", timed=True, by_goal=True)),
     read=read,
     start=start,
     judge=judge,
-    see=see,
-    standing=standing,
-    facts=facts,
-    feat=feat,
+    see=observe,
+    standing=ranking_key,
+    facts=stats,
+    feat=records,
     times=times,
     goal="laps",
 )

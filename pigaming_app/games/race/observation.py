@@ -7,7 +7,7 @@ positive. Others are seen as they were `delay` seconds ago, by their speed; the 
 from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
-from pigaming_app.games.race.course import Place, leg, locate, spot, way_round
+from pigaming_app.games.race.course import CoursePosition, leg, locate, spot, way_round
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -20,12 +20,12 @@ RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 
 @record
-class Eyes:
+class Senses:
     """What shapes the view of one seat."""
 
     delay: float  # s by which others are seen late
     look: float  # px along the course to what it drives for
-    place: Place  # for working things out
+    place: CoursePosition  # for working things out
 
 
 @record
@@ -57,7 +57,7 @@ class Other:
 
 
 @record
-class View:
+class Observation:
     """What one seat sees."""
 
     x: float
@@ -89,7 +89,7 @@ class View:
 
 
 @kernel
-def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+def observe(match: Any, seat: int, eyes: Any, view: Any) -> None:
     """Fill the view of one seat."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     course, place = match.course, eyes.place
@@ -104,15 +104,15 @@ def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
     view.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
     view.left = rules.laps * course.length - racer.progress
     view.rank, view.finished = racer.rank, racer.finished
-    see_way(match, place, eyes.look, view)
-    see_mark(match, along + eyes.look, view.ahead)
-    see_next(match, seat, along, view)
+    observe_way(match, place, eyes.look, view)
+    observe_mark(match, along + eyes.look, view.ahead)
+    observe_next_line(match, seat, along, view)
     for i in range(OTHERS):
-        see_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
+        observe_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
 
 
 @kernel
-def see_way(match: Any, place: Any, look: float, view: Any) -> None:
+def observe_way(match: Any, place: Any, look: float, view: Any) -> None:
     """The fastest line from here on, and how the course turns."""
     course = match.course
     k, _ = leg(course, place.along)
@@ -134,7 +134,7 @@ def leg_way(course: Any, k: int) -> tuple[float, float]:
 
 
 @kernel
-def see_mark(match: Any, along: float, mark: Any) -> None:
+def observe_mark(match: Any, along: float, mark: Any) -> None:
     """A point of the fastest line."""
     course = match.course
     k, share = leg(course, along)
@@ -150,7 +150,7 @@ def see_mark(match: Any, along: float, mark: Any) -> None:
 
 
 @kernel
-def see_next(match: Any, seat: int, along: float, view: Any) -> None:
+def observe_next_line(match: Any, seat: int, along: float, view: Any) -> None:
     """How far it is to the line that the robot must cross next, or past it, and where to go then."""
     racer, course = match.racers[seat], match.course
     behind = racer.passed - 1 - racer.back
@@ -167,7 +167,7 @@ def see_next(match: Any, seat: int, along: float, view: Any) -> None:
 
 
 @kernel
-def see_other(match: Any, robot: Any, j: int, along: float, eyes: Any, other: Any) -> None:
+def observe_other(match: Any, robot: Any, j: int, along: float, eyes: Any, other: Any) -> None:
     """Robot j as `robot`, at `along`, sees it."""
     seen, place = match.robots[j], eyes.place
     other.present = seen.present

@@ -104,19 +104,19 @@ def set_rules(rules: Rules, setup: Setup) -> None:
     rules.laps = setup.goal or rules.laps
 
 
-def standing(match: Race, seat: int) -> float:
+def ranking_key(match: Race, seat: int) -> float:
     """Who has finished is before who has not, and earlier is better; else what counts is how far one came."""
     racer = match.racers[seat]
     return 1e9 - racer.finish if racer.finished else racer.progress
 
 
-def facts(match: Race, seat: int) -> Mapping[str, float]:
+def stats(match: Race, seat: int) -> Mapping[str, float]:
     """What one seat drove: laps, its best lap and the whole race in s, 0 where there is none."""
     racer = match.racers[seat]
     return {"laps": match.robots[seat].score, "best": racer.best_lap * DT, "total": racer.finish * DT}
 
 
-def feat(match: Race, seat: int) -> Mapping[str, int]:
+def records(match: Race, seat: int) -> Mapping[str, int]:
     """The best lap, and the race if it was finished, in ms."""
     racer = match.racers[seat]
     done = {"lap": racer.best_lap, "race": racer.finish}

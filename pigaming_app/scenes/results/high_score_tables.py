@@ -6,7 +6,7 @@ number of people. A match counts for a seat only if every opponent is a person o
 
 from dataclasses import dataclass, replace
 
-from pigaming_app.games.game import Feat, Setup
+from pigaming_app.games.game import RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, Table
 
@@ -42,7 +42,7 @@ def contest(setup: Setup, seat: int | None = None) -> Table:
     return Table(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
 
 
-def table_of(contest: Table, feat: Feat) -> Table:
+def table_of(contest: Table, feat: RecordKind) -> Table:
     """The table of a feat under the conditions of a contest."""
     return replace(contest, feat=feat.name, timed=feat.timed)
 
@@ -69,7 +69,7 @@ def contests(scores: Scores) -> list[Table]:
     return sorted(found, key=lambda one: (names.index(one.game), one.arena != "classic", one.arena, one.older, one))
 
 
-def told(value: int, feat: Feat | Table) -> str:
+def told(value: int, feat: RecordKind | Table) -> str:
     """Points, or milliseconds as minutes and seconds."""
     return clock(value / 1000.0) if feat.timed else str(value).replace("-", "−")
 

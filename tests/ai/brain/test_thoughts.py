@@ -5,7 +5,7 @@ from math import isfinite, pi
 import pytest
 
 from pigaming_app.ai import BRAINS, make
-from pigaming_app.ai.brain.kind import Thinker
+from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.pitanks import fsm
@@ -26,7 +26,7 @@ ALL = [(game, name) for game in games() for name in BRAINS[game]]
 KEPT = 0.9  # of a table's best move, for the second best
 
 
-def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Thinker:
+def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> BrainPlayer:
     """A player who knows of every state that one move is worth most, and the next one nearly as much."""
     table = Table()
     for name, value in vars(Recipe()).items():
@@ -34,7 +34,7 @@ def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Thin
     for k in range(0, len(table.q), ACTIONS):
         table.q[k + best], table.q[k + (best + 1) % ACTIONS] = reward, KEPT * reward
         table.n[k + best] = 7
-    return Thinker(player("taught", Learned(table)), seed=1)
+    return BrainPlayer(player("taught", Learned(table)), seed=1)
 
 
 def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> Match:
@@ -57,7 +57,7 @@ def load(game: str):
 
 def thoughts(match: Match, seat: int = 0) -> Thoughts:
     brain = match.brains[seat]
-    assert isinstance(brain, Thinker)
+    assert isinstance(brain, BrainPlayer)
     told = brain.explain(match.state, seat)
     assert told is not None
     return told

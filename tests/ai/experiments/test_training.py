@@ -19,7 +19,7 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain.kind import Thinker
+from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.experiments.training import Training
 from pigaming_app.ai.qlearning import table_files as tables
@@ -108,8 +108,8 @@ def test_a_checkpoint_stays_as_it_was_and_takes_a_seat(fast):
     course.run(600)
     assert (kept.matches, kept.experiences) == (2, 240)
     assert digest(kept.kind.known(False)[0]) == before != digest(course.checkpoint().kind.known(False)[0])
-    match = Match(training.setting(1, minutes=0.1))
-    match.sit(0, Thinker(kept.kind, 1))
+    match = Match(training.training_setup(1, minutes=0.1))
+    match.sit(0, BrainPlayer(kept.kind, 1))
     while not match.over:
         match.tick()
     assert any(match.log.ticks[tick : tick + 3] != b"\x40\x40\x00" for tick in range(0, len(match.log.ticks), 12))

@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.race.course import Place, locate
+from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes.views import VIEWS
 from pigaming_app.scenes.views.benchmark.pitanks import Full
@@ -88,7 +88,7 @@ def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, sea
 
 @pytest.mark.parametrize("track", arenas("race"))
 def test_every_track_has_its_badges_in_the_mud_beside_it_and_its_edges_in_the_arena(screen, track):
-    arena, place = load("race", track), Place()
+    arena, place = load("race", track), CoursePosition()
     for along in arena.plan.lines:
         x, y = sign_post(arena.plan.course, along)
         locate(arena.plan.course, x, y, place)

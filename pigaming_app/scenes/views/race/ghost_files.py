@@ -17,7 +17,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-from pigaming_app.games.race.course import Place, locate
+from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES, Rules
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.source_hash import engine_hash
@@ -104,7 +104,7 @@ def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
 
 def drivable(ghost: Ghost, arena: Arena) -> bool:
     """Whether a lap is no faster than the rules allow, and crosses each line when it says so."""
-    rules, course, place = Rules(), arena.plan.course, Place()
+    rules, course, place = Rules(), arena.plan.course, CoursePosition()
     way = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
     if way > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
         return False
