@@ -83,7 +83,7 @@ class Match:
         """How it stands, or how it ended."""
         state, game = self.state, self.game
         seats = [i for i in range(ROBOTS) if state.robots[i].present]
-        standing = {i: game.standing(state, i) for i in seats}
+        standing = {i: game.ranking_key(state, i) for i in seats}
         best = max(standing.values())
         leaders = [i for i in seats if standing[i] == best]
         one_team = len({state.robots[i].team for i in leaders}) == 1
@@ -95,8 +95,8 @@ class Match:
                 team=state.robots[i].team,
                 place=1 + ranks.index(standing[i]),
                 score=state.robots[i].score,
-                facts=game.facts(state, i),
-                feats=game.feat(state, i),
+                stats=game.stats(state, i),
+                records=game.records(state, i),
                 times=game.times(state, i),
             )
             for i in order

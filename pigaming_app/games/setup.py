@@ -59,9 +59,9 @@ def check_teams(rules: Game, playing: Sequence[int]) -> None:
         raise ChoiceError("at least two seats must be taken")
     if len(set(playing)) < 2:
         raise ChoiceError("there must be at least two teams")
-    if rules.sides == ALONE and len(set(playing)) < len(playing):
+    if rules.team_mode == ALONE and len(set(playing)) < len(playing):
         raise ChoiceError(f"{rules.name} knows no teams")
-    if rules.sides == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
+    if rules.team_mode == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
         raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
 
 

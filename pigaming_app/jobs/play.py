@@ -272,7 +272,7 @@ def _tell(match: Match, as_json: bool, seconds: float) -> None:
                 "place": row.place,
                 "team": row.team,
                 "score": row.score,
-                **row.facts,
+                **row.stats,
                 "times": row.times,
             }
             for row in outcome.rows
@@ -284,6 +284,6 @@ def _tell(match: Match, as_json: bool, seconds: float) -> None:
         brain = match.setup.seats[row.seat].brain
         facts = "  ".join(
             f"{name} {value:.0%}" if name == "aim" else f"{name} {round(value, 2):g}"
-            for name, value in row.facts.items()
+            for name, value in row.stats.items()
         )
         print(f"{row.place}.  P{row.seat + 1} {brain:8} {row.score:+4d}   {facts}")

@@ -114,7 +114,7 @@ def test_the_table_counts_what_the_game_counts():
     match = Match(setup())
     tank = match.state.tanks[1]
     tank.hits, tank.taken, tank.shots, tank.landed = 3, 2, 8, 2
-    facts = {row.seat: dict(row.facts) for row in match.outcome().rows}
+    facts = {row.seat: dict(row.stats) for row in match.outcome().rows}
     assert facts[1] == {"hits": 3, "taken": 2, "aim": 0.25}
     assert facts[0] == {"hits": 0, "taken": 0, "aim": 0.0}
     assert tuple(facts[0]) == match.game.columns

@@ -25,13 +25,13 @@ def reset(mind: Any, seed: int) -> None:
 
 
 @kernel
-def stand_still(match: Any, seat: int, mind: Any, known: Any) -> None:
+def stand_still(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Nothing at all."""
     set_action(match.actions[seat], 0.0, 0.0, 0, 0)
 
 
 @kernel
-def do_anything(match: Any, seat: int, mind: Any, known: Any) -> None:
+def do_anything(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Every fifth of a second another of the 3 x 3 x 2 x 2 actions."""
     if match.tick % HOLD == 0:
         linear = float(int(uniform(mind) * 3.0)) - 1.0
@@ -40,12 +40,12 @@ def do_anything(match: Any, seat: int, mind: Any, known: Any) -> None:
         set_action(match.actions[seat], linear, angular, fire, int(uniform(mind) * 2.0))
 
 
-def explain_standing(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain_standing(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """There is nothing on its mind."""
     return Thoughts("idle", "always")
 
 
-def explain_anything(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain_anything(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """Every move is as good to it as any other."""
     action = match.actions[seat]
     moves = {(ahead, turn, fire): 0.0 for ahead in (1, 0, -1) for turn in (-1, 0, 1) for fire in (0, 1)}

@@ -29,9 +29,9 @@ def no_weights(fast: bool) -> Any:
 
 @dataclass(frozen=True)
 class BrainKind:
-    """A sort of brain: `think(match, seat, mind, known)` sets the seat's action, `wake(mind, seed)` fills a fresh mind.
+    """A kind of brain: `think(match, seat, mind, weights)` sets the action of a seat, `reset(mind, seed)` fills a mind.
 
-    `known(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
+    `weights(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
     same one; it may read a file when it is first asked. `explain`, of the same arguments as `think`, says what is on
     its mind at this moment, for people who watch; it only reads.
     """
@@ -39,8 +39,8 @@ class BrainKind:
     name: str
     mind: type
     think: Callable[[Any, int, Any, Any], None]
-    wake: Callable[[Any, int], None]
-    known: Callable[[bool], Any] = no_weights
+    reset: Callable[[Any, int], None]
+    weights: Callable[[bool], Any] = no_weights
     explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
 
 
@@ -50,16 +50,16 @@ class BrainPlayer:
     def __init__(self, kind: BrainKind, seed: int) -> None:
         self.kind = kind
         self.mind = kind.mind()
-        self.known = kind.known(False)[0]
-        kind.wake(self.mind, seed)
+        self.weights = kind.weights(False)[0]
+        kind.reset(self.mind, seed)
 
     def think(self, state: Any, seat: int) -> None:
         """Set the seat's action for this tick."""
-        self.kind.think(state, seat, self.mind, self.known)
+        self.kind.think(state, seat, self.mind, self.weights)
 
     def explain(self, state: Any, seat: int) -> Thoughts | None:
         """What is on its mind; None: this kind keeps that to itself."""
-        return self.kind.explain(state, seat, self.mind, self.known) if self.kind.explain else None
+        return self.kind.explain(state, seat, self.mind, self.weights) if self.kind.explain else None
 
 
 class Controller(Protocol):

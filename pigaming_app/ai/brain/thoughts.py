@@ -1,6 +1,6 @@
 """What a brain shows of itself to whoever watches: what it sees, what it would like, what it does, in plain values.
 
-A kind of brain may have `explain(match, seat, mind, known) -> Thoughts`. It only reads: neither match nor mind is
+A kind of brain may have `explain(match, seat, mind, weights) -> Thoughts`. It only reads: neither match nor mind is
 changed, no random number is drawn, so a match plays out alike whether anybody watches or not.
 """
 

@@ -150,7 +150,7 @@ class End(NamedTuple):
 def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[End]]:
     """Play these matches, every other one with the sides swapped; how each ended, in their order."""
     game, matches = setups[0].game, len(setups)
-    brains = [left, right, left, right] if games()[game].sides == PAIRS else [left, right]
+    brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
     ticks = round(setups[0].minutes * 60 * HZ)
     if fast is None:
         fast = can_compile() and matches * ticks > WORTH_COMPILING
@@ -196,7 +196,7 @@ def _setups(
     require_one_of("game", game, list(games()))
     if not 1 <= matches <= MOST_MATCHES:
         raise ChoiceError(f"--matches: {matches}; possible are 1 to {MOST_MATCHES}")
-    brains = [left, right, left, right] if games()[game].sides == PAIRS else [left, right]
+    brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
     kinds = list(BRAINS[game])
     return [make_setup(game, brains, arena, minutes, seed + i // 2, variant, None, kinds, goal) for i in range(matches)]
 
@@ -213,7 +213,7 @@ def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[End]:
     """The end of every match, from the side of `left`."""
     rules = games()[game]
     for state in batch.ended():
-        one, other = ((rules.standing(state, seat), _score(state, seat)) for seat in (0, 1))
+        one, other = ((rules.ranking_key(state, seat), _score(state, seat)) for seat in (0, 1))
         if swapped:
             one, other = other, one
         yield End(one[0], other[0], one[1], other[1])

@@ -28,8 +28,8 @@ START = 20  # ticks within which it wakes up
 class ForemanMind:
     """What the driver remembers."""
 
-    eyes: Senses
-    sight: Observation  # numba takes no field named view
+    senses: Senses
+    obs: Observation
     random: int
     speed: float  # share of full speed
     pause: int  # ticks for which it thinks after each job
@@ -57,40 +57,40 @@ class ForemanMind:
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Look and decide every PERIOD ticks; in between the stick stays as it is."""
     if (match.tick + seat) % PERIOD:
         return
     action = match.actions[seat]
-    observe(match, seat, mind.eyes, mind.sight)
-    act(mind.sight, mind, action)
+    observe(match, seat, mind.senses, mind.obs)
+    act(mind.obs, mind, action)
     action.aim = mind.target + 1
 
 
 @kernel
-def act(view: Any, mind: Any, action: Any) -> None:
+def act(obs: Any, mind: Any, action: Any) -> None:
     """Choose a job now and then, and go about it."""
-    if view.carries != mind.carried:  # a job is done
-        mind.carried, mind.plan_in, mind.resting = view.carries, 0, mind.pause
+    if obs.carries != mind.carried:  # a job is done
+        mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
     mind.plan_in -= PERIOD
     mind.shun -= PERIOD
     if mind.plan_in <= 0:
         mind.plan_in = PLAN
-        choose_job(view, mind)
+        choose_job(obs, mind)
     mind.resting -= PERIOD
-    if view.frozen or mind.resting > 0:
+    if obs.frozen or mind.resting > 0:
         mind.held_up = 0
         set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.freeing > 0:
-        back_out(view, mind, action)
+        back_out(obs, mind, action)
         return
     if mind.detour > 0:
-        make_detour(view, mind, action)
+        make_detour(obs, mind, action)
     else:
-        drive_to(view, mind, action)
-        lose_patience(view, mind)
-    detect_stuck(view, mind, action)
+        drive_to(obs, mind, action)
+        lose_patience(obs, mind)
+    detect_stuck(obs, mind, action)
 
 
 def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
@@ -100,7 +100,7 @@ def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int
         mind.random, mind.target = seeded(seed), -1
         mind.resting = int(uniform(mind) * START)  # nobody begins on the same tick
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
-        mind.eyes.delay = delay
+        mind.senses.delay = delay
 
     return fill
 

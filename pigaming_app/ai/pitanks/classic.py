@@ -63,7 +63,7 @@ class ClassicMind:
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Look and decide every `period` ticks; in between the stick stays as it is."""
     period = mind.numbers.period
     if (match.tick + seat) % period:
@@ -202,12 +202,12 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
 def machine(name: str, unknown: Unknown) -> BrainKind:
     """The machine with these numbers."""
 
-    def wake(mind: Any, seed: int) -> None:
+    def reset(mind: Any, seed: int) -> None:
         for key, number in vars(unknown).items():
             setattr(mind.numbers, key, number)
         mind.random = seeded(seed)
 
-    return BrainKind(name, ClassicMind, think, wake)
+    return BrainKind(name, ClassicMind, think, reset)
 
 
 CLASSIC = machine("classic", Unknown())

@@ -13,7 +13,7 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import clear
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """The thoughts of the machine on `seat`."""
     opponent = nearest_opponent(match, seat)
     if not mind.errand.wanted or opponent < 0:

@@ -14,14 +14,14 @@ from pigaming_app.sim.rng import seeded
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """A trained robot's turn: it draws at the last temperature from a table that no longer changes."""
-    if match.tick % known.knobs.period:
+    if match.tick % weights.knobs.period:
         return
     opponent = nearest_opponent(match, seat)
-    if opponent >= 0 and not act_on_reflex(match, seat, opponent, mind, known.knobs.period):
-        mind.state = situation(match, seat, opponent, known.knobs.incoming)
-        mind.move = sample_move(known, mind.state, known.knobs.cold, mind)
+    if opponent >= 0 and not act_on_reflex(match, seat, opponent, mind, weights.knobs.period):
+        mind.state = situation(match, seat, opponent, weights.knobs.incoming)
+        mind.move = sample_move(weights, mind.state, weights.knobs.cold, mind)
         apply_move(match.actions[seat], mind.move)
 
 
@@ -47,11 +47,11 @@ class Learned:
     def __call__(self, fast: bool) -> Any:
         """A row of one table, as a NumPy record (`fast`) or a plain one."""
         if fast not in self.bodies:
-            known = self.bodies[not fast]
-            self.bodies[fast] = packed(known) if fast else [unpack(Table, known[0])]
+            weights = self.bodies[not fast]
+            self.bodies[fast] = packed(weights) if fast else [unpack(Table, weights[0])]
         return self.bodies[fast]
 
 
-def player(name: str, known: Callable[[bool], Any], reflex: bool = False) -> BrainKind:
+def player(name: str, weights: Callable[[bool], Any], reflex: bool = False) -> BrainKind:
     """The kind of brain that plays by a table; with `reflex`, as on a seat, it also frees itself where it is stuck."""
-    return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, known, explain)
+    return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, weights, explain)

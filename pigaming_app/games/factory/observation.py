@@ -107,25 +107,25 @@ class Observation:
 
 
 @kernel
-def observe(match: Any, seat: int, eyes: Any, view: Any) -> None:
+def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     """Fill the view of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
-    view.x, view.y, view.heading = robot.x, robot.y, robot.heading
-    view.linear, view.angular, view.turn_rate = robot.linear, robot.angular, rules.turn_rate
-    view.fork = rules.fork
-    view.fork_x = robot.x + rules.fork * cos(robot.heading)
-    view.fork_y = robot.y + rules.fork * sin(robot.heading)
-    view.turbo, view.frozen, view.refused = robot.turbo, load.frozen, load.refused
-    view.carries = match.pallets[load.pallet - 1].state + 1 if load.pallet else 0
-    view.seconds_left = (rules.ticks - match.tick) * 0.02
-    view.lead = match.delivered[robot.team] - match.delivered[1 - robot.team]
+    obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
+    obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, rules.turn_rate
+    obs.fork = rules.fork
+    obs.fork_x = robot.x + rules.fork * cos(robot.heading)
+    obs.fork_y = robot.y + rules.fork * sin(robot.heading)
+    obs.turbo, obs.frozen, obs.refused = robot.turbo, load.frozen, load.refused
+    obs.carries = match.pallets[load.pallet - 1].state + 1 if load.pallet else 0
+    obs.seconds_left = (rules.ticks - match.tick) * 0.02
+    obs.lead = match.delivered[robot.team] - match.delivered[1 - robot.team]
     for i in range(OTHERS):
-        observe_other(match, robot, (seat + 1 + i) % ROBOTS, eyes.delay, view.others[i])
+        observe_other(match, robot, (seat + 1 + i) % ROBOTS, senses.delay, obs.others[i])
     for w in range(WORKERS):
-        observe_person(match, robot, w, view.people[w])
+        observe_person(match, robot, w, obs.people[w])
     for s in range(SLOTS):
-        observe_slot(match, seat, s, view.slots[s])
-    observe_way(match, robot, eyes, view)
+        observe_slot(match, seat, s, obs.slots[s])
+    observe_way(match, robot, senses, obs)
 
 
 @kernel
@@ -177,18 +177,18 @@ def observe_slot(match: Any, seat: int, s: int, place: Any) -> None:
 
 
 @kernel
-def observe_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
+def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
     """Where to drive now to get on with the errand."""
-    errand = eyes.errand
+    errand = senses.errand
     if not errand.wanted:
-        view.way_x, view.way_y, view.way_bearing, view.way_distance = robot.x, robot.y, 0.0, 0.0
-        view.goal_bearing, view.goal_distance, view.straight = 0.0, 0.0, 1
+        obs.way_x, obs.way_y, obs.way_bearing, obs.way_distance = robot.x, robot.y, 0.0, 0.0
+        obs.goal_bearing, obs.goal_distance, obs.straight = 0.0, 0.0, 1
         return
     find_way(match, errand, robot.x, robot.y)
-    view.way_x, view.way_y, view.straight = errand.way_x, errand.way_y, errand.straight
+    obs.way_x, obs.way_y, obs.straight = errand.way_x, errand.way_y, errand.straight
     dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
-    view.way_distance = sqrt(dx * dx + dy * dy)
-    view.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    obs.way_distance = sqrt(dx * dx + dy * dy)
+    obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
     dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
-    view.goal_distance = sqrt(dx * dx + dy * dy)
-    view.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    obs.goal_distance = sqrt(dx * dx + dy * dy)
+    obs.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)

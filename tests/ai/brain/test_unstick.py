@@ -81,7 +81,7 @@ def test_whoever_gets_on_never_feels_it():
 def test_it_is_on_for_seats_alone():
     def switched(kind: BrainKind) -> int:
         mind = LearnerMind()
-        kind.wake(mind, 1)
+        kind.reset(mind, 1)
         return mind.reflex.on
 
     assert Reflex().on == 0

@@ -256,7 +256,7 @@ def test_a_seat_without_a_brain_that_explains_itself_is_passed_over(arcade: Arca
     stage = stage_of(arcade, "pitanks")
     stage.match.sit(0, make("pitanks", "idle", 1))
     kind = stage.match.brains[0].kind
-    object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.wake))
+    object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.reset))
     overlay = BrainOverlay(stage.match, stage.view, arcade.house.words)
     assert overlay.seats == [1, 2, 3]
 
