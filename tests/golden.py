@@ -65,8 +65,8 @@ def played(key: str) -> str:
         match.tick()
     sha = hashlib.sha256(to_bytes(match.state))
     for seat in range(4):
-        view = rules.view()
-        rules.see(match.state, seat, rules.eyes(), view)
+        view = rules.observation()
+        rules.observe(match.state, seat, rules.senses(), view)
         sha.update(to_bytes(view))
     return sha.hexdigest()
 

@@ -32,7 +32,7 @@ from pigaming_app.games.race import circuit
 from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race.state import Rules as RaceRules
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import choose
+from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.results import initials
 from pigaming_app.sim import action, angles, arena, contact, drivetrain, world
 from pigaming_app.sim import robot as robots
@@ -101,7 +101,7 @@ def rows(text):
 
 
 def match_of(game, variant=None):
-    return Match(choose(game, ["idle", "idle"], None, None, 1, variant, None, ["idle"]))
+    return Match(make_setup(game, ["idle", "idle"], None, None, 1, variant, None, ["idle"]))
 
 
 def in_code(row):
@@ -292,7 +292,7 @@ def test_turbo_starts_from_a_tenth_of_the_meter(game, charge, boosts):
 def test_the_example_of_an_arena_can_be_played(game):
     page = GAMES_PAGE.read_text(encoding="utf-8")
     (source,) = re.findall(rf"^```toml\n(# assets/arenas/{game}/.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)
-    setup = choose(game, ["idle", "idle"], "example", None, 1, None, None, ["idle"])
+    setup = make_setup(game, ["idle", "idle"], "example", None, 1, None, None, ["idle"])
     match = Match(setup, arena=parse(game, source, "example.toml"))
     match.tick()
     assert match.state.tick == 1

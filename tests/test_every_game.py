@@ -35,7 +35,7 @@ def companies():
     """Every arena, in the teams that its game knows."""
     for game, arena in EVERY_ARENA:
         yield game, arena, games()[game].teams
-        if games()[game].sides != ALONE:
+        if games()[game].team_mode != ALONE:
             yield game, arena, (0, 0, 1, 1)
 
 
@@ -111,13 +111,13 @@ def test_every_number_of_every_view_is_finite(game, arena, teams):
     for seat in range(4):
         match.sit(seat, make(game, "random", seat))
     rules = games()[game]
-    eyes, view = rules.eyes(), rules.view()
+    eyes, view = rules.senses(), rules.observation()
     while not match.over:
         match.tick()
         if match.state.tick % 20 == 0:
             before = digest(match.state)
             for seat in range(4):
-                rules.see(match.state, seat, eyes, view)
+                rules.observe(match.state, seat, eyes, view)
                 assert all(isfinite(number) for number in numbers(view))
             assert digest(match.state) == before, "looking changes nothing"
 

@@ -20,7 +20,7 @@ from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games import arenas, replay
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.replay import ReplayError
-from pigaming_app.games.setup import choose
+from pigaming_app.games.setup import make_setup
 from pigaming_app.hardware import recordings as runs
 from pigaming_app.hardware.calibration import ground_plane as ground
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
@@ -33,8 +33,8 @@ from pigaming_app.jobs import replay_files
 from pigaming_app.scenes.lab import table_files
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, tell
-from pigaming_app.storage.parsing import LINE
+from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, to_toml
+from pigaming_app.storage.parsing import MESSAGE_LENGTH
 from tests.hardware.grounds import nominal
 from tests.hostile import HUGE, mutated, toml
 
@@ -54,7 +54,7 @@ def refused_or_used(read, errors):
     else:
         return True
     assert line.isprintable()
-    assert 0 < len(line) <= 2 * LINE
+    assert 0 < len(line) <= 2 * MESSAGE_LENGTH
     return False
 
 
@@ -73,7 +73,7 @@ def test_arenas(game, tmp_path):
 
 
 def robots_tree():
-    return tomllib.loads(tell([NOMINAL, NOMINAL]))
+    return tomllib.loads(to_toml([NOMINAL, NOMINAL]))
 
 
 def test_robots():
@@ -178,7 +178,7 @@ def test_ghosts(tmp_path, caplog):
 
 
 def packed_replay(path):
-    match = seated(choose("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
+    match = seated(make_setup("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
     while not match.over:
         match.tick()
     replay_files.save(match, path)

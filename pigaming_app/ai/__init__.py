@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from pigaming_app.ai.brain import baselines as simple
-from pigaming_app.ai.brain.kind import Kind, Thinker
+from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.factory import foreman, foreman_thoughts
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts
 from pigaming_app.ai.qlearning import table_files as tables
@@ -15,7 +15,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import ROBOTS
 
-BRAINS: dict[str, dict[str, Kind]] = {
+BRAINS: dict[str, dict[str, BrainKind]] = {
     "pitanks": {
         "idle": simple.IDLE,
         "random": simple.RANDOM,
@@ -51,9 +51,9 @@ RIVALS: dict[str, tuple[str, ...]] = {  # who can be invited in the lobby, each 
 }
 
 
-def make(game: str, name: str, seed: int) -> Thinker:
+def make(game: str, name: str, seed: int) -> BrainPlayer:
     """A brain of a game by its name. Raises KeyError where there is none."""
-    return Thinker(BRAINS[game][name], seed)
+    return BrainPlayer(BRAINS[game][name], seed)
 
 
 def seated(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:

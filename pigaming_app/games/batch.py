@@ -12,14 +12,14 @@ from typing import Any
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import dtype, packed
 from pigaming_app.sim.world import ROBOTS
 
 
-def started(setups: Sequence[Setup]) -> list[Any]:
+def initial_states(setups: Sequence[Setup]) -> list[Any]:
     """A plain record for each setup, ready for its first tick. Raises ArenaError."""
     arenas = {(setup.game, setup.arena): load(setup.game, setup.arena) for setup in setups}
     states = []
@@ -32,7 +32,7 @@ def started(setups: Sequence[Setup]) -> list[Any]:
 
 def matches(setups: Sequence[Setup]) -> Any:
     """One match for each setup, all of one game, as a NumPy array (n,) of the game's record. Raises ArenaError."""
-    return packed(started(setups))
+    return packed(initial_states(setups))
 
 
 def step_all(matches: Any, actions: Any) -> None:
@@ -60,7 +60,7 @@ def make_step_all(judge: Callable[[Any], None]) -> Callable[[Any, Any], None]:
             match = matches[i]
             for seat in range(ROBOTS):
                 wish = actions[i][seat]
-                press(match.actions[seat], wish[0], wish[1], int(wish[2] > 0.5), int(wish[3] > 0.5))
+                set_action(match.actions[seat], wish[0], wish[1], int(wish[2] > 0.5), int(wish[3] > 0.5))
             judge(match)
             drive(match)
 

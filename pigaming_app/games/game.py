@@ -39,8 +39,8 @@ class Row:
     team: int
     place: int  # 1 is best; equals share a place
     score: int
-    facts: Mapping[str, float]  # what the game counts, in the order of its columns
-    feats: Mapping[str, int]  # what may enter the tables of the best: points, or milliseconds
+    stats: Mapping[str, float]  # what the game counts, in the order of its columns
+    records: Mapping[str, int]  # what may enter the tables of the best: points, or milliseconds
     times: tuple[float, ...]  # s for each part of the way to the goal, such as a lap
 
 
@@ -55,7 +55,7 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class Feat:
+class RecordKind:
     """A table of the best. `timed`: it holds milliseconds, and less is better; else points, and more is."""
 
     name: str
@@ -65,27 +65,27 @@ class Feat:
 
 @dataclass(frozen=True)
 class Game:
-    """The functions and words of one game. `judge` and `see` work in both bodies."""
+    """The functions and words of one game. `judge` and `observe` work in both bodies."""
 
     name: str
     state: type
-    eyes: type  # the record that shapes a view
-    view: type
+    senses: type  # the record that shapes an observation
+    observation: type
     variants: tuple[str, ...]  # the first is the default
     minutes: tuple[int, ...]
     default_minutes: int
     goals: tuple[int, ...]  # what may be chosen; empty: the game has no goal, only time
     default_goal: int
-    sides: str  # FREE, ALONE or PAIRS
+    team_mode: str  # FREE, ALONE or PAIRS
     teams: tuple[int, int, int, int]  # of the seats, if nobody says otherwise
-    columns: tuple[str, ...]  # keys of `facts`, as the table of results shows them
-    feats: tuple[Feat, ...]
+    columns: tuple[str, ...]  # keys of `stats`, as the table of results shows them
+    record_kinds: tuple[RecordKind, ...]
     read: Callable[[Table], Layout]  # what an arena file of this game holds besides its title; raises Wrong
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
     judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, ask for speeds
-    see: Callable[[Any, int, Any, Any], None]  # see(match, seat, eyes, view)
-    standing: Callable[[Any, int], float]  # of a seat, with its team: more is better, and what the order goes by
-    facts: Callable[[Any, int], Mapping[str, float]]
-    feat: Callable[[Any, int], Mapping[str, int]]  # by the names of `feats`; only those that were achieved
+    observe: Callable[[Any, int, Any, Any], None]  # observe(match, seat, senses, observation)
+    ranking_key: Callable[[Any, int], float]  # of a seat, with its team: more is better, and what the order goes by
+    stats: Callable[[Any, int], Mapping[str, float]]
+    records: Callable[[Any, int], Mapping[str, int]]  # by the names of `record_kinds`; only those that were achieved
     times: Callable[[Any, int], tuple[float, ...]]
     goal: str = ""  # what `goals` count: laps, pallets

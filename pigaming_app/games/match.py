@@ -10,7 +10,7 @@ from typing import Any, Protocol
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS, Action
@@ -23,15 +23,15 @@ class Brain(Protocol):
         """Set `state.actions[seat]` for this tick."""
 
 
-class Nobody:
+class IdlePlayer:
     """An empty seat, or a robot that stands still."""
 
     def think(self, state: Any, seat: int) -> None:
-        press(state.actions[seat], 0.0, 0.0, 0, 0)
+        set_action(state.actions[seat], 0.0, 0.0, 0, 0)
 
 
 class Match:
-    """A match of any game. All brains are `Nobody` until somebody sits down."""
+    """A match of any game. All brains are `IdlePlayer` until somebody sits down."""
 
     def __init__(
         self, setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, arena: Arena | None = None
@@ -44,8 +44,8 @@ class Match:
         self.game.start(self.state, self.arena, setup)
         self.plant = plant(self.state) if callable(plant) else plant
         self.plant.place([(robot.x, robot.y, robot.heading) for robot in self.state.robots])
-        self.brains: list[Brain] = [Nobody() for _ in range(ROBOTS)]
-        self.log = Log()
+        self.brains: list[Brain] = [IdlePlayer() for _ in range(ROBOTS)]
+        self.log = ActionLog()
         self.series: list[list[tuple[float, int]]] = [[(0.0, 0)] for _ in range(ROBOTS)]
 
     def sit(self, seat: int, brain: Brain) -> None:
@@ -83,7 +83,7 @@ class Match:
         """How it stands, or how it ended."""
         state, game = self.state, self.game
         seats = [i for i in range(ROBOTS) if state.robots[i].present]
-        standing = {i: game.standing(state, i) for i in seats}
+        standing = {i: game.ranking_key(state, i) for i in seats}
         best = max(standing.values())
         leaders = [i for i in seats if standing[i] == best]
         one_team = len({state.robots[i].team for i in leaders}) == 1
@@ -95,8 +95,8 @@ class Match:
                 team=state.robots[i].team,
                 place=1 + ranks.index(standing[i]),
                 score=state.robots[i].score,
-                facts=game.facts(state, i),
-                feats=game.feat(state, i),
+                stats=game.stats(state, i),
+                records=game.records(state, i),
                 times=game.times(state, i),
             )
             for i in order
@@ -105,7 +105,7 @@ class Match:
         return Outcome(rows, winners, tuple(tuple(line) for line in self.series), state.tick * DT)
 
 
-class Log:
+class ActionLog:
     """What every seat did on every tick, three bytes a seat: stick in 64ths, buttons and aim."""
 
     def __init__(self) -> None:

@@ -17,11 +17,11 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
-from pigaming_app.sim.action import STEPS, press
+from pigaming_app.sim.action import STEPS, set_action
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.source_hash import engine_hash
-from pigaming_app.sim.toml_table import printable, quoted
+from pigaming_app.sim.toml_table import printable, quote
 from pigaming_app.sim.world import HZ, ROBOTS
 
 FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 has the engine hash of 1.4.0 and before
@@ -80,7 +80,7 @@ def play(replay: Replay) -> Match:
     """The match that a replay holds, before its first tick; its seats do what the file says."""
     match = Match(replay.setup, arena=parse(replay.setup.game, replay.source, replay.setup.arena))
     for seat in range(ROBOTS):
-        match.sit(seat, Player(replay.ticks))
+        match.sit(seat, ReplayPlayer(replay.ticks))
     return match
 
 
@@ -92,7 +92,7 @@ def verify(replay: Replay) -> bool:
     return digest(match.state) == replay.digest
 
 
-class Player:
+class ReplayPlayer:
     """A brain that does what a replay says; when that ends, nothing."""
 
     def __init__(self, ticks: bytes) -> None:
@@ -103,7 +103,7 @@ class Player:
         at = state.tick * BYTES + 3 * seat
         linear, angular, buttons = self.ticks[at : at + 3] or (int(STEPS), int(STEPS), 0)
         action = state.actions[seat]
-        press(action, linear / STEPS - 1.0, angular / STEPS - 1.0, buttons & 1, buttons & 2)
+        set_action(action, linear / STEPS - 1.0, angular / STEPS - 1.0, buttons & 1, buttons & 2)
         action.aim = buttons >> 2
 
 
@@ -122,7 +122,7 @@ def _decode(raw: bytes) -> Replay:
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
     if head["format"] not in FORMATS:
-        raise ReplayError(f"a replay of another format ({quoted(head['format'])}); known are {', '.join(FORMATS)}")
+        raise ReplayError(f"a replay of another format ({quote(head['format'])}); known are {', '.join(FORMATS)}")
     if head.get("check") != _check(head, packed):
         raise ReplayError("damaged: it has been cut short or edited")
     try:

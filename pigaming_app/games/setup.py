@@ -15,7 +15,7 @@ class ChoiceError(ValueError):
     """Something that was asked for and is not there, in one line."""
 
 
-def choose(
+def make_setup(
     game: str,
     brains: Sequence[str],
     arena: str | None,
@@ -27,10 +27,10 @@ def choose(
     goal: int | None = None,
 ) -> Setup:
     """A setup of what was asked for; what is None is the game's own. `known`: its brains. Raises ChoiceError."""
-    one_of("game", game, list(games()))
+    require_one_of("game", game, list(games()))
     rules = games()[game]
     for brain in brains:
-        one_of("seat", brain, [*PEOPLE, *known])
+        require_one_of("seat", brain, [*PEOPLE, *known])
     if len(brains) > ROBOTS:
         raise ChoiceError(f"--seats names {len(brains)} seats, but there are {ROBOTS}")
     brains = [*brains, *["off"] * (ROBOTS - len(brains))]
@@ -44,7 +44,7 @@ def choose(
     if not LEAST_MINUTES <= minutes <= MOST_MINUTES:
         raise ChoiceError(f"{minutes:g} minutes; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
     variant = rules.variants[0] if variant is None else variant
-    one_of("variant", variant, rules.variants)
+    require_one_of("variant", variant, rules.variants)
     goal = rules.default_goal if goal is None else goal
     if goal != rules.default_goal and goal not in rules.goals:
         possible = f"{rules.goals[0]} to {rules.goals[-1]} {rules.goal}" if rules.goals else "time alone"
@@ -59,13 +59,13 @@ def check_teams(rules: Game, playing: Sequence[int]) -> None:
         raise ChoiceError("at least two seats must be taken")
     if len(set(playing)) < 2:
         raise ChoiceError("there must be at least two teams")
-    if rules.sides == ALONE and len(set(playing)) < len(playing):
+    if rules.team_mode == ALONE and len(set(playing)) < len(playing):
         raise ChoiceError(f"{rules.name} knows no teams")
-    if rules.sides == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
+    if rules.team_mode == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
         raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
 
 
-def one_of(what: str, name: str, there: Sequence[str]) -> None:
+def require_one_of(what: str, name: str, there: Sequence[str]) -> None:
     """Raises ChoiceError unless `name` is there."""
     if name not in there:
         raise ChoiceError(f"no {what} '{name}'; there are {', '.join(there)}")

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.parsing import json_of, one_line, read, reason, shown
-from pigaming_app.storage.safe_files import Draft
+from pigaming_app.storage.parsing import describe_error, one_line, parse_json, quote, read
+from pigaming_app.storage.safe_files import AtomicFile
 
 FORMAT = "pigaming-run-1"
 MOST_BYTES = 400_000_000  # of a file; an hour has about 100 million
@@ -63,7 +63,7 @@ class RecordingWriter:
     """Writes a run, line by line; the file appears when it is closed. Raises OSError."""
 
     def __init__(self, path: Path, mm: float, emulated: bool = False) -> None:
-        self._draft = Draft(path)
+        self._draft = AtomicFile(path)
         self._seq = 0
         self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
 
@@ -98,11 +98,11 @@ def load(path: Path, fewest: int = 50) -> Recording:
     try:
         lines = read(path, MOST_BYTES).splitlines()
     except OSError as error:
-        raise RecordingError(f"{path.name}: cannot be read ({reason(error)})") from None
+        raise RecordingError(f"{path.name}: cannot be read ({describe_error(error)})") from None
     run = _RecordingLines()
     for number, line in enumerate(lines, 1):
         try:
-            run.take_in(json_of(line))
+            run.take_in(parse_json(line))
         except (ValueError, KeyError, TypeError) as error:
             if number == len(lines) and number > 1:
                 break  # a run that broke off in the middle of a line
@@ -143,14 +143,14 @@ class _RecordingLines:
                 for fix in _list(entry["fixes"]):
                     robot, x, y, heading = _list(fix, 4)
                     if robot not in range(ROBOTS) or not isinstance(robot, int) or isinstance(robot, bool):
-                        raise ValueError(f"{shown(robot)} is no robot; there are 0 to {ROBOTS - 1}")
+                        raise ValueError(f"{quote(robot)} is no robot; there are 0 to {ROBOTS - 1}")
                     place = _number(x, -FARTHEST, FARTHEST), _number(y, -FARTHEST, FARTHEST)
                     self.seen[robot].append((captured, *place, _number(heading, -FARTHEST, FARTHEST)))
 
 
 def _list(value: Any, count: int | None = None) -> list[Any]:
     if not isinstance(value, list) or (count is not None and len(value) != count):
-        raise ValueError(f"{shown(value)} is no list{'' if count is None else f' of {count}'}")
+        raise ValueError(f"{quote(value)} is no list{'' if count is None else f' of {count}'}")
     return value
 
 
@@ -164,7 +164,7 @@ def _time(value: Any) -> float:
 
 def _number(value: Any, low: float, high: float) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
-        raise ValueError(f"{shown(value)} is no number from {low:g} to {high:g}")
+        raise ValueError(f"{quote(value)} is no number from {low:g} to {high:g}")
     return float(value)
 
 

@@ -42,13 +42,13 @@ def run(arguments: Namespace) -> int:
 
 def _write(path: Path, edge: float) -> int:
     from pigaming_app.hardware.calibration.marker_sheet import sheet
-    from pigaming_app.storage.safe_files import check_target, write
+    from pigaming_app.storage.safe_files import require_writable, write_atomic
 
     if path.suffix.lower() != ".pdf":
         raise Refusal(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     with refused(OperatorError, ValueError):
-        check_target(path)
-        write(path, sheet(edge, in_every_language("sheet.print", "sheet.cut")))
+        require_writable(path)
+        write_atomic(path, sheet(edge, in_every_language("sheet.print", "sheet.cut")))
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")
     return 0
 

@@ -6,7 +6,7 @@ import os
 import sys
 from typing import Any
 
-from pigaming_app.storage.parsing import one_line, reason
+from pigaming_app.storage.parsing import describe_error, one_line
 
 
 class _Lossy(io.RawIOBase):
@@ -55,7 +55,7 @@ def flushed(code: int) -> int:
         return code or 1
     except OSError as error:
         _mute()
-        say(f"the output cannot be written: {reason(error)}")
+        say(f"the output cannot be written: {describe_error(error)}")
         return 2
     return code
 
@@ -70,7 +70,7 @@ def sentence(error: OSError) -> str:
     """An error of the system as one line: the file, or the output, and the reason."""
     if error.strerror is None:  # NotSaved
         return str(error)
-    return f"{error.filename or 'the output cannot be written'}: {reason(error)}"
+    return f"{error.filename or 'the output cannot be written'}: {describe_error(error)}"
 
 
 def _mute() -> None:

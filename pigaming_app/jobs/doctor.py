@@ -20,7 +20,7 @@ from pigaming_app.boot.interpreter import ARCADE, Trouble, both_pygames, lacks, 
 from pigaming_app.boot.interpreter import requirements as listed
 from pigaming_app.jobs.options import shared
 from pigaming_app.jobs.refusal import remedy
-from pigaming_app.storage.parsing import json_of, one_line
+from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import folders
 
@@ -201,7 +201,7 @@ def _probed() -> dict[str, tuple[str, str]]:
     answers: dict[str, tuple[str, str]] = {}
     for line in output.decode(errors="replace").splitlines():
         with contextlib.suppress(ValueError):  # a driver may print as well
-            name, found, wrong = json_of(line)
+            name, found, wrong = parse_json(line)
             answers[str(name)] = str(found), str(wrong)
     return answers
 
@@ -209,9 +209,9 @@ def _probed() -> dict[str, tuple[str, str]]:
 def _engine() -> Line:
     try:
         from pigaming_app.ai import seated
-        from pigaming_app.games.setup import choose
+        from pigaming_app.games.setup import make_setup
 
-        match = seated(choose("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
+        match = seated(make_setup("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
         for _ in range(50):
             match.tick()
     except Exception as error:  # whatever is broken in it, the report is wanted

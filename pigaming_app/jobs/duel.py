@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments import league
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, one_of
+from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.options import AIS, duel_options, game_option, goal
 from pigaming_app.jobs.refusal import refused
 from pigaming_app.sim.arena import ArenaError
@@ -32,9 +32,9 @@ def run(arguments: Namespace) -> int:
 
 
 def _play(arguments: Namespace) -> league.Duel:
-    one_of("game", arguments.game, list(games()))
+    require_one_of("game", arguments.game, list(games()))
     for brain in (arguments.left, arguments.right):
-        one_of("brain", brain, list(BRAINS[arguments.game]))
+        require_one_of("brain", brain, list(BRAINS[arguments.game]))
     return league.duel(
         arguments.game,
         arguments.left,

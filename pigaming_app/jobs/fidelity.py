@@ -15,7 +15,7 @@ from pigaming_app.hardware.sysid.plots import PlotsUnavailable
 from pigaming_app.jobs.options import mat_settings, path, shared, whole
 from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.jobs.sessions import new_session
-from pigaming_app.storage.parsing import reason
+from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
@@ -53,12 +53,12 @@ def run(arguments: Namespace) -> int:
 def record(arguments: Namespace) -> dict[str, Any]:
     """Drive the robots for a while on an empty mat, and write their commands and poses. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.recordings import RecordingWriter
-    from pigaming_app.storage.safe_files import check_target
+    from pigaming_app.storage.safe_files import require_writable
 
     if arguments.emulate is None and (problem := unfit(Settings.load(folders().config)[0])):
         raise Refusal(english().explained(problem))
     require("hardware")
-    check_target(arguments.file)
+    require_writable(arguments.file)
     with refused(RobotsUnavailable):
         session = new_session(arguments.emulate, arguments.camera, arguments.port)
         rig = session.open()
@@ -73,7 +73,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
         finally:
             recorder.discard()
     except OSError as trouble:
-        raise Refusal(f"{arguments.file}: cannot be written ({reason(trouble)})") from None
+        raise Refusal(f"{arguments.file}: cannot be written ({describe_error(trouble)})") from None
     finally:
         session.end()
     robots = ", ".join(str(robot + 1) for robot in present)
@@ -116,8 +116,8 @@ def identify(arguments: Namespace) -> dict[str, Any]:
     """Identify and save the drivetrains; compare the simulator with and without them. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.session.store import load_robots, robots_file
     from pigaming_app.hardware.sysid.evaluate import HORIZONS, measure
-    from pigaming_app.sim.drivetrain import DrivetrainError, tell
-    from pigaming_app.storage.safe_files import keep
+    from pigaming_app.sim.drivetrain import DrivetrainError, to_toml
+    from pigaming_app.storage.safe_files import write_with_backup
 
     run = _load(arguments.file)
     out = arguments.out or robots_file(run.emulated)
@@ -126,7 +126,7 @@ def identify(arguments: Namespace) -> dict[str, Any]:
         drivetrains = list(load_robots(out))
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
-        keep(out, tell(drivetrains))
+        write_with_backup(out, to_toml(drivetrains))
     said = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on held-out data"]
     for one in verdicts:
         before, after = (" ".join(f"{mm:7.1f}" for mm in errors.mm) for errors in (one.before, one.after))

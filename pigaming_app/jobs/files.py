@@ -5,7 +5,7 @@ FOLDERS = ("ghosts", "pictures", "robots")  # below the data folder
 
 def sweep() -> None:
     """Delete the temporary files of processes that were killed."""
-    from pigaming_app.storage.safe_files import sweep as sweep_folders
+    from pigaming_app.storage.safe_files import delete_temporary_files as sweep_folders
     from pigaming_app.storage.settings import folders
 
     where = folders()
@@ -14,8 +14,8 @@ def sweep() -> None:
 
 def log(line: str) -> None:
     """Add a line to the arcade's log."""
-    from pigaming_app.storage.log import note
+    from pigaming_app.storage.log import append_line
     from pigaming_app.storage.parsing import one_line
     from pigaming_app.storage.settings import folders
 
-    note(folders().data, one_line(line))
+    append_line(folders().data, one_line(line))

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.jobs.refusal import Refusal
-from pigaming_app.storage.parsing import shown
+from pigaming_app.storage.parsing import quote
 
 MOST_WHOLE = 2**63 - 1
 DEFAULT_GAME = "pitanks"
@@ -25,11 +25,11 @@ def whole(low: int = 1, high: int = MOST_WHOLE) -> Callable[[str], int]:
         try:
             number = int(text)
         except ValueError:
-            raise argparse.ArgumentTypeError(f"{shown(text)} is not a whole number") from None
+            raise argparse.ArgumentTypeError(f"{quote(text)} is not a whole number") from None
         if number < low:
-            raise argparse.ArgumentTypeError(f"{shown(text)} is less than {low}")
+            raise argparse.ArgumentTypeError(f"{quote(text)} is less than {low}")
         if number > high:
-            raise argparse.ArgumentTypeError(f"{shown(text)} is more than {high}")
+            raise argparse.ArgumentTypeError(f"{quote(text)} is more than {high}")
         return number
 
     return parse
@@ -42,9 +42,9 @@ def real(low: float, high: float) -> Callable[[str], float]:
         try:
             number = float(text)
         except ValueError:
-            raise argparse.ArgumentTypeError(f"{shown(text)} is not a number") from None
+            raise argparse.ArgumentTypeError(f"{quote(text)} is not a number") from None
         if not isfinite(number) or not low <= number <= high:
-            raise argparse.ArgumentTypeError(f"{shown(text)} is not between {low:g} and {high:g}")
+            raise argparse.ArgumentTypeError(f"{quote(text)} is not between {low:g} and {high:g}")
         return number
 
     return parse
@@ -53,14 +53,14 @@ def real(low: float, high: float) -> Callable[[str], float]:
 def path(text: str) -> Path:
     """A path that the system accepts, such as the name of a file."""
     if not text or "\0" in text:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not the name of a file")
+        raise argparse.ArgumentTypeError(f"{quote(text)} is not the name of a file")
     return Path(text)
 
 
 def word(text: str) -> str:
     """Printable text."""
     if not text.isprintable():
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a plain text")
+        raise argparse.ArgumentTypeError(f"{quote(text)} is not a plain text")
     return text
 
 

@@ -13,7 +13,7 @@ from typing import Any
 from pigaming_app.ai import BRAINS, seated
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.setup import ChoiceError, choose
+from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.options import (
     DEFAULT_GAME,
@@ -33,8 +33,8 @@ from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import DT, ROBOTS
-from pigaming_app.storage.parsing import ParseError, read_text, reason, shown
-from pigaming_app.storage.safe_files import NotSaved, check_target
+from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
+from pigaming_app.storage.safe_files import NotSaved, require_writable
 from pigaming_app.storage.settings import Settings, folders
 
 HELD_UP = 4.0  # s after which a picture is taken of a match that real robots hold up
@@ -76,7 +76,7 @@ def _play(arguments: Namespace) -> int:
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
     names = list(BRAINS.get(arguments.game, {}))
     arena, minutes, seed, variant = arguments.arena, arguments.minutes, arguments.seed, arguments.variant
-    setup = choose(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
+    setup = make_setup(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
     speed = _speed(arguments.speed)
     real_seats = _real_seats(arguments, setup, speed)
     if real_seats:
@@ -93,7 +93,7 @@ def _play(arguments: Namespace) -> int:
 def _game(game: str | None, named: str | None) -> str:
     """The game, by its position or by --game."""
     if game is not None and named is not None and game != named:
-        raise Refusal(f"--game: {shown(named)} contradicts {shown(game)}")
+        raise Refusal(f"--game: {quote(named)} contradicts {quote(game)}")
     return next((name for name in (game, named) if name is not None), DEFAULT_GAME)
 
 
@@ -101,7 +101,7 @@ def _teams(text: str | None) -> list[int] | None:
     try:
         return None if text is None else [int(team) for team in text.split(",")]
     except ValueError:
-        raise Refusal(f"--teams: {shown(text)}; numbers such as 0,0,1,1 are needed") from None
+        raise Refusal(f"--teams: {quote(text)}; numbers such as 0,0,1,1 are needed") from None
 
 
 def _check_targets(record: Path | None, screenshot: Path | None) -> None:
@@ -112,7 +112,7 @@ def _check_targets(record: Path | None, screenshot: Path | None) -> None:
         raise Refusal(f"--record: {record}: the picture has that name")
     for target in (record, screenshot):
         if target is not None:
-            check_target(target)
+            require_writable(target)
 
 
 def _plant(arguments: Namespace, real: list[int]) -> Callable[[Any], Plant]:
@@ -126,7 +126,7 @@ def _plant(arguments: Namespace, real: list[int]) -> Callable[[Any], Plant]:
     except DrivetrainError as error:
         raise Refusal(str(error)) from None
     except (OSError, ParseError) as error:
-        raise Refusal(f"{arguments.robots}: cannot be read ({reason(error)})") from None
+        raise Refusal(f"{arguments.robots}: cannot be read ({describe_error(error)})") from None
     return lambda world: SimPlant(world, drivetrains)
 
 
@@ -137,9 +137,9 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
     try:
         seats = there if text == "all" else sorted({int(one) - 1 for one in text.split(",") if one})
     except ValueError:
-        raise Refusal(f"--real: {shown(text)}; numbers such as 1,3, or all, are needed") from None
+        raise Refusal(f"--real: {quote(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in there]:
-        raise Refusal(f"--real: nobody sits on seat {shown(stray[0])}")
+        raise Refusal(f"--real: nobody sits on seat {quote(stray[0])}")
     if seats and arguments.record is not None:
         raise Refusal("--record: a match of real robots cannot be played out again; use `fidelity record`")
     if seats and speed != 1.0 and not arguments.headless:
@@ -169,7 +169,7 @@ def _speed(text: str) -> float:
     except ValueError:
         speed = 0.0
     if not SLOWEST_RATE <= speed <= FASTEST_RATE:
-        raise Refusal(f"--speed: {shown(text)}; a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}, or max, is needed")
+        raise Refusal(f"--speed: {quote(text)}; a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}, or max, is needed")
     return speed
 
 
@@ -320,7 +320,7 @@ def _print(match: Match, as_json: bool, seconds: float) -> None:
                 "place": row.place,
                 "team": row.team,
                 "score": row.score,
-                **row.facts,
+                **row.stats,
                 "times": row.times,
             }
             for row in outcome.rows
@@ -336,6 +336,6 @@ def _print(match: Match, as_json: bool, seconds: float) -> None:
         brain = match.setup.seats[row.seat].brain
         facts = "  ".join(
             f"{name} {value:.0%}" if name == "aim" else f"{name} {round(value, 2):g}"
-            for name, value in row.facts.items()
+            for name, value in row.stats.items()
         )
         print(f"{row.place}.  P{row.seat + 1} {brain:8} {row.score:+4d}   {facts}")

@@ -21,14 +21,14 @@ from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError, one_of
+from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError, require_one_of
 from pigaming_app.jobs.options import game_option, path, real, shared, whole
 from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.scenes.lab import table_files
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
-from pigaming_app.storage.safe_files import check_target, write
+from pigaming_app.storage.safe_files import require_writable, write_atomic
 
 BAR = 24  # characters
 SHOWN_EVERY = 0.1  # s
@@ -77,7 +77,7 @@ def _train_and_save(arguments: Namespace) -> int:
     _check(arguments)
     course = _begin(arguments)
     points: list[Point] = []
-    if course.fast and not training.cached():
+    if course.fast and not training.is_compiled():
         print("compiling the training, once", file=sys.stderr)
     course.warm()
     with _interrupts() as stopped:
@@ -85,16 +85,16 @@ def _train_and_save(arguments: Namespace) -> int:
         seconds = _train(course, arguments, points, stopped)
         table_files.save(course.trained(arguments.out.stem), arguments.out)
         if arguments.csv:
-            write(arguments.csv, _csv_of(points))
+            write_atomic(arguments.csv, _csv_of(points))
         if arguments.curve:
-            write(arguments.curve, _curve_of(points, arguments))
+            write_atomic(arguments.curve, _curve_of(points, arguments))
     _print(course, arguments, points, seconds, bool(stopped))
     return 130 if stopped else 0
 
 
 def _check(arguments: Namespace) -> None:
     """Refuse before the training what would fail after it. Raises Refusal, ChoiceError, ArenaError or NotSaved."""
-    one_of("game", arguments.game, list(games()))
+    require_one_of("game", arguments.game, list(games()))
     if arguments.game != training.GAME:
         raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
     if not 1 <= arguments.matches <= 1_000_000:
@@ -116,7 +116,7 @@ def _check(arguments: Namespace) -> None:
         if realpath(path) in taken:
             raise Refusal(f"--{option}: {path}: another file of this training has that name")
         taken.add(realpath(path))
-        check_target(path)
+        require_writable(path)
     if arguments.curve:
         require("plots")
 

@@ -27,7 +27,7 @@ from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.storage.log import log_file, require_file
-from pigaming_app.storage.parsing import reason
+from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings, folders
@@ -400,7 +400,7 @@ def _keep_log(data: Path) -> "IO[Any] | None":
         require_file(data / "crash.log")
         crash_file = (data / "crash.log").open("a", encoding="utf-8")
     except OSError as trouble:
-        print(f"PiGaming: {data} cannot be written: {reason(trouble)}. There is no log.", file=sys.stderr)
+        print(f"PiGaming: {data} cannot be written: {describe_error(trouble)}. There is no log.", file=sys.stderr)
         return None
     faulthandler.enable(crash_file)
     return crash_file

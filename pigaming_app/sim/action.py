@@ -9,17 +9,17 @@ STEPS = 64.0  # of a stick, from its middle to its edge: a file keeps it as a wh
 
 
 @kernel
-def press(action: Any, linear: float, angular: float, fire: int, turbo: int) -> None:
+def set_action(action: Any, linear: float, angular: float, fire: int, turbo: int) -> None:
     """Set an action that makes for nothing: the stick is held within [-1, 1] and rounded to 64ths."""
-    action.linear = notch(linear)
-    action.angular = notch(angular)
+    action.linear = quantise(linear)
+    action.angular = quantise(angular)
     action.fire = 1 if fire else 0
     action.turbo = 1 if turbo else 0
     action.aim = 0
 
 
 @kernel
-def notch(value: float) -> float:
+def quantise(value: float) -> float:
     """A stick's way in [-1, 1], rounded to 64ths; what is not a number counts as the middle."""
     if value >= 1.0:
         return 1.0

@@ -28,7 +28,7 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Errand, free_node, grow
 from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.robot import GAIN, RADIUS
-from pigaming_app.sim.toml_table import Table, Wrong, quoted
+from pigaming_app.sim.toml_table import FieldError, Table, quote
 from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
 
 LANGUAGES = ("en", "pt")
@@ -90,7 +90,7 @@ def parse(source: str, file: str, read: Callable[[Table], Layout]) -> Arena:
         layout = read(table)
         arena = Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan)
         _check_ways(arena)
-    except Wrong as wrong:
+    except FieldError as wrong:
         raise ArenaError(f"{file}: {wrong}") from None
     return arena
 
@@ -112,18 +112,18 @@ def build(world: World, arena: Arena) -> None:
 
 
 def read_walls(table: Table) -> tuple[WallSpec, ...]:
-    """The tables [[wall]]. Raises Wrong."""
+    """The tables [[wall]]. Raises FieldError."""
     walls = tuple(_wall(entry) for entry in table.tables("wall"))
     if len(walls) > WALLS:
-        raise table.wrong("wall", f"{len(walls)} walls, but at most {WALLS} are possible")
+        raise table.error("wall", f"{len(walls)} walls, but at most {WALLS} are possible")
     return walls
 
 
 def read_starts(table: Table) -> tuple[Start, ...]:
-    """The tables [[start]]. Raises Wrong."""
+    """The tables [[start]]. Raises FieldError."""
     starts = tuple(_start(entry) for entry in table.tables("start"))
     if len(starts) != ROBOTS:
-        raise table.wrong("start", f"{len(starts)} starts, but there must be {ROBOTS}")
+        raise table.error("start", f"{len(starts)} starts, but there must be {ROBOTS}")
     return starts
 
 
@@ -133,9 +133,9 @@ def _title(table: Table) -> Mapping[str, str]:
     for language in LANGUAGES:
         text = title.entries.get(language)
         if not isinstance(text, str) or not text.strip():
-            raise title.wrong(language, "a text is missing")
+            raise title.error(language, "a text is missing")
         if len(text) > LONGEST_TITLE or not text.isprintable():
-            raise title.wrong(language, f"a text of at most {LONGEST_TITLE} characters on one line is needed")
+            raise title.error(language, f"a text of at most {LONGEST_TITLE} characters on one line is needed")
     return title.entries
 
 
@@ -145,12 +145,12 @@ def _wall(entry: Table) -> WallSpec:
     thick = entry.number("thick", 30, 10, 200, " px")
     solid = entry.entries.get("solid", False)
     if not isinstance(solid, bool):
-        raise entry.wrong("solid", "must be true or false")
+        raise entry.error("solid", "must be true or false")
     if solid and "health" in entry:
-        raise entry.wrong("health", "goes without solid = true")
+        raise entry.error("health", "goes without solid = true")
     health = entry.entries.get("health", HEALTH)
     if isinstance(health, bool) or not isinstance(health, int) or not 1 <= health <= HEALTH:
-        raise entry.wrong("health", f"{quoted(health)}, but a whole number from 1 to {HEALTH} is needed")
+        raise entry.error("health", f"{quote(health)}, but a whole number from 1 to {HEALTH} is needed")
     return WallSpec(ax, ay, bx, by, thick / 2, SOLID if solid else health)
 
 
@@ -159,7 +159,7 @@ def _start(entry: Table) -> Start:
     x, y = entry.point("at")
     heading = radians(entry.number("heading", 0))
     if not 0 <= heading < 2 * pi:
-        raise entry.wrong("heading", "must be from 0 to below 360 degrees")
+        raise entry.error("heading", "must be from 0 to below 360 degrees")
     return Start(x, y, heading)
 
 
@@ -171,13 +171,13 @@ def _check_ways(arena: Arena) -> None:
     for i, start in enumerate(arena.starts):
         key = f"start[{i + 1}]"
         if in_wall(world, start.x, start.y):
-            raise Wrong(key, f"a robot at ({start.x:g}, {start.y:g}) would stand inside a wall")
+            raise FieldError(key, f"a robot at ({start.x:g}, {start.y:g}) would stand inside a wall")
         for j, other in enumerate(arena.starts[:i]):
             if sqrt((start.x - other.x) ** 2 + (start.y - other.y) ** 2) < 2 * RADIUS:
-                raise Wrong(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide")
+                raise FieldError(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide")
         nodes.append(free_node(world, start.x, start.y))
     field = Errand()
     grow(world, field, nodes[0], -1)
     for i, node in enumerate(nodes):
         if not field.reach[node] or not nodes[0]:
-            raise Wrong(f"start[{i + 1}]", "there is no way to it from start[1]")
+            raise FieldError(f"start[{i + 1}]", "there is no way to it from start[1]")

@@ -15,7 +15,7 @@ from typing import Any
 
 from pigaming_app.sim.grid import ONE_NEAR, node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, roll
+from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import off_wall
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
@@ -37,35 +37,35 @@ def drive(world: Any) -> None:
     x2, y2, x3, y3 = r2.x, r2.y, r3.x, r3.y
     for robot in robots:
         if robot.present:
-            roll(robot)
+            integrate(robot)
     touched = 0
     for n in range(MORE_ROUNDS):
-        deepest = part(robots)
+        deepest = separate(robots)
         moved = deepest > SLOP
         for robot in robots:
-            if robot.present and keep_out(world, robot):
+            if robot.present and push_out_of_walls(world, robot):
                 moved = True
         if not moved or (n >= ROUNDS and deepest < CRUSH):
             break
         touched = 1
     if not touched:
         return
-    settle(world, r0, x0, y0)
-    settle(world, r1, x1, y1)
-    settle(world, r2, x2, y2)
-    settle(world, r3, x3, y3)
+    limit_step(world, r0, x0, y0)
+    limit_step(world, r1, x1, y1)
+    limit_step(world, r2, x2, y2)
+    limit_step(world, r3, x3, y3)
     back = 1
     while back:
-        back = hold(r0, x0, y0, r1, x1, y1)
-        back += hold(r0, x0, y0, r2, x2, y2)
-        back += hold(r0, x0, y0, r3, x3, y3)
-        back += hold(r1, x1, y1, r2, x2, y2)
-        back += hold(r1, x1, y1, r3, x3, y3)
-        back += hold(r2, x2, y2, r3, x3, y3)
+        back = undo_overlap(r0, x0, y0, r1, x1, y1)
+        back += undo_overlap(r0, x0, y0, r2, x2, y2)
+        back += undo_overlap(r0, x0, y0, r3, x3, y3)
+        back += undo_overlap(r1, x1, y1, r2, x2, y2)
+        back += undo_overlap(r1, x1, y1, r3, x3, y3)
+        back += undo_overlap(r2, x2, y2, r3, x3, y3)
 
 
 @kernel
-def part(robots: Any) -> float:
+def separate(robots: Any) -> float:
     """Move every two robots that overlap apart, half the way each. The px of the deepest overlap."""
     deepest = 0.0
     for i in range(ROBOTS - 1):
@@ -96,7 +96,7 @@ def part(robots: Any) -> float:
 
 
 @kernel
-def keep_out(world: Any, robot: Any) -> int:
+def push_out_of_walls(world: Any, robot: Any) -> int:
     """Move a robot that overlaps a wall straight out of it. 1 if it did."""
     moved = 0
     if robot.x < RADIUS:
@@ -146,7 +146,7 @@ def in_wall(world: Any, x: float, y: float) -> int:
 
 
 @kernel
-def settle(world: Any, robot: Any, from_x: float, from_y: float) -> None:
+def limit_step(world: Any, robot: Any, from_x: float, from_y: float) -> None:
     """Limit the step of a robot that stood at (from_x, from_y), and undo it if it ends in a wall."""
     dx, dy = robot.x - from_x, robot.y - from_y
     way2 = dx * dx + dy * dy
@@ -160,7 +160,7 @@ def settle(world: Any, robot: Any, from_x: float, from_y: float) -> None:
 
 
 @kernel
-def hold(one: Any, x1: float, y1: float, other: Any, x2: float, y2: float) -> int:
+def undo_overlap(one: Any, x1: float, y1: float, other: Any, x2: float, y2: float) -> int:
     """Put two robots back if they overlap too far, and farther than where they stood before. 1 if it did."""
     if not one.present or not other.present:
         return 0

@@ -1,7 +1,7 @@
 """What one robot's motors make of what they are told: its wheels, their lag, and how late it hears.
 
-A robot is told shares of full speed, one for each wheel. `shares` finds them for a twist, `twist` says what they come
-to. The numbers of a robot that was measured (the job `fidelity`) stand in a file, one table for each robot:
+A command is a share of full speed for each wheel: `wheel_shares` finds them for a twist, `twist` is the inverse. The
+numbers of a measured robot (job `fidelity`) stand in a file, one table for each robot:
 
 [[robot]]
 left = [757.6, 0.02]     # px/s at full share, and the share below which the wheel stands still
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from math import copysign
 
 from pigaming_app.sim.robot import LAG
-from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.toml_table import FieldError, Table
 from pigaming_app.sim.world import ROBOTS
 
 MM = 1.32  # mm in an arena px on the nominal mat
@@ -49,7 +49,7 @@ class DrivetrainError(ValueError):
     """A file of robots that cannot be used: one line with file, key and reason."""
 
 
-def shares(drivetrain: Drivetrain, linear: float, angular: float) -> tuple[float, float]:
+def wheel_shares(drivetrain: Drivetrain, linear: float, angular: float) -> tuple[float, float]:
     """What to tell (left, right) so that the robot drives at px/s and rad/s, clockwise positive.
 
     If a wheel would have to turn faster than it can, both are slowed alike: the way keeps its bend.
@@ -73,13 +73,13 @@ def parse(text: str, file: str) -> tuple[Drivetrain, ...]:
         table.only("robot")
         found = tuple(_drivetrain(entry) for entry in table.tables("robot"))
         if not 1 <= len(found) <= ROBOTS:
-            raise table.wrong("robot", f"{len(found)} robots, but 1 to {ROBOTS} are possible")
-    except Wrong as wrong:
+            raise table.error("robot", f"{len(found)} robots, but 1 to {ROBOTS} are possible")
+    except FieldError as wrong:
         raise DrivetrainError(f"{file}: {wrong}") from None
     return found
 
 
-def tell(drivetrains: Sequence[Drivetrain]) -> str:
+def to_toml(drivetrains: Sequence[Drivetrain]) -> str:
     """The text of a file that tells of these robots."""
     return "\n".join(
         f"[[robot]]\nleft = [{one.left.speed:.2f}, {one.left.deadband:.4f}]\n"
@@ -113,5 +113,5 @@ def _drivetrain(entry: Table) -> Drivetrain:
 def _wheel(entry: Table, key: str) -> Wheel:
     speed, deadband = entry.numbers(key, 2, 0.0, FASTEST)
     if speed < 1.0 or deadband > 0.9:
-        raise entry.wrong(key, "[px/s at full share, share below which it stands still] is needed")
+        raise entry.error(key, "[px/s at full share, share below which it stands still] is needed")
     return Wheel(speed, deadband)

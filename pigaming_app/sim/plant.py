@@ -6,7 +6,7 @@ from math import exp
 from typing import Any, NamedTuple, Protocol
 
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.drivetrain import Drivetrain, shares, twist
+from pigaming_app.sim.drivetrain import Drivetrain, twist, wheel_shares
 from pigaming_app.sim.world import DT, World
 
 Pose = tuple[float, float, float]  # px, px, rad
@@ -68,7 +68,7 @@ class SimPlant:
             return twists
         heard = list(twists)
         for seat, (drivetrain, waiting) in enumerate(zip(self.drivetrains, self.waiting, strict=True)):
-            waiting.append(twist(drivetrain, *shares(drivetrain, *twists[seat])))
+            waiting.append(twist(drivetrain, *wheel_shares(drivetrain, *twists[seat])))
             heard[seat] = waiting.popleft()
         return heard
 

@@ -12,7 +12,7 @@ MASK = (1 << 31) - 1
 
 
 @kernel
-def chance(owner: Any) -> float:
+def uniform(owner: Any) -> float:
     """The next number in [0, 1) of the generator `owner.random`."""
     owner.random = (owner.random * 1103515245 + 12345) & MASK
     return float(owner.random >> 8) / 8388608.0
@@ -21,7 +21,7 @@ def chance(owner: Any) -> float:
 @kernel
 def bell(owner: Any) -> float:
     """A draw from about a normal distribution, mean 0, standard deviation 0.5: three uniform ones less their mean."""
-    return float(chance(owner) + chance(owner) + chance(owner) - 1.5)
+    return float(uniform(owner) + uniform(owner) + uniform(owner) - 1.5)
 
 
 def seeded(seed: int) -> int:

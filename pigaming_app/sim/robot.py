@@ -13,7 +13,7 @@ GAIN = 1.0 - exp(-DT / LAG)
 
 
 @kernel
-def roll(robot: Any) -> None:
+def integrate(robot: Any) -> None:
     """One tick of driving on an empty floor: the motors follow what is asked, the robot follows the motors.
 
     The middle of the arc gives its direction: exact for a straight line, and to 1e-4 px for the tightest bend.
@@ -27,7 +27,7 @@ def roll(robot: Any) -> None:
 
 
 @kernel
-def burn(robot: Any, wanted: int, drain: float, refill: float) -> None:
+def use_turbo(robot: Any, wanted: int, drain: float, refill: float) -> None:
     """One tick of the turbo meter: it empties while turbo is on and fills while the button is up.
 
     An empty meter cuts out until the button has been released.

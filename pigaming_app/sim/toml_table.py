@@ -1,6 +1,6 @@
 """TOML texts that anybody may have edited: every table knows its place in the file, so that errors name the key.
 
-`Wrong` carries the key and the reason; the caller adds the name of the file.
+`FieldError` carries the key and the reason; the caller adds the name of the file.
 """
 
 import re
@@ -23,7 +23,7 @@ def printable(text: str) -> str:
     return text if text.isprintable() and len(text) <= MOST_TEXT else _QUOTE.repr(text)
 
 
-def quoted(value: object) -> str:
+def quote(value: object) -> str:
     """A value as a message quotes it: one line, shortened."""
     try:
         return reprlib.repr(value)
@@ -31,7 +31,7 @@ def quoted(value: object) -> str:
         return "a number with too many digits"
 
 
-class Wrong(Exception):
+class FieldError(Exception):
     """Something in a file that cannot be used: the key, such as `wall[2].thick`, and the reason."""
 
     def __init__(self, key: str, reason: str) -> None:
@@ -47,79 +47,79 @@ class Table:
 
     @classmethod
     def parse(cls, text: str) -> "Table":
-        """The whole of a TOML text. Raises Wrong with the key `syntax`."""
+        """The whole of a TOML text. Raises FieldError with the key `syntax`."""
         if any(part.count(".") > MOST_DOTS for part in re.split(r"[\n=,]", text)):
-            raise Wrong("syntax", "nested too deep")
+            raise FieldError("syntax", "nested too deep")
         try:
             return cls(tomllib.loads(text))
         except ValueError as error:
-            raise Wrong("syntax", printable(str(error))) from None
+            raise FieldError("syntax", printable(str(error))) from None
         except (RecursionError, MemoryError):
-            raise Wrong("syntax", "nested too deep") from None
+            raise FieldError("syntax", "nested too deep") from None
 
     def __contains__(self, key: str) -> bool:
         return key in self.entries
 
     def only(self, *known: str) -> None:
-        """Raises Wrong for a key that is not one of these."""
+        """Raises FieldError for a key that is not one of these."""
         for key in self.entries:
             if key not in known:
-                raise Wrong(self.path + key, f"unknown key; possible are {', '.join(known)}")
+                raise FieldError(self.path + key, f"unknown key; possible are {', '.join(known)}")
 
-    def wrong(self, key: str, reason: str) -> Wrong:
+    def error(self, key: str, reason: str) -> FieldError:
         """What is wrong with a key of this table."""
-        return Wrong(self.path + key, reason)
+        return FieldError(self.path + key, reason)
 
     def number(
         self, key: str, default: float | None = None, low: float = -1e6, high: float = 1e6, unit: str = ""
     ) -> float:
-        """A number from `low` to `high`. Raises Wrong."""
+        """A number from `low` to `high`. Raises FieldError."""
         value = self.entries.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e6:
-            raise self.wrong(key, f"{quoted(value)} is not a number that makes sense here")
+            raise self.error(key, f"{quote(value)} is not a number that makes sense here")
         if not low <= value <= high:
-            raise self.wrong(key, f"{value:g}{unit}, but {low:g} to {high:g} are possible")
+            raise self.error(key, f"{value:g}{unit}, but {low:g} to {high:g} are possible")
         return float(value)
 
     def numbers(self, key: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """A list of so many numbers from `low` to `high`. Raises Wrong."""
+        """A list of so many numbers from `low` to `high`. Raises FieldError."""
         values = self.entries.get(key)
         if not isinstance(values, list) or len(values) != count:
-            raise self.wrong(key, f"a list of {count} numbers is needed")
+            raise self.error(key, f"a list of {count} numbers is needed")
         row = Table({f"[{i + 1}]": value for i, value in enumerate(values)}, self.path + key)
         return tuple(row.number(name, None, low, high) for name in row.entries)
 
     def point(self, key: str) -> tuple[float, float]:
-        """A point [x, y] in the arena, px. Raises Wrong."""
+        """A point [x, y] in the arena, px. Raises FieldError."""
         point = self.entries.get(key)
         if not isinstance(point, list) or len(point) != 2:
-            raise self.wrong(key, "a point [x, y] is needed")
+            raise self.error(key, "a point [x, y] is needed")
         pair = Table({key: point[0]}, self.path), Table({key: point[1]}, self.path)
         x, y = (one.number(key) for one in pair)
         if not (0 <= x <= WIDTH and 0 <= y <= HEIGHT):
-            raise self.wrong(key, f"({x:g}, {y:g}) lies outside the arena, 0..{WIDTH:g} x 0..{HEIGHT:g}")
+            raise self.error(key, f"({x:g}, {y:g}) lies outside the arena, 0..{WIDTH:g} x 0..{HEIGHT:g}")
         return x, y
 
     def word(self, key: str, known: Sequence[str]) -> str:
-        """One of these words. Raises Wrong."""
+        """One of these words. Raises FieldError."""
         value = self.entries.get(key)
         if value not in known:
-            raise self.wrong(key, f"{quoted(value)}; possible are {', '.join(known)}")
+            raise self.error(key, f"{quote(value)}; possible are {', '.join(known)}")
         return str(value)
 
     def table(self, key: str, reason: str = "a table is missing") -> "Table":
-        """The table [key]. Raises Wrong."""
+        """The table [key]. Raises FieldError."""
         entries = self.entries.get(key)
         if not isinstance(entries, dict):
-            raise self.wrong(key, reason)
+            raise self.error(key, reason)
         return Table(entries, f"{self.path}{key}.")
 
     def tables(self, key: str) -> "list[Table]":
-        """The tables [[key]], in the order of the file; none if there are none. Raises Wrong."""
+        """The tables [[key]], in the order of the file; none if there are none. Raises FieldError."""
         entries = self.entries.get(key, [])
         if not isinstance(entries, list):
-            raise self.wrong(key, f"must be written as [[{key}]]")
+            raise self.error(key, f"must be written as [[{key}]]")
         for i, entry in enumerate(entries):
             if not isinstance(entry, dict):
-                raise self.wrong(f"{key}[{i + 1}]", "must be a table")
+                raise self.error(f"{key}[{i + 1}]", "must be a table")
         return [Table(entry, f"{self.path}{key}[{i + 1}].") for i, entry in enumerate(entries)]

@@ -13,8 +13,8 @@ from pathlib import Path
 
 from pigaming_app.storage.safe_files import NotSaved
 
-PATIENCE = 2.0  # seconds
-RETRY = 0.01  # seconds
+TIMEOUT = 2.0  # seconds
+RETRY_INTERVAL = 0.01  # seconds
 
 if sys.platform == "win32":
     import msvcrt
@@ -36,7 +36,7 @@ else:
 
 @contextlib.contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Hold the lock of `path`, the file `.NAME.lock` beside it. Raises NotSaved after PATIENCE seconds of waiting.
+    """Hold the lock of `path`, the file `.NAME.lock` beside it. Raises NotSaved after TIMEOUT seconds of waiting.
 
     Where a lock file cannot be written, or the file system has no locks, the block runs without one.
     """
@@ -45,7 +45,7 @@ def locked(path: Path) -> Iterator[None]:
             path.parent.mkdir(parents=True, exist_ok=True)
             handle = os.open(path.with_name(f".{path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o666)
             held.callback(os.close, handle)
-            _wait(handle, time.monotonic() + PATIENCE)
+            _wait(handle, time.monotonic() + TIMEOUT)
         except TimeoutError:
             raise NotSaved(f"{path} was not saved: another copy of the arcade is using it.") from None
         except OSError:
@@ -62,4 +62,4 @@ def _wait(handle: int, until: float) -> None:
         except BUSY:
             if time.monotonic() >= until:
                 raise TimeoutError from None
-            time.sleep(RETRY)
+            time.sleep(RETRY_INTERVAL)

@@ -47,7 +47,7 @@ def log_file(data: Path) -> LogFile:
     return handler
 
 
-def note(data: Path, sentence: str) -> None:
+def append_line(data: Path, sentence: str) -> None:
     """Write one sentence into the log; where that cannot be, it stands on the screen only."""
     try:
         handler = log_file(data)

@@ -13,10 +13,10 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-LIMIT = 1_000_000  # bytes of a file, where nothing else is given
-DEPTH = 32  # levels of tables and lists
-SHOWN = 60  # characters of a value in a message
-LINE = 400  # characters of a whole message
+MAX_BYTES = 1_000_000  # bytes of a file, where nothing else is given
+MAX_DEPTH = 32  # levels of tables and lists
+QUOTE_LENGTH = 60  # characters of a value in a message
+MESSAGE_LENGTH = 400  # characters of a whole message
 _WHOLE = range(-(2**63), 2**63)
 _DIGITS = 400  # from here on a whole number is infinite as a float, too
 
@@ -25,7 +25,7 @@ class ParseError(ValueError):
     """A text that cannot be parsed; the message is a short reason."""
 
 
-def read(path: Path, limit: int = LIMIT) -> bytes:
+def read(path: Path, limit: int = MAX_BYTES) -> bytes:
     """The content of a regular file of at most `limit` bytes; devices and pipes are refused. Raises OSError."""
     if not stat.S_ISREG(os.stat(path).st_mode):
         raise OSError(errno.EISDIR if path.is_dir() else errno.EINVAL, "it is not a file")
@@ -39,7 +39,7 @@ def read(path: Path, limit: int = LIMIT) -> bytes:
     return content
 
 
-def read_text(path: Path, limit: int = LIMIT) -> str:
+def read_text(path: Path, limit: int = MAX_BYTES) -> str:
     """The text of a UTF-8 file, without a byte order mark. Raises OSError or ParseError."""
     try:
         return read(path, limit).decode("utf-8-sig")  # Notepad writes the mark
@@ -47,10 +47,10 @@ def read_text(path: Path, limit: int = LIMIT) -> str:
         raise ParseError("it is not text in UTF-8") from None
 
 
-def toml_of(text: str) -> dict[str, Any]:
+def parse_toml(text: str) -> dict[str, Any]:
     """The tables of a TOML text. Raises ParseError."""
-    if any(part.count(".") > 2 * DEPTH for part in re.split(r"[\n=,]", text)):
-        raise ParseError(f"nested more than {DEPTH} deep")  # tomllib takes quadratic time for long dotted keys
+    if any(part.count(".") > 2 * MAX_DEPTH for part in re.split(r"[\n=,]", text)):
+        raise ParseError(f"nested more than {MAX_DEPTH} deep")  # tomllib takes quadratic time for long dotted keys
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -58,12 +58,12 @@ def toml_of(text: str) -> dict[str, Any]:
     except ValueError:
         raise ParseError("a number has too many digits") from None
     except (RecursionError, MemoryError):
-        raise ParseError(f"nested more than {DEPTH} deep") from None
+        raise ParseError(f"nested more than {MAX_DEPTH} deep") from None
     _bound([tables])
     return tables
 
 
-def json_of(text: str | bytes) -> Any:
+def parse_json(text: str | bytes) -> Any:
     """The value of a JSON text. NaN and infinities are accepted. Raises ParseError."""
     try:
         value = json.loads(text, parse_int=_whole)
@@ -72,13 +72,13 @@ def json_of(text: str | bytes) -> Any:
     except ValueError as error:
         raise ParseError(one_line(str(error))) from None
     except (RecursionError, MemoryError):
-        raise ParseError(f"nested more than {DEPTH} deep") from None
+        raise ParseError(f"nested more than {MAX_DEPTH} deep") from None
     whole = [value]
     _bound(whole)
     return whole[0]
 
 
-def reason(error: Exception) -> str:
+def describe_error(error: Exception) -> str:
     """Why a file could not be read or written, to follow a colon or stand in brackets."""
     if not isinstance(error, OSError):
         return one_line(str(error))
@@ -91,12 +91,12 @@ def reason(error: Exception) -> str:
             return one_line(error.strerror or str(error))
 
 
-def shown(value: object) -> str:
+def quote(value: object) -> str:
     """A value as a message quotes it: one line, not too long."""
-    return one_line(repr(value), SHOWN)
+    return one_line(repr(value), QUOTE_LENGTH)
 
 
-def one_line(text: str, most: int = LINE) -> str:
+def one_line(text: str, most: int = MESSAGE_LENGTH) -> str:
     """Text on one line: control characters, line ends and broken Unicode are escaped, a long middle is left out."""
     if len(text) > most:
         text = f"{text[: 2 * most // 3]}…{text[-most // 3 :]}"
@@ -114,7 +114,7 @@ def _whole(digits: str) -> int | float:
 def _bound(tree: list[Any]) -> None:
     """Make whole numbers beyond 64 bits infinite. Raises ParseError for a tree that is too deep."""
     level: list[Any] = [tree]
-    for _ in range(DEPTH + 1):
+    for _ in range(MAX_DEPTH + 1):
         deeper: list[Any] = []
         for node in level:
             for key, value in list(node.items() if isinstance(node, dict) else enumerate(node)):
@@ -124,4 +124,4 @@ def _bound(tree: list[Any]) -> None:
                     node[key] = inf if value > 0 else -inf
         level = deeper
     if level:
-        raise ParseError(f"nested more than {DEPTH} deep")
+        raise ParseError(f"nested more than {MAX_DEPTH} deep")

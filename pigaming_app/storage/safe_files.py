@@ -1,8 +1,8 @@
 """Writing files so that a pulled plug, a full disk or a kill leaves each of them whole: the new one or the one before.
 
-`write` and `Draft` replace a file in one step; `keep` also leaves the version before beside it as `.bak`. `recall`
-reads one back: a file that cannot be read is put aside under another name and the `.bak` takes its place. A process
-that was killed leaves its temporary file behind, which `sweep` deletes.
+`write_atomic` and `AtomicFile` replace a file in one step; `write_with_backup` also keeps the version before as `.bak`.
+`read_or_restore` reads one back: a file that cannot be read is put aside under another name and the `.bak` takes its
+place. A killed process leaves its temporary file behind, which `delete_temporary_files` deletes.
 """
 
 import contextlib
@@ -17,7 +17,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import IO, TypeVar
 
-from pigaming_app.storage.parsing import LIMIT, one_line, read, read_text, reason
+from pigaming_app.storage.parsing import MAX_BYTES, describe_error, one_line, read, read_text
 
 T = TypeVar("T")
 LARGEST = 16_000_000  # bytes of a file that gets a `.bak`
@@ -29,7 +29,7 @@ class NotSaved(OSError):
     """A file was not written; the one before it is intact. The text is one sentence for the operator."""
 
 
-class Draft:
+class AtomicFile:
     """A file being written beside `path`, which it replaces in one step when it is finished.
 
     Every method raises OSError; then the draft is gone and what stood at `path` is intact.
@@ -80,21 +80,21 @@ class Draft:
             raise
 
 
-def write(path: Path, raw: bytes) -> None:
+def write_atomic(path: Path, raw: bytes) -> None:
     """Write a file, whole or not at all; missing folders are made. Raises NotSaved."""
     with _blamed(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         _replace(path, raw)
 
 
-def check_target(path: Path) -> None:
+def require_writable(path: Path) -> None:
     """Raises NotSaved if a file at `path` cannot be written; deletes what killed processes left beside it."""
     with _blamed(path, "cannot be written"):
-        Draft(path).discard()
-        sweep(path.absolute().parent)
+        AtomicFile(path).discard()
+        delete_temporary_files(path.absolute().parent)
 
 
-def keep(path: Path, text: str) -> None:
+def write_with_backup(path: Path, text: str) -> None:
     """Write `text` (UTF-8) to `path`, missing folders too; what stood there becomes `.bak`. Raises NotSaved."""
     with _blamed(path):
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -103,14 +103,14 @@ def keep(path: Path, text: str) -> None:
         _replace(path, text.encode())
 
 
-def recall(path: Path, parse: Callable[[str], T], limit: int = LIMIT) -> tuple[T | None, list[str]]:
+def read_or_restore(path: Path, parse: Callable[[str], T], limit: int = MAX_BYTES) -> tuple[T | None, list[str]]:
     """What `parse` (which raises ValueError) makes of the file, and what to tell the operator. No file: None."""
     try:
         return parse(read_text(path, limit)), []
     except FileNotFoundError:
         return None, []
     except (OSError, ValueError) as error:
-        said = f"{path} cannot be read ({reason(error)}); {_put_aside(path)}"
+        said = f"{path} cannot be read ({describe_error(error)}); {_put_aside(path)}"
     backup = _backup(path)
     try:
         restored = parse(read_text(backup, limit))
@@ -121,7 +121,7 @@ def recall(path: Path, parse: Callable[[str], T], limit: int = LIMIT) -> tuple[T
     return restored, [f"{said}; the version before it is back."]
 
 
-def sweep(*folders: Path) -> None:
+def delete_temporary_files(*folders: Path) -> None:
     """Delete the temporary files that killed processes left in these folders; those being written stay."""
     for folder in folders:
         with contextlib.suppress(OSError):
@@ -136,13 +136,13 @@ def _blamed(path: Path, what: str = "was not saved") -> Iterator[None]:
     try:
         yield
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
-        refused = NotSaved(one_line(f"{path} {what}: {reason(error)}."))
+        refused = NotSaved(one_line(f"{path} {what}: {describe_error(error)}."))
         refused.errno = getattr(error, "errno", None)
         raise refused from error
 
 
 def _replace(path: Path, raw: bytes) -> None:
-    draft = Draft(path)
+    draft = AtomicFile(path)
     draft.write(raw)
     draft.finish()
 
@@ -225,5 +225,5 @@ def _put_aside(path: Path) -> str:
     try:
         os.replace(path, aside)
     except OSError as error:
-        return f"it stays where it is ({reason(error)})"
+        return f"it stays where it is ({describe_error(error)})"
     return f"kept as {aside.name}"

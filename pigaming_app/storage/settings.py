@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from pigaming_app.storage.file_lock import locked
-from pigaming_app.storage.parsing import one_line, shown, toml_of
-from pigaming_app.storage.safe_files import keep, recall
+from pigaming_app.storage.parsing import one_line, parse_toml, quote
+from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
 
 FILE = "settings.toml"
 FORMER = ("arena", "minutes", "variant")  # stood alone when there was one game
@@ -42,10 +42,10 @@ def folders() -> Folders:
     return Folders(place.user_config_path, place.user_data_path, place.user_cache_path)
 
 
-class Fit(Protocol):
+class Validator(Protocol):
     """What may stand in a setting."""
 
-    def wrong(self, value: object) -> str | None:
+    def error(self, value: object) -> str | None:
         """Why the value does not fit, to follow "is", or None."""
 
 
@@ -56,7 +56,7 @@ class Range:
     low: float
     high: float
 
-    def wrong(self, value: object) -> str | None:
+    def error(self, value: object) -> str | None:
         whole = isinstance(self.low, int)
         if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
             return "not a whole number" if whole else "not a number"
@@ -69,21 +69,21 @@ class OneOf:
 
     words: tuple[str, ...]
 
-    def wrong(self, value: object) -> str | None:
+    def error(self, value: object) -> str | None:
         return None if value in self.words else f"none of {', '.join(self.words)}"
 
 
 class Switch:
     """True or false."""
 
-    def wrong(self, value: object) -> str | None:
+    def error(self, value: object) -> str | None:
         return None if isinstance(value, bool) else "neither true nor false"
 
 
 class Name:
     """A name of something that may have gone since: who uses it looks whether it is there."""
 
-    def wrong(self, value: object) -> str | None:
+    def error(self, value: object) -> str | None:
         short = isinstance(value, str) and len(value) <= LONGEST and value.isprintable()
         return None if short else "not a short text"
 
@@ -94,7 +94,7 @@ class Numbers:
 
     all_of_them: bool = False
 
-    def wrong(self, value: object) -> str | None:
+    def error(self, value: object) -> str | None:
         known = isinstance(value, list) and all(type(one) is int and 1 <= one <= 4 for one in value)
         if not known or len(set(value)) != len(value):  # type: ignore[call-overload, arg-type]
             return "not a list of different numbers from 1 to 4"
@@ -104,13 +104,13 @@ class Numbers:
 class Corners:
     """Nothing, or eight whole numbers: where the corners of the picture are, px of the canvas."""
 
-    def wrong(self, value: object) -> str | None:
+    def error(self, value: object) -> str | None:
         whole = isinstance(value, list) and all(type(one) is int and abs(one) < 10000 for one in value)
         return None if whole and len(value) in (0, 8) else "neither empty nor eight whole numbers"  # type: ignore[arg-type]
 
 
-def _setting(default: Any, fit: Fit) -> Any:
-    return field(default=default, metadata={"fit": fit})
+def _setting(default: Any, validator: Validator) -> Any:
+    return field(default=default, metadata={"validator": validator})
 
 
 @dataclass
@@ -140,7 +140,9 @@ class Settings:
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Switch())
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # of nobody pressing anything
-    corners: list[int] = field(default_factory=list, metadata={"fit": Corners()})  # of the picture on the projector
+    corners: list[int] = field(
+        default_factory=list, metadata={"validator": Corners()}
+    )  # of the picture on the projector
     strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
     camera: int = _setting(0, Range(0, 63))  # over the mat
     arena_mm: float = _setting(2112.0, Range(500.0, 10000.0))  # the arena's width on the mat
@@ -150,8 +152,12 @@ class Settings:
     baud: int = _setting(57600, Range(1200, 921600))
     radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # how it is set
     mat: bool = _setting(False, Switch())  # real robots can be chosen
-    real: list[int] = field(default_factory=list, metadata={"fit": Numbers()})  # seats with real robots, last chosen
-    radios: list[int] = field(default_factory=lambda: [1, 2, 3, 4], metadata={"fit": Numbers(True)})  # of each marker
+    real: list[int] = field(
+        default_factory=list, metadata={"validator": Numbers()}
+    )  # seats with real robots, last chosen
+    radios: list[int] = field(
+        default_factory=lambda: [1, 2, 3, 4], metadata={"validator": Numbers(True)}
+    )  # of each marker
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:
@@ -161,7 +167,7 @@ class Settings:
     @classmethod
     def load(cls, folder: Path) -> "tuple[Settings, list[str]]":
         """The settings kept in the folder, and one sentence for everything that was wrong with them."""
-        found, said = recall(folder / FILE, toml_of)
+        found, said = read_or_restore(folder / FILE, parse_toml)
         settings = cls()
         said += _fill_all(settings, dict(found or {}), folder / FILE)
         settings._base = settings._seen = _flat(settings)
@@ -173,8 +179,8 @@ class Settings:
 
     def choose(self, name: str, value: object) -> None:
         """Set one setting. Raises ValueError with why the value does not fit."""
-        if wrong := next(one.metadata["fit"] for one in fields(self) if one.name == name).wrong(value):
-            raise ValueError(f"{name} = {value!r} is {wrong}")
+        if error := next(one.metadata["validator"] for one in fields(self) if one.name == name).error(value):
+            raise ValueError(f"{name} = {value!r} is {error}")
         setattr(self, name, value)
 
     def save(self, folder: Path) -> None:
@@ -188,7 +194,7 @@ class Settings:
                 log.warning("%s", sentence)
             for key in self._changed():
                 there._set(key, own[key])
-            keep(path, tomli_w.dumps(asdict(there)))
+            write_with_backup(path, tomli_w.dumps(asdict(there)))
         self._base, self._seen = own, _flat(there)
 
     def _changed(self) -> list[Key]:
@@ -246,12 +252,12 @@ def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str
 def _fill(target: Any, table: dict[str, Any], where: str) -> list[str]:
     """Set what fits; a sentence for everything that does not."""
     said = []
-    fits = {one.name: one.metadata["fit"] for one in fields(target) if "fit" in one.metadata}
+    validators = {one.name: one.metadata["validator"] for one in fields(target) if "validator" in one.metadata}
     for key, value in table.items():
-        if key not in fits:
+        if key not in validators:
             said.append(f"{where}{one_line(key, LONGEST)} is not a setting; it is ignored.")
-        elif wrong := fits[key].wrong(value):
-            said.append(f"{where}{key} = {shown(value)} is {wrong}; {getattr(target, key)!r} is used.")
+        elif error := validators[key].error(value):
+            said.append(f"{where}{key} = {quote(value)} is {error}; {getattr(target, key)!r} is used.")
         else:
             setattr(target, key, float(value) if isinstance(getattr(target, key), float) else value)
     return said

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 
 import pygame
 
-from pigaming_app.storage.safe_files import write
+from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.ui.png import png_of
 
 SIZE = (1920, 1080)
@@ -192,7 +192,7 @@ class Canvas:
 
     def screenshot(self, path: Path) -> None:
         """Save what was painted last as a PNG file; missing folders are made. Raises NotSaved."""
-        write(path, png_of(self.screen))
+        write_atomic(path, png_of(self.screen))
 
     def close(self) -> None:
         """Take the window away."""

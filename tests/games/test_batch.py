@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from pigaming_app.games.batch import matches, started, step_all
+from pigaming_app.games.batch import initial_states, matches, step_all
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
 
 TICKS = 400
@@ -37,7 +37,7 @@ class Given:
 
     def think(self, state, seat):
         linear, angular, fire, turbo = wishes(state.tick)[self.index][seat]
-        press(state.actions[seat], linear, angular, int(fire), int(turbo))
+        set_action(state.actions[seat], linear, angular, int(fire), int(turbo))
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +54,7 @@ def alone():
 
 
 def test_plain_matches_at_once_are_the_same_matches_alone(alone):
-    states = started(setups())
+    states = initial_states(setups())
     for tick in range(TICKS):
         step_all(states, wishes(tick).tolist())
     assert [digest(state) for state in states] == alone

@@ -6,8 +6,8 @@ import pytest
 
 from pigaming_app.ai import make
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match, Nobody
-from pigaming_app.sim.action import press
+from pigaming_app.games.match import IdlePlayer, Match
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
 
 
@@ -23,7 +23,7 @@ class Steady:
         self.linear, self.angular = linear, angular
 
     def think(self, state, seat):
-        press(state.actions[seat], self.linear, self.angular, 0, 0)
+        set_action(state.actions[seat], self.linear, self.angular, 0, 0)
 
 
 def with_scores(scores, teams=(0, 1, 2, 3), brains=("random",) * 4):
@@ -44,7 +44,7 @@ def test_a_seat_is_handed_over_in_the_middle_of_a_match():
     for _ in range(50):
         match.tick()
     assert match.state.robots[0].x < x - 100.0
-    match.sit(0, Nobody())
+    match.sit(0, IdlePlayer())
     for _ in range(40):
         match.tick()
     assert abs(match.state.robots[0].linear) < 1.0
@@ -114,7 +114,7 @@ def test_the_table_counts_what_the_game_counts():
     match = Match(setup())
     tank = match.state.tanks[1]
     tank.hits, tank.taken, tank.shots, tank.landed = 3, 2, 8, 2
-    facts = {row.seat: dict(row.facts) for row in match.outcome().rows}
+    facts = {row.seat: dict(row.stats) for row in match.outcome().rows}
     assert facts[1] == {"hits": 3, "taken": 2, "aim": 0.25}
     assert facts[0] == {"hits": 0, "taken": 0, "aim": 0.0}
     assert tuple(facts[0]) == match.game.columns

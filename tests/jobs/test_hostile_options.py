@@ -16,7 +16,7 @@ import pytest
 
 from pigaming_app import ASSETS, cli
 from pigaming_app.scenes import app
-from pigaming_app.storage.parsing import LINE
+from pigaming_app.storage.parsing import MESSAGE_LENGTH
 from tests.cases import one_in
 from tests.disks import content, room_for
 
@@ -105,7 +105,7 @@ def fault(arguments):
             return f"{type(error).__name__}: {error}"
     lines = err.getvalue().splitlines()
     if code == 2:
-        good = not out.getvalue() and len(lines) == 1 and lines[0].isprintable() and len(lines[0]) <= 2 * LINE
+        good = not out.getvalue() and len(lines) == 1 and lines[0].isprintable() and len(lines[0]) <= 2 * MESSAGE_LENGTH
         return None if good else f"code 2 with {lines} and {out.getvalue()!r}"
     return None if code == 0 else f"code {code} with {lines}"
 

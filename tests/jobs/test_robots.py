@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.cli import main
 from pigaming_app.hardware.session.store import save_radios
 from pigaming_app.jobs import fidelity, robots
-from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, tell
+from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.mat import TRUE, Mat
 
@@ -151,7 +151,7 @@ def test_what_cannot_be_done_is_one_line(arguments, capsys):
 def test_simulated_robots_drive_like_measured_ones_where_that_is_wished(tmp_path, capsys):
     slow = Drivetrain(Wheel(60.0, 0.0), Wheel(60.0, 0.0), 62.0, 0.2, 0.1)
     file = tmp_path / "robots.toml"
-    file.write_text(tell([slow] * 4))
+    file.write_text(to_toml([slow] * 4))
     race = ["play", "race", "--seats", "hard,hard", "--headless", "--speed", "max", "--minutes", "0.4"]
     ideal, measured = told(capsys, *race), told(capsys, *race, "--robots", str(file))
     assert max(row["laps"] for row in ideal["rows"]) >= 1
@@ -159,7 +159,7 @@ def test_simulated_robots_drive_like_measured_ones_where_that_is_wished(tmp_path
 
 
 @pytest.mark.parametrize(
-    ("text", "more"), [("", []), ("[[robot]]\nleft = 3", []), (None, []), (tell([NOMINAL]), ["--real", "1"])]
+    ("text", "more"), [("", []), ("[[robot]]\nleft = 3", []), (None, []), (to_toml([NOMINAL]), ["--real", "1"])]
 )
 def test_robots_that_cannot_be_read_are_one_line(tmp_path, capsys, text, more):
     file = tmp_path / "robots.toml"

@@ -93,7 +93,7 @@ def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
 
 
 def seats(game: str) -> Seats:
-    found = Seats(sides=games()[game].sides, rivals=RIVALS[game])
+    found = Seats(team_mode=games()[game].team_mode, rivals=RIVALS[game])
     for device in KEYS[:2]:
         found.join(device)
     found.add()

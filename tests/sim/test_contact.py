@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import SHOVE, drive, in_wall
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from tests.floor import floor
@@ -167,7 +167,7 @@ def test_a_crowd_near_walls_never_gets_into_one():
     for tick in range(20 * HZ):
         if tick % 10 == 0:
             for robot in world.robots:
-                ask(robot, FASTEST * (1 if chance(luck) < 0.7 else -1), 6 * chance(luck) - 3)
+                ask(robot, FASTEST * (1 if uniform(luck) < 0.7 else -1), 6 * uniform(luck) - 3)
         drive(world)
         assert depth(world) < 1e-5
 

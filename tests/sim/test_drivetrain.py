@@ -4,7 +4,7 @@ from math import pi
 
 import pytest
 
-from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, DrivetrainError, Wheel, parse, shares, tell, twist
+from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, DrivetrainError, Wheel, parse, to_toml, twist, wheel_shares
 from pigaming_app.sim.plant import SimPlant
 from tests.floor import floor
 
@@ -12,19 +12,19 @@ UNEVEN = Drivetrain(Wheel(700.0, 0.05), Wheel(800.0, 0.10), 60.0, 0.05, 0.06)
 
 
 def test_a_robot_that_goes_straight_turns_both_wheels_alike():
-    left, right = shares(NOMINAL, NOMINAL.left.speed / 2, 0.0)
+    left, right = wheel_shares(NOMINAL, NOMINAL.left.speed / 2, 0.0)
     assert left == right == pytest.approx(0.5)
 
 
 def test_turning_right_on_the_spot_needs_the_left_wheel_ahead():
-    left, right = shares(NOMINAL, 0.0, pi)
+    left, right = wheel_shares(NOMINAL, 0.0, pi)
     assert left == pytest.approx(pi * NOMINAL.base / 2 / NOMINAL.left.speed)
     assert right == -left
 
 
 @pytest.mark.parametrize("asked", [(260.0, 0.0), (-120.0, 1.5), (0.0, -3.0), (300.0, 2.0), (1.0, 0.0), (0.0, 0.0)])
 def test_what_was_asked_is_what_comes_out_whatever_the_wheels_are_like(asked):
-    assert twist(UNEVEN, *shares(UNEVEN, *asked)) == pytest.approx(asked)
+    assert twist(UNEVEN, *wheel_shares(UNEVEN, *asked)) == pytest.approx(asked)
 
 
 def test_below_the_deadband_a_wheel_stands_still():
@@ -33,13 +33,13 @@ def test_below_the_deadband_a_wheel_stands_still():
 
 
 def test_too_much_is_slowed_without_changing_the_bend():
-    linear, angular = twist(UNEVEN, *shares(UNEVEN, 2000.0, 10.0))
+    linear, angular = twist(UNEVEN, *wheel_shares(UNEVEN, 2000.0, 10.0))
     assert linear < 800.0
     assert linear / angular == pytest.approx(200.0)
 
 
 def test_a_file_brings_back_what_was_written():
-    (one, other) = parse(tell([UNEVEN, NOMINAL]), "robots.toml")
+    (one, other) = parse(to_toml([UNEVEN, NOMINAL]), "robots.toml")
     assert one == UNEVEN
     assert other.left.speed == pytest.approx(NOMINAL.left.speed, abs=0.01)
 

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.record import copy, digest, dtype, numbers, packed, record, to_bytes, unpack
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import World
 
 
@@ -38,7 +38,7 @@ def filled(kind, seed=1):
                     fill(element)
                 continue
             top = 30_000 if field.code == "h" else 1_000_000_000
-            drawn = [chance(Source) * top for _ in range(field.count or 1)]
+            drawn = [uniform(Source) * top for _ in range(field.count or 1)]
             drawn = [value if field.code == "d" else int(value) for value in drawn]
             setattr(state, field.name, drawn[0] if field.count is None else drawn)
 

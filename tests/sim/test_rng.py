@@ -6,17 +6,17 @@ from types import SimpleNamespace
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pigaming_app.sim.rng import MASK, chance, seeded
+from pigaming_app.sim.rng import MASK, seeded, uniform
 
 
 def draws(seed, count):
     owner = SimpleNamespace(random=seeded(seed))
-    return [chance(owner) for _ in range(count)]
+    return [uniform(owner) for _ in range(count)]
 
 
 def test_the_step_is_that_of_iso_c():
     owner = SimpleNamespace(random=1)
-    chance(owner)
+    uniform(owner)
     assert owner.random == 1103515245 + 12345
 
 

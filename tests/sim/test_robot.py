@@ -4,7 +4,7 @@ from math import cos, exp, hypot, pi, sin
 
 import pytest
 
-from pigaming_app.sim.robot import GAIN, LAG, burn, roll
+from pigaming_app.sim.robot import GAIN, LAG, integrate, use_turbo
 from pigaming_app.sim.world import DT, HZ, Robot
 
 RULE_DRAIN, RULE_REFILL = 1 / (2 * HZ), 1 / (4 * HZ)
@@ -21,7 +21,7 @@ def robot(linear=0.0, angular=0.0, **fields):
 
 def rolled(made, seconds):
     for _ in range(round(seconds * HZ)):
-        roll(made)
+        integrate(made)
     return made
 
 
@@ -70,28 +70,28 @@ def test_turbo_meter_empties_in_2_s_and_fills_in_4_s():
     made = robot()
     burning = 0
     while True:
-        burn(made, 1, RULE_DRAIN, RULE_REFILL)
+        use_turbo(made, 1, RULE_DRAIN, RULE_REFILL)
         if not made.boosting:
             break
         burning += 1
     assert burning in (2 * HZ - 1, 2 * HZ)  # the last drop may be lost to rounding
     filling = 0
     while made.turbo < 1.0 and filling < 1000:
-        burn(made, 0, RULE_DRAIN, RULE_REFILL)
+        use_turbo(made, 0, RULE_DRAIN, RULE_REFILL)
         filling += 1
     assert 4 * HZ - 2 <= filling <= 4 * HZ + 1
-    burn(made, 0, RULE_DRAIN, RULE_REFILL)
+    use_turbo(made, 0, RULE_DRAIN, RULE_REFILL)
     assert made.turbo == 1.0
 
 
 def test_an_empty_meter_cuts_out_until_the_button_is_released():
     made = robot(turbo=0.0)
     for _ in range(2 * HZ):
-        burn(made, 1, RULE_DRAIN, RULE_REFILL)
+        use_turbo(made, 1, RULE_DRAIN, RULE_REFILL)
         assert not made.boosting
     assert made.turbo == 0.0
     for _ in range(HZ):
-        burn(made, 0, RULE_DRAIN, RULE_REFILL)
-    burn(made, 1, RULE_DRAIN, RULE_REFILL)
+        use_turbo(made, 0, RULE_DRAIN, RULE_REFILL)
+    use_turbo(made, 1, RULE_DRAIN, RULE_REFILL)
     assert made.boosting
     assert made.turbo == pytest.approx(0.25 - RULE_DRAIN)

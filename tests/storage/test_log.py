@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from pigaming_app.storage.log import FILE, log_file, note
+from pigaming_app.storage.log import FILE, append_line, log_file
 from tests.disks import room_for
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="limits of POSIX")
@@ -32,8 +32,8 @@ def test_a_full_disk_costs_lines_and_nothing_else(tmp_path, capsys):
 def test_a_rotation_on_a_full_disk_keeps_the_log_before(tmp_path, capsys):
     (tmp_path / FILE).write_text("old\n" * 125_000)
     with room_for(10):
-        note(tmp_path, "lost")
-    note(tmp_path, "kept")
+        append_line(tmp_path, "lost")
+    append_line(tmp_path, "kept")
     kept = (tmp_path / FILE).read_text()
     assert kept.endswith("kept\n")
     assert kept.count("\n") == 1
@@ -45,7 +45,7 @@ def test_a_pipe_in_place_of_the_log_makes_nobody_wait(tmp_path):
     os.mkfifo(tmp_path / FILE)
     with pytest.raises(OSError, match="not a file"):
         log_file(tmp_path)
-    note(tmp_path, "lost")
+    append_line(tmp_path, "lost")
 
 
 def test_a_mistake_in_a_message_is_still_reported(tmp_path, capsys):

@@ -5,7 +5,17 @@ from math import inf
 
 import pytest
 
-from pigaming_app.storage.parsing import DEPTH, LINE, ParseError, json_of, one_line, read, read_text, shown, toml_of
+from pigaming_app.storage.parsing import (
+    MAX_DEPTH,
+    MESSAGE_LENGTH,
+    ParseError,
+    one_line,
+    parse_json,
+    parse_toml,
+    quote,
+    read,
+    read_text,
+)
 
 DEEP_TOML = {
     "lists": "a = " + "[" * 2000 + "]" * 2000,
@@ -13,7 +23,7 @@ DEEP_TOML = {
     "a dotted key": ".".join("a" * 2000) + " = 1",
     "a long dotted key": ".".join("a" * 400_000) + " = 1",
     "a dotted header": "[" + " . ".join("a" * 2000) + "]",
-    "just too deep": "a = " + "[" * (DEPTH + 1) + "]" * (DEPTH + 1),
+    "just too deep": "a = " + "[" * (MAX_DEPTH + 1) + "]" * (MAX_DEPTH + 1),
 }
 DEEP_JSON = {"lists": "[" * 2000 + "]" * 2000, "tables": '{"a":' * 100_000 + "1" + "}" * 100_000}
 
@@ -21,45 +31,45 @@ DEEP_JSON = {"lists": "[" * 2000 + "]" * 2000, "tables": '{"a":' * 100_000 + "1"
 @pytest.mark.parametrize("text", DEEP_TOML.values(), ids=DEEP_TOML)
 def test_deep_toml_is_refused(text):
     with pytest.raises(ParseError, match="nested more than"):
-        toml_of(text)
+        parse_toml(text)
 
 
 @pytest.mark.parametrize("text", DEEP_JSON.values(), ids=DEEP_JSON)
 def test_deep_json_is_refused(text):
     with pytest.raises(ParseError, match="nested more than"):
-        json_of(text)
+        parse_json(text)
 
 
 @pytest.mark.parametrize("digits", [20, 400, 4000])
 def test_a_number_beyond_64_bits_is_infinite(digits):
     number = "9" * digits
-    assert toml_of(f"a = {number}\nb = [-{number}]") == {"a": inf, "b": [-inf]}
-    assert json_of(f'{{"a": {number}, "b": [-{number}]}}') == {"a": inf, "b": [-inf]}
-    assert json_of(number) == inf
+    assert parse_toml(f"a = {number}\nb = [-{number}]") == {"a": inf, "b": [-inf]}
+    assert parse_json(f'{{"a": {number}, "b": [-{number}]}}') == {"a": inf, "b": [-inf]}
+    assert parse_json(number) == inf
 
 
 def test_the_limits_of_64_bits_stay_whole():
-    assert toml_of(f"a = {2**63 - 1}\nb = {-(2**63)}") == {"a": 2**63 - 1, "b": -(2**63)}
+    assert parse_toml(f"a = {2**63 - 1}\nb = {-(2**63)}") == {"a": 2**63 - 1, "b": -(2**63)}
 
 
 def test_5000_digits_end_in_a_value_or_a_line():
-    assert json_of("[" + "9" * 5000 + "]") == [inf]
+    assert parse_json("[" + "9" * 5000 + "]") == [inf]
     with pytest.raises(ParseError, match="too many digits"):
-        toml_of("a = " + "9" * 5000)
+        parse_toml("a = " + "9" * 5000)
 
 
 @pytest.mark.parametrize("text", ["a =", "a = 1979-13-01", "a = 0000-01-01", '"\x00" = 1', "a = \n" * 3000, "\ufeff"])
 def test_broken_toml_is_one_short_line(text):
     with pytest.raises(ParseError) as refused:
-        toml_of(text)
-    assert len(str(refused.value)) <= LINE + 1
+        parse_toml(text)
+    assert len(str(refused.value)) <= MESSAGE_LENGTH + 1
     assert str(refused.value).isprintable()
 
 
 @pytest.mark.parametrize("text", ["", "{", "\x00", b"\xff\xfe\x00", b"\xed\xa0\x80", '"\n"'])
 def test_broken_json_is_one_short_line(text):
     with pytest.raises(ParseError) as refused:
-        json_of(text)
+        parse_json(text)
     assert str(refused.value).isprintable()
 
 
@@ -86,7 +96,7 @@ def test_devices_and_pipes_are_refused_at_once(tmp_path):
 
 def test_a_message_is_one_line_whatever_it_quotes():
     assert one_line("a\nb\x1b[2J\u2028\udcff") == r"a\nb\x1b[2J\u2028\udcff"
-    assert len(one_line("x" * 100_000)) <= LINE + 1
-    assert shown("a" * 300).startswith("'aaaa")
-    assert shown("a" * 300).endswith("aaaa'")
-    assert shown([10**30] * 50).isprintable()
+    assert len(one_line("x" * 100_000)) <= MESSAGE_LENGTH + 1
+    assert quote("a" * 300).startswith("'aaaa")
+    assert quote("a" * 300).endswith("aaaa'")
+    assert quote([10**30] * 50).isprintable()

@@ -9,7 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.storage.safe_files import Draft, NotSaved, check_target, keep, sweep, write
+from pigaming_app.storage.safe_files import (
+    AtomicFile,
+    NotSaved,
+    delete_temporary_files,
+    require_writable,
+    write_atomic,
+    write_with_backup,
+)
 from tests.disks import content, failing_at, room_for
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,12 +25,12 @@ OLD, NEW = "the old text\n" * 1000, "the new text\n" * 2000
 WRITER = """
 import sys
 from pathlib import Path
-from pigaming_app.storage.safe_files import write
+from pigaming_app.storage.safe_files import write_atomic
 texts = [letter * 3_000_000 for letter in (b"a", b"b")]
 print("begun", flush=True)
 while True:
     for text in texts:
-        write(Path(sys.argv[1]), text)
+        write_atomic(Path(sys.argv[1]), text)
 """
 
 
@@ -33,7 +40,7 @@ def test_a_full_disk_leaves_the_old_file(tmp_path, size):
     path = tmp_path / "file"
     path.write_text(OLD)
     with room_for(size), pytest.raises(NotSaved, match="file was not saved"):
-        write(path, NEW.encode())
+        write_atomic(path, NEW.encode())
     assert content(tmp_path) == {"file": OLD.encode()}
 
 
@@ -44,7 +51,7 @@ def test_whichever_call_fails_there_is_the_old_file_or_the_new_one(tmp_path):
         refused = False
         with failing_at(step) as made:
             try:
-                write(path, NEW.encode())
+                write_atomic(path, NEW.encode())
             except NotSaved:
                 refused = True
         assert content(tmp_path) == {"file": (OLD if refused else NEW).encode()}
@@ -59,11 +66,11 @@ def test_whichever_call_fails_a_kept_file_and_its_backup_are_whole(tmp_path):
     whole = {OLD.encode(), NEW.encode(), b"first"}
     for step in range(100):
         folder = tmp_path / str(step)
-        keep(folder / "file", "first")
-        keep(folder / "file", OLD)
+        write_with_backup(folder / "file", "first")
+        write_with_backup(folder / "file", OLD)
         with failing_at(step) as made:
             try:
-                keep(folder / "file", NEW)
+                write_with_backup(folder / "file", NEW)
                 expected = NEW
             except NotSaved:
                 expected = OLD
@@ -78,7 +85,7 @@ def test_whichever_call_fails_a_kept_file_and_its_backup_are_whole(tmp_path):
 def test_a_draft_replaces_the_file_only_when_it_is_finished(tmp_path):
     path = tmp_path / "file"
     path.write_text(OLD)
-    draft = Draft(path)
+    draft = AtomicFile(path)
     draft.write(b"half")
     assert path.read_text() == OLD
     draft.write(b" and half")
@@ -88,7 +95,7 @@ def test_a_draft_replaces_the_file_only_when_it_is_finished(tmp_path):
 
 
 def test_a_discarded_draft_leaves_nothing(tmp_path):
-    draft = Draft(tmp_path / "file")
+    draft = AtomicFile(tmp_path / "file")
     draft.write(b"half")
     draft.discard()
     draft.discard()
@@ -109,15 +116,15 @@ def test_a_killed_process_leaves_a_whole_file_and_what_it_began_is_swept(tmp_pat
         assert len(text) == 3_000_000
         assert len(set(text)) == 1
         left += len(os.listdir(tmp_path)) - 1
-        sweep(tmp_path)
+        delete_temporary_files(tmp_path)
         assert os.listdir(tmp_path) == ["file"]
     assert left, "no kill came while a file was being written"
 
 
 def test_what_another_copy_is_writing_is_not_swept(tmp_path):
-    draft = Draft(tmp_path / "file")
+    draft = AtomicFile(tmp_path / "file")
     draft.write(b"in the middle")
-    sweep(tmp_path)
+    delete_temporary_files(tmp_path)
     draft.finish()
     assert content(tmp_path) == {"file": b"in the middle"}
 
@@ -128,7 +135,7 @@ def test_what_version_1_3_0_left_behind_is_swept_and_nothing_else(tmp_path):
     for name in left | others:
         (tmp_path / name).write_text("")
     (tmp_path / ".pigaming-89abcdef.tmp").mkdir()
-    sweep(tmp_path, tmp_path / "nowhere")
+    delete_temporary_files(tmp_path, tmp_path / "nowhere")
     assert set(os.listdir(tmp_path)) == others | {".pigaming-89abcdef.tmp"}
 
 
@@ -137,7 +144,7 @@ def test_a_link_stays_a_link_and_a_file_keeps_its_mode(tmp_path):
     (tmp_path / "there" / "file").write_text(OLD)
     (tmp_path / "there" / "file").chmod(0o640)
     (tmp_path / "link").symlink_to(tmp_path / "there" / "file")
-    write(tmp_path / "link", b"new")
+    write_atomic(tmp_path / "link", b"new")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "there" / "file").read_bytes() == b"new"
     assert (tmp_path / "there" / "file").stat().st_mode & 0o777 == 0o640
@@ -148,7 +155,7 @@ def test_devices_and_pipes_are_never_replaced(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "loop").symlink_to(tmp_path / "loop")
     for path in (tmp_path / "pipe", tmp_path, tmp_path / "loop", Path("/dev/full"), Path("/dev/null")):
-        for attempt in (check_target, lambda target: write(target, b"x")):
+        for attempt in (require_writable, lambda target: write_atomic(target, b"x")):
             with pytest.raises(NotSaved, match=r" (was not saved|cannot be written): .*\.$"):
                 attempt(path)
     assert Path("/dev/full").is_char_device()
@@ -158,13 +165,13 @@ def test_devices_and_pipes_are_never_replaced(tmp_path):
 @pytest.mark.parametrize("name", ["x" * 256, "a\0b", "no/such/folder"])
 def test_a_name_that_no_file_can_have_is_said_in_one_line(tmp_path, name):
     with pytest.raises(NotSaved) as refused:
-        check_target(tmp_path / name)
+        require_writable(tmp_path / name)
     assert str(refused.value).isprintable()
     assert content(tmp_path) == {}
 
 
 def test_checking_a_target_changes_nothing(tmp_path):
     (tmp_path / "file").write_text(OLD)
-    check_target(tmp_path / "file")
-    check_target(tmp_path / "another")
+    require_writable(tmp_path / "file")
+    require_writable(tmp_path / "another")
     assert content(tmp_path) == {"file": OLD.encode()}

@@ -2,12 +2,12 @@
 
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.thoughts import Thoughts
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import seeded, uniform
 
 HOLD = 10  # ticks for which a random action is held
 
@@ -19,33 +19,33 @@ class SimpleMind:
     random: int
 
 
-def wake(mind: Any, seed: int) -> None:
+def reset(mind: Any, seed: int) -> None:
     """A fresh mind."""
     mind.random = seeded(seed)
 
 
 @kernel
-def stand_still(match: Any, seat: int, mind: Any, known: Any) -> None:
+def stand_still(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Nothing at all."""
-    press(match.actions[seat], 0.0, 0.0, 0, 0)
+    set_action(match.actions[seat], 0.0, 0.0, 0, 0)
 
 
 @kernel
-def do_anything(match: Any, seat: int, mind: Any, known: Any) -> None:
+def do_anything(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Every fifth of a second another of the 3 x 3 x 2 x 2 actions."""
     if match.tick % HOLD == 0:
-        linear = float(int(chance(mind) * 3.0)) - 1.0
-        angular = float(int(chance(mind) * 3.0)) - 1.0
-        fire = int(chance(mind) * 2.0)
-        press(match.actions[seat], linear, angular, fire, int(chance(mind) * 2.0))
+        linear = float(int(uniform(mind) * 3.0)) - 1.0
+        angular = float(int(uniform(mind) * 3.0)) - 1.0
+        fire = int(uniform(mind) * 2.0)
+        set_action(match.actions[seat], linear, angular, fire, int(uniform(mind) * 2.0))
 
 
-def explain_standing(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain_standing(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """There is nothing on its mind."""
     return Thoughts("idle", "always")
 
 
-def explain_anything(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain_anything(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """Every move is as good to it as any other."""
     action = match.actions[seat]
     moves = {(ahead, turn, fire): 0.0 for ahead in (1, 0, -1) for turn in (-1, 0, 1) for fire in (0, 1)}
@@ -53,5 +53,5 @@ def explain_anything(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
     return Thoughts("random", "dice", names={"percent": 6}, moves=moves, chosen=chosen)
 
 
-IDLE = Kind("idle", SimpleMind, stand_still, wake, explain=explain_standing)
-RANDOM = Kind("random", SimpleMind, do_anything, wake, explain=explain_anything)
+IDLE = BrainKind("idle", SimpleMind, stand_still, reset, explain=explain_standing)
+RANDOM = BrainKind("random", SimpleMind, do_anything, reset, explain=explain_anything)

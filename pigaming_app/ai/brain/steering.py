@@ -3,7 +3,7 @@
 from math import atan2, pi, sqrt
 from typing import Any
 
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import find_way
 from pigaming_app.sim.kernel import kernel
@@ -44,4 +44,4 @@ def follow(match: Any, seat: int, errand: Any, period: int) -> None:
     angle, speed = approach(bearing(robot, errand.way_x, errand.way_y), gap)
     if errand.straight and gap < 70.0:
         speed *= 0.3 + 0.7 * gap / 70.0
-    press(match.actions[seat], speed, turning(angle, robot.angular, match.rules.turn_rate, period), 0, 0)
+    set_action(match.actions[seat], speed, turning(angle, robot.angular, match.rules.turn_rate, period), 0, 0)

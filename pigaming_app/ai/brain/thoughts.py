@@ -1,6 +1,6 @@
 """What a brain shows of itself to whoever watches: what it sees, what it would like, what it does, in plain values.
 
-A kind of brain may have `explain(match, seat, mind, known) -> Thoughts`. It only reads: neither match nor mind is
+A kind of brain may have `explain(match, seat, mind, weights) -> Thoughts`. It only reads: neither match nor mind is
 changed, no random number is drawn, so a match plays out alike whether anybody watches or not.
 """
 
@@ -40,7 +40,7 @@ class Thoughts:
     chosen: str | Move = ""  # a key of `wishes` or of `moves`
 
 
-def share(value: float) -> float:
+def clamp(value: float) -> float:
     """A number held within 0..1."""
     return min(1.0, max(0.0, value))
 

@@ -12,11 +12,11 @@ the wall by a hand's breadth after some seconds, and nobody who waits is sent an
 from typing import Any
 
 from pigaming_app.ai.brain.steering import follow
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Errand
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import clear
 from pigaming_app.sim.world import HZ
@@ -45,19 +45,19 @@ def held_up(mind: Any, x: float, y: float, idle: bool, near: float, period: int)
 @kernel
 def choose_escape(mind: Any, back: float, odds: float) -> None:
     """Choose the stick to get free with: `back` with these odds, else the other way, which is blocked less often."""
-    mind.escape = back if chance(mind) < odds else -back
-    mind.escape_turn = 2.0 * chance(mind) - 1.0
+    mind.escape = back if uniform(mind) < odds else -back
+    mind.escape_turn = 2.0 * uniform(mind) - 1.0
 
 
 @kernel
 def escape(mind: Any, x: float, y: float, action: Any) -> int:
     """Back out with a turn, and the other way if that leads nowhere; `mind.since` counts the ticks. 1: it is free."""
-    press(action, mind.escape, mind.escape_turn, 0, 0)
+    set_action(action, mind.escape, mind.escape_turn, 0, 0)
     if mind.since < FREEING:
         return 0
     dx, dy = x - mind.anchor_x, y - mind.anchor_y
     if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
-        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * chance(mind) - 1.0
+        mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * uniform(mind) - 1.0
         return 0
     mind.held_up, mind.anchor_x, mind.anchor_y = 0, x, y
     return 1
@@ -80,19 +80,19 @@ class Reflex:
 
 
 @kernel
-def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
+def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
     """1 if the reflex has set the action of the next `period` ticks. `mind` has it as `reflex`, and a generator."""
     reflex = mind.reflex
     if not reflex.on:
         return 0
     robot, action = match.robots[seat], match.actions[seat]
-    feel(match, robot, opponent, reflex, action, period)
+    update_reflex(match, robot, opponent, reflex, action, period)
     classic = not match.rules.turbo
     if reflex.held_up >= (LONG if classic else PATIENCE) or reflex.waited >= WAITING:
         reflex.left, reflex.held_up, reflex.waited = SHORTLY if classic else LETTING_GO, 0, 0
         reflex.tries += 1
         reflex.stick = -1.0 if action.linear > 0.0 else 1.0
-        reflex.turn = 0.0 if classic else 2.0 * chance(mind) - 1.0
+        reflex.turn = 0.0 if classic else 2.0 * uniform(mind) - 1.0
     if reflex.left <= 0:
         return 0
     reflex.left -= period
@@ -101,12 +101,12 @@ def free(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
         errand.wanted, errand.goal_x, errand.goal_y = 1, other.x, other.y
         follow(match, seat, errand, period)
     else:
-        press(action, reflex.stick, reflex.turn, 0, 0)
+        set_action(action, reflex.stick, reflex.turn, 0, 0)
     return 1
 
 
 @kernel
-def feel(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
+def update_reflex(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
     """Count for how long it has pushed against something that is not its opponent, or has waited for nobody."""
     dx, dy = robot.x - reflex.x, robot.y - reflex.y
     if dx * dx + dy * dy > SOMEWHERE * SOMEWHERE:

@@ -8,22 +8,22 @@ import sys
 from threading import Thread
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.experiments.training import ARENA, GAME, MINUTES, Training, setting
+from pigaming_app.ai.experiments.training import ARENA, GAME, MINUTES, Training, training_setup
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.sim.world import HZ
 
 HANDMADE = "hard"  # the best that people have written by hand
 
 
-class Exam:
+class Evaluation:
     """So many matches of `one` against `other`, an even number."""
 
     def __init__(
         self,
-        one: Kind,
-        other: Kind,
+        one: BrainKind,
+        other: BrainKind,
         matches: int,
         seed: int,
         minutes: float = MINUTES,
@@ -53,7 +53,9 @@ class Exam:
         swapped = self._played % 2
         if self._batch is None:
             kinds = self.kinds[::-1] if swapped else self.kinds
-            self._batch = Batch([setting(self.seed + self._played // 2, self.minutes, self.arena)], kinds, self.fast)
+            self._batch = Batch(
+                [training_setup(self.seed + self._played // 2, self.minutes, self.arena)], kinds, self.fast
+            )
             self._left = round(self.minutes * 60 * HZ)
         ticks = min(ticks, self._left)
         self._batch.play(ticks)
@@ -76,7 +78,7 @@ def compile_all() -> None:
     training.run(1)
     learned, handmade = training.checkpoint().kind, BRAINS[GAME][HANDMADE]
     for one, other in ((learned, handmade), (learned, learned)):
-        exam = Exam(one, other, 2, 1, minutes=1 / (60 * HZ), fast=True)
+        exam = Evaluation(one, other, 2, 1, minutes=1 / (60 * HZ), fast=True)
         while not exam.over:
             exam.play(1)
 

@@ -17,7 +17,7 @@ from pigaming_app.ai.experiments.ratings import Rating, ratings
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games.game import PAIRS, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, choose, one_of
+from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
@@ -107,7 +107,7 @@ def league(
 
     `heard` is called before each duel with its number from 0 on, how many there are, and who plays.
     """
-    one_of("game", game, list(games()))
+    require_one_of("game", game, list(games()))
     check_brains(game, brains)
     began = perf_counter()
     duels, shares = [], {}
@@ -131,7 +131,7 @@ def league(
 def check_brains(game: str, brains: Sequence[str]) -> None:
     """Whether these can be the brains of a league. Raises ChoiceError."""
     for brain in brains:
-        one_of("brain", brain, list(BRAINS[game]))
+        require_one_of("brain", brain, list(BRAINS[game]))
         if brains.count(brain) > 1:
             raise ChoiceError(f"brain '{brain}' is named twice; in a league each plays once against each other")
     if len(brains) < 2:
@@ -150,7 +150,7 @@ class End(NamedTuple):
 def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[End]]:
     """Play these matches, every other one with the sides swapped; how each ended, in their order."""
     game, matches = setups[0].game, len(setups)
-    brains = [left, right, left, right] if games()[game].sides == PAIRS else [left, right]
+    brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
     ticks = round(setups[0].minutes * 60 * HZ)
     if fast is None:
         fast = can_compile() and matches * ticks > WORTH_COMPILING
@@ -193,12 +193,12 @@ def _setups(
     goal: int | None,
 ) -> list[Setup]:
     """The matches of a duel, two of each seed. Raises ChoiceError."""
-    one_of("game", game, list(games()))
+    require_one_of("game", game, list(games()))
     if not 1 <= matches <= MOST_MATCHES:
         raise ChoiceError(f"--matches: {matches}; possible are 1 to {MOST_MATCHES}")
-    brains = [left, right, left, right] if games()[game].sides == PAIRS else [left, right]
+    brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
     kinds = list(BRAINS[game])
-    return [choose(game, brains, arena, minutes, seed + i // 2, variant, None, kinds, goal) for i in range(matches)]
+    return [make_setup(game, brains, arena, minutes, seed + i // 2, variant, None, kinds, goal) for i in range(matches)]
 
 
 def _both_ways(setups: Sequence[Setup], brains: list[str]) -> Iterator[tuple[Sequence[Setup], list[str]]]:
@@ -213,7 +213,7 @@ def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[End]:
     """The end of every match, from the side of `left`."""
     rules = games()[game]
     for state in batch.ended():
-        one, other = ((rules.standing(state, seat), _score(state, seat)) for seat in (0, 1))
+        one, other = ((rules.ranking_key(state, seat), _score(state, seat)) for seat in (0, 1))
         if swapped:
             one, other = other, one
         yield End(one[0], other[0], one[1], other[1])

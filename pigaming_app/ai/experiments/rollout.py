@@ -9,8 +9,8 @@ from functools import cache
 from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.games.batch import started
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
@@ -25,7 +25,7 @@ Think = Callable[[Any, int, Any, Any], None]
 def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think, Think]) -> Loop:
     """A loop over matches that plays each on for `ticks`, or to its end.
 
-    `ones` to `fours` are the minds of the seats, one for each match; `know_1` to `know_4` what they have learned.
+    `ones` to `fours` are the minds of the seats, one for each match; `rows_1` to `rows_4` what they have learned.
     """
     first, second, third, fourth = think
 
@@ -35,22 +35,22 @@ def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think,
         twos: Any,
         threes: Any,
         fours: Any,
-        know_1: Any,
-        know_2: Any,
-        know_3: Any,
-        know_4: Any,
+        rows_1: Any,
+        rows_2: Any,
+        rows_3: Any,
+        rows_4: Any,
         ticks: int,
     ) -> None:
-        known_1, known_2, known_3, known_4 = know_1[0], know_2[0], know_3[0], know_4[0]
+        weights_1, weights_2, weights_3, weights_4 = rows_1[0], rows_2[0], rows_3[0], rows_4[0]
         for i in range(len(matches)):
             match, one, two, three, four = matches[i], ones[i], twos[i], threes[i], fours[i]
             for _ in range(ticks):
                 if match.over:
                     break
-                first(match, 0, one, known_1)
-                second(match, 1, two, known_2)
-                third(match, 2, three, known_3)
-                fourth(match, 3, four, known_4)
+                first(match, 0, one, weights_1)
+                second(match, 1, two, weights_2)
+                third(match, 2, three, weights_3)
+                fourth(match, 3, four, weights_4)
                 judge(match)
                 drive(match)
 
@@ -72,16 +72,16 @@ def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loo
 class Batch:
     """Many matches of one game, all with the same kinds of brains, in either body."""
 
-    def __init__(self, setups: Sequence[Setup], kinds: Sequence[Kind | None], fast: bool) -> None:
+    def __init__(self, setups: Sequence[Setup], kinds: Sequence[BrainKind | None], fast: bool) -> None:
         """One match for each setup; kinds of the seats, None (or nothing more) for an empty one; `fast`: compiled."""
         self.fast = fast
         self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
-        minds = [[awake(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
+        minds = [[fresh_mind(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
         columns = [list(column) for column in zip(*minds, strict=True)]
-        states = started(setups)
+        states = initial_states(setups)
         self.matches: Any = packed(states) if fast else states
         self.minds = [packed(column) for column in columns] if fast else columns
-        self.known = [kind.known(fast) for kind in self.kinds]
+        self.weights = [kind.weights(fast) for kind in self.kinds]
         one, two, three, four = (kind.think for kind in self.kinds)
         think = one, two, three, four
         game = setups[0].game
@@ -90,7 +90,7 @@ class Batch:
 
     def play(self, ticks: int) -> None:
         """Play every match on."""
-        self.loop(self.matches, *self.minds, *self.known, ticks)
+        self.loop(self.matches, *self.minds, *self.weights, ticks)
 
     def scores(self) -> list[list[int]]:
         """For each match the scores of its seats."""
@@ -107,8 +107,8 @@ class Batch:
         return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
 
 
-def awake(kind: Kind, seed: int, seat: int) -> Any:
+def fresh_mind(kind: BrainKind, seed: int, seat: int) -> Any:
     """A fresh mind for a seat of the match with that seed."""
     mind = kind.mind()
-    kind.wake(mind, seed * ROBOTS + seat)
+    kind.reset(mind, seed * ROBOTS + seat)
     return mind

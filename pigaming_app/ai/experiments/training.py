@@ -10,13 +10,13 @@ from functools import cache
 from typing import Any
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.qlearning.learner import LearnerMind, Table, learn, learn_last, temperature
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
-from pigaming_app.games.batch import started
+from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
@@ -62,7 +62,7 @@ def compiled_training() -> Loop:
     return compiled(make_training(games()[GAME].judge))
 
 
-def cached() -> bool:
+def is_compiled() -> bool:
     """Whether the compiled loop already lies on disk, so that it loads in a moment."""
     return can_compile() and compiled_before(make_training(games()[GAME].judge))
 
@@ -71,7 +71,7 @@ def cached() -> bool:
 class Checkpoint:
     """A table as it was after so many matches: it learns no more, and can sit on a seat."""
 
-    kind: Kind
+    kind: BrainKind
     matches: int
     experiences: int
 
@@ -95,9 +95,9 @@ class Training:
         self.fast = can_compile() if fast is None else fast
         self.arena, self.minutes, self.seed = arena, minutes, seed
         self.loop = compiled_training() if self.fast else plain_training()
-        self._tables = self._row(fresh_table(seed) if table is None else plain(table))
+        self._tables = self._row(fresh_table(seed) if table is None else to_plain(table))
         self.recipe = recipe
-        self._fresh = self._row(started([self._setup()])[0])
+        self._fresh = self._row(initial_states([self._setup()])[0])
         self._begin()
 
     def run(self, ticks: int) -> None:
@@ -136,12 +136,12 @@ class Training:
     @property
     def match(self) -> Any:
         """The match that is being played, a record of either body."""
-        return named(self._matches)
+        return as_record(self._matches)
 
     @property
     def table(self) -> Any:
         """The table itself, a record of either body; it changes while `run` runs."""
-        return named(self._tables)
+        return as_record(self._tables)
 
     @property
     def matches(self) -> int:
@@ -180,7 +180,7 @@ class Training:
         return contest(self.checkpoint().kind, other, matches, self.seed, self.minutes, self.arena, self.fast)
 
     def _setup(self) -> Setup:
-        return setting(self.seed, self.minutes, self.arena)
+        return training_setup(self.seed, self.minutes, self.arena)
 
     def _row(self, state: Any) -> Any:
         """A row of one record, in the body of this training."""
@@ -205,7 +205,7 @@ def fresh_table(seed: int) -> Table:
     return table
 
 
-def named(row: Any) -> Any:
+def as_record(row: Any) -> Any:
     """The one record of a row of either body, with its fields as attributes."""
     if isinstance(row, list):
         return row[0]
@@ -214,20 +214,20 @@ def named(row: Any) -> Any:
     return row.view(np.recarray)[0]
 
 
-def plain(table: Any) -> Table:
+def to_plain(table: Any) -> Table:
     """A plain copy of a table of either body."""
     return copy(table) if isinstance(table, Table) else unpack(Table, table)
 
 
-def setting(seed: int, minutes: float = MINUTES, arena: str = ARENA) -> Setup:
+def training_setup(seed: int, minutes: float = MINUTES, arena: str = ARENA) -> Setup:
     """A match of two by the rules of the measured results."""
     one, two, three, four = Seat("learner", 0), Seat("learner", 1), Seat("off", 2), Seat("off", 3)
     return Setup(GAME, arena, (one, two, three, four), minutes, seed, VARIANT)
 
 
 def contest(
-    one: Kind,
-    other: Kind,
+    one: BrainKind,
+    other: BrainKind,
     matches: int,
     seed: int,
     minutes: float = MINUTES,
@@ -236,7 +236,7 @@ def contest(
 ) -> tuple[int, int, int]:
     """Wins, ties and losses of `one` over `other`: every seed twice, with the sides swapped."""
     fast = can_compile() if fast is None else fast
-    setups = [setting(seed + i // 2, minutes, arena) for i in range(matches)]
+    setups = [training_setup(seed + i // 2, minutes, arena) for i in range(matches)]
     leads = []
     for some, kinds, sign in ((setups[::2], (one, other), 1), (setups[1::2], (other, one), -1)):
         if some:

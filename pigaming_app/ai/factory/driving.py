@@ -10,10 +10,10 @@ from pigaming_app.ai.brain.steering import turning
 from pigaming_app.ai.brain.unstick import choose_escape, held_up
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import SLOTS, WORKERS
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.world import CELL, HZ
 
 PERIOD = 5
@@ -35,64 +35,64 @@ DETOUR = 4 * HZ  # ticks of driving towards another slot
 
 
 @kernel
-def drive_to(view: Any, mind: Any, action: Any) -> None:
+def drive_to(obs: Any, mind: Any, action: Any) -> None:
     """Go to the target; there, turn to it and press fire."""
-    slot, errand = view.slots[mind.target], mind.eyes.errand
+    slot, errand = obs.slots[mind.target], mind.senses.errand
     moved = not errand.wanted or errand.goal_x != slot.x or errand.goal_y != slot.y
     errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
     if moved:  # the way comes with the next view
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
         return
-    if mind.near and view.goal_distance < STAND_OFF and view.straight:
-        make_way(view, mind, action)
+    if mind.near and obs.goal_distance < STAND_OFF and obs.straight:
+        make_way(obs, mind, action)
         return
-    if view.straight and view.goal_distance < view.fork + TURN_IN:
-        handle(view, mind, action, slot)
+    if obs.straight and obs.goal_distance < obs.fork + TURN_IN:
+        handle(obs, mind, action, slot)
     else:
-        follow_round(view, mind, action)
+        follow_round(obs, mind, action)
 
 
 @kernel
-def make_way(view: Any, mind: Any, action: Any) -> None:
+def make_way(obs: Any, mind: Any, action: Any) -> None:
     """Stand, but not where a person wants to walk, nor at the slot."""
-    speed = -0.5 if view.goal_distance < STAND_OFF - 40.0 else 0.0
+    speed = -0.5 if obs.goal_distance < STAND_OFF - 40.0 else 0.0
     nearest = ASIDE
     for w in range(WORKERS):
-        person = view.people[w]
+        person = obs.people[w]
         if person.distance < nearest:
             nearest = person.distance
             speed = -0.6 if abs(person.bearing) < 1.57 else 0.6
     mind.held_up = 0
-    press(action, speed, 0.0, 0, 0)
+    set_action(action, speed, 0.0, 0, 0)
 
 
 @kernel
-def handle(view: Any, mind: Any, action: Any, slot: Any) -> None:
+def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
     """Turn to the slot, bring the fork over it, press."""
-    dx, dy = view.fork_x - slot.x, view.fork_y - slot.y
+    dx, dy = obs.fork_x - slot.x, obs.fork_y - slot.y
     if dx * dx + dy * dy < AT * AT:
-        press(action, 0.0, 0.0, 0 if action.fire else 1, 0)
+        set_action(action, 0.0, 0.0, 0 if action.fire else 1, 0)
         return
     speed = 0.0
-    if abs(view.goal_bearing) < 0.5:
-        speed = (view.goal_distance - view.fork) / 40.0
-        if speed > 0.0 and room(view, 0.0, 0.0) < 20.0:
+    if abs(obs.goal_bearing) < 0.5:
+        speed = (obs.goal_distance - obs.fork) / 40.0
+        if speed > 0.0 and room(obs, 0.0, 0.0) < 20.0:
             speed = 0.0
-    press(action, speed, turning(view.goal_bearing, view.angular, view.turn_rate, PERIOD), 0, 0)
+    set_action(action, speed, turning(obs.goal_bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
 
 
 @kernel
-def follow_round(view: Any, mind: Any, action: Any) -> None:
+def follow_round(obs: Any, mind: Any, action: Any) -> None:
     """Drive on along the way, or as near to it as whoever is about leaves room."""
-    bearing = view.way_bearing
+    bearing = obs.way_bearing
     free = False
     for i in range(LOOKS):
         lean = LEAN * ((i + 1) // 2)
         turn = bearing + (lean if i % 2 else -lean)  # who meet head-on keep to the right
-        if room(view, turn, ROBOT_ROOM) >= min(LOOK, view.way_distance):
+        if room(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.way_distance):
             bearing, free = turn, True
             break
-    ahead = room(view, 0.0, ROBOT_ROOM)
+    ahead = room(obs, 0.0, ROBOT_ROOM)
     speed = mind.speed
     if abs(bearing) > 1.1 or ahead < 40.0:
         speed = 0.0
@@ -100,20 +100,20 @@ def follow_round(view: Any, mind: Any, action: Any) -> None:
         speed *= 0.5
     if not free and ahead < 80.0:
         speed = 0.0
-    dash = mind.dash and view.goal_distance > 350.0 and view.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
-    press(action, speed, turning(bearing, view.angular, view.turn_rate, PERIOD), 0, 1 if dash else 0)
+    dash = mind.dash and obs.goal_distance > 350.0 and obs.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
+    set_action(action, speed, turning(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
 
 
 @kernel
-def room(view: Any, turn: float, robots: float) -> float:
+def room(obs: Any, turn: float, robots: float) -> float:
     """The px that it can drive at a bearing before it comes too near to a person, or within `robots` px of a robot."""
     free = 1000.0
     for w in range(WORKERS):
-        person = view.people[w]
+        person = obs.people[w]
         if person.distance < 2.0 * LOOK:
             free = min(free, gap(person.distance, person.bearing - turn, PERSON_ROOM))
     for i in range(OTHERS):
-        other = view.others[i]
+        other = obs.others[i]
         if other.present and other.distance < LOOK:
             free = min(free, gap(other.distance, other.bearing - turn, robots))
     return free
@@ -130,14 +130,14 @@ def gap(distance: float, bearing: float, clearance: float) -> float:
 
 
 @kernel
-def lose_patience(view: Any, mind: Any) -> None:
+def lose_patience(obs: Any, mind: Any) -> None:
     """Prefer other slots for a while if it comes no nearer to its target, by the way that it has to drive.
 
     If there is no other, and it comes no nearer again, it tries to come from somewhere else.
     """
-    left = view.goal_distance
-    if not view.straight:
-        left = CELL * mind.eyes.errand.reach[node_at(view.x, view.y)]
+    left = obs.goal_distance
+    if not obs.straight:
+        left = CELL * mind.senses.errand.reach[node_at(obs.x, obs.y)]
     if mind.near or mind.sought != mind.target:
         mind.sought, mind.least, mind.late = mind.target, 1e9, 0
     if 0.0 < left < mind.least - NEARER:
@@ -147,40 +147,40 @@ def lose_patience(view: Any, mind: Any) -> None:
     if mind.late <= PATIENCE:
         return
     if mind.shun > 0 and mind.shunned == mind.target:
-        mind.detour, mind.via = DETOUR, int(chance(mind) * SLOTS)
+        mind.detour, mind.via = DETOUR, int(uniform(mind) * SLOTS)
     mind.shunned, mind.shun, mind.least, mind.late, mind.plan_in = mind.target, SHUN, 1e9, 0, 0
 
 
 @kernel
-def make_detour(view: Any, mind: Any, action: Any) -> None:
+def make_detour(obs: Any, mind: Any, action: Any) -> None:
     """Drive towards another slot for a while, so that the way to the target is another one."""
-    slot, errand = view.slots[mind.via], mind.eyes.errand
+    slot, errand = obs.slots[mind.via], mind.senses.errand
     moved = errand.goal_x != slot.x or errand.goal_y != slot.y
     errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
     mind.detour -= PERIOD
     if moved:
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
         return
-    if view.goal_distance < STAND_OFF:
+    if obs.goal_distance < STAND_OFF:
         mind.detour = 0
-    follow_round(view, mind, action)
+    follow_round(obs, mind, action)
 
 
 @kernel
-def feel_held_up(view: Any, mind: Any, action: Any) -> None:
+def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
-    if held_up(mind, view.x, view.y, False, HELD_UP, PERIOD) > HELD_UP_TICKS:
+    if held_up(mind, obs.x, obs.y, False, HELD_UP, PERIOD) > HELD_UP_TICKS:
         mind.held_up, mind.freeing = 0, FREEING
         choose_escape(mind, -0.8, 0.7)
 
 
 @kernel
-def free_itself(view: Any, mind: Any, action: Any) -> None:
+def back_out(obs: Any, mind: Any, action: Any) -> None:
     """Back out with a turn, but not over anybody."""
     mind.freeing -= PERIOD
     for w in range(WORKERS):
-        person = view.people[w]
+        person = obs.people[w]
         if person.distance < STOP:
             ahead = abs(person.bearing) < 1.57
             mind.escape = -0.8 if ahead else 0.8
-    press(action, mind.escape, mind.escape_turn, 0, 0)
+    set_action(action, mind.escape, mind.escape_turn, 0, 0)

@@ -9,14 +9,14 @@ three strengths differ in speed, in how long they think after each job, and in h
 
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.factory.driving import drive_to, feel_held_up, free_itself, lose_patience, make_detour
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.factory.driving import back_out, detect_stuck, drive_to, lose_patience, make_detour
 from pigaming_app.ai.factory.task_allocation import choose_job
-from pigaming_app.games.factory.observation import Eyes, View, see
-from pigaming_app.sim.action import press
+from pigaming_app.games.factory.observation import Observation, Senses, observe
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import HZ
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
@@ -28,8 +28,8 @@ START = 20  # ticks within which it wakes up
 class ForemanMind:
     """What the driver remembers."""
 
-    eyes: Eyes
-    sight: View  # numba takes no field named view
+    senses: Senses
+    obs: Observation
     random: int
     speed: float  # share of full speed
     pause: int  # ticks for which it thinks after each job
@@ -57,54 +57,54 @@ class ForemanMind:
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Look and decide every PERIOD ticks; in between the stick stays as it is."""
     if (match.tick + seat) % PERIOD:
         return
     action = match.actions[seat]
-    see(match, seat, mind.eyes, mind.sight)
-    act(mind.sight, mind, action)
+    observe(match, seat, mind.senses, mind.obs)
+    act(mind.obs, mind, action)
     action.aim = mind.target + 1
 
 
 @kernel
-def act(view: Any, mind: Any, action: Any) -> None:
+def act(obs: Any, mind: Any, action: Any) -> None:
     """Choose a job now and then, and go about it."""
-    if view.carries != mind.carried:  # a job is done
-        mind.carried, mind.plan_in, mind.resting = view.carries, 0, mind.pause
+    if obs.carries != mind.carried:  # a job is done
+        mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
     mind.plan_in -= PERIOD
     mind.shun -= PERIOD
     if mind.plan_in <= 0:
         mind.plan_in = PLAN
-        choose_job(view, mind)
+        choose_job(obs, mind)
     mind.resting -= PERIOD
-    if view.frozen or mind.resting > 0:
+    if obs.frozen or mind.resting > 0:
         mind.held_up = 0
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.freeing > 0:
-        free_itself(view, mind, action)
+        back_out(obs, mind, action)
         return
     if mind.detour > 0:
-        make_detour(view, mind, action)
+        make_detour(obs, mind, action)
     else:
-        drive_to(view, mind, action)
-        lose_patience(view, mind)
-    feel_held_up(view, mind, action)
+        drive_to(obs, mind, action)
+        lose_patience(obs, mind)
+    detect_stuck(obs, mind, action)
 
 
-def wake(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
+def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
     """A function that fills a fresh mind: share of full speed, s of thinking, misreckoning, s of late eyes, turbo."""
 
     def fill(mind: ForemanMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
-        mind.resting = int(chance(mind) * START)  # nobody begins on the same tick
+        mind.resting = int(uniform(mind) * START)  # nobody begins on the same tick
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
-        mind.eyes.delay = delay
+        mind.senses.delay = delay
 
     return fill
 
 
-EASY = Kind("easy", ForemanMind, think, wake(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
-NORMAL = Kind("normal", ForemanMind, think, wake(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
-HARD = Kind("hard", ForemanMind, think, wake(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))
+EASY = BrainKind("easy", ForemanMind, think, make_reset(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
+NORMAL = BrainKind("normal", ForemanMind, think, make_reset(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
+HARD = BrainKind("hard", ForemanMind, think, make_reset(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))

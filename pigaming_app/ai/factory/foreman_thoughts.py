@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from math import pi, tau
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Sight, Thoughts, blend, share, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Sight, Thoughts, blend, clamp, towards
 from pigaming_app.ai.factory.driving import HELD_UP_TICKS, LOOK, ROBOT_ROOM, room
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, away, cheapest_place, cost_of
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, B
@@ -19,99 +19,99 @@ JOBS = {"raw": RAW, "half": HALF, "done": DONE}
 LOADS = {RAW: "raw", HALF: "half", DONE: "done", DAMAGED: "damaged"}
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """The thoughts of the driver on `seat`."""
-    view = mind.sight
-    if not view.turn_rate or mind.target < 0:
+    obs = mind.obs
+    if not obs.turn_rate or mind.target < 0:
         return Thoughts("starts")
-    slot = view.slots[mind.target]
-    doing, because = _doing(view, mind, slot)
+    slot = obs.slots[mind.target]
+    doing, because = _doing(obs, mind, slot)
     return Thoughts(
         doing=doing,
         because=because,
         names={"machine": "B" if slot.makes == B else "A"},
-        facts=_facts(view, mind),
-        sights=tuple(_sights(view, mind, doing)),
-        rose=_rose(view, mind, doing),
-        wishes=_wishes(view, mind),
-        chosen=_chosen(view, mind, slot, doing),
+        facts=_facts(obs, mind),
+        sights=tuple(_sights(obs, mind, doing)),
+        rose=_rose(obs, mind, doing),
+        wishes=_wishes(obs, mind),
+        chosen=_chosen(obs, mind, slot, doing),
     )
 
 
-def _doing(view: Any, mind: Any, slot: Any) -> tuple[str, str]:
+def _doing(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
     """What it is about and why, as keys of the texts."""
-    if view.frozen:
+    if obs.frozen:
         return "frozen", "bumped"
     if mind.resting > 0:
         return "ponder", "next"
     if mind.freeing > 0:
         return "free", "stuck"
     if mind.near:
-        return "queue", "full" if view.carries else "nothing"
-    if not view.carries:
+        return "queue", "full" if obs.carries else "nothing"
+    if not obs.carries:
         if slot.kind == OUTPUT and not slot.ours:
             return "clear", "blocked"
         return "fetch", LOADS.get(slot.holds - 1, "next")
     bring = "bring" if slot.kind == INPUT else "deliver" if slot.kind == EXIT else "shelve"
-    return bring, LOADS[view.carries - 1]
+    return bring, LOADS[obs.carries - 1]
 
 
-def _chosen(view: Any, mind: Any, slot: Any, doing: str) -> str:
+def _chosen(obs: Any, mind: Any, slot: Any, doing: str) -> str:
     if doing == "free":
         return "free"
     if mind.near or doing in ("frozen", "ponder"):
         return "wait"
-    return "put" if view.carries else LOADS.get(slot.holds - 1, "wait")
+    return "put" if obs.carries else LOADS.get(slot.holds - 1, "wait")
 
 
-def _wishes(view: Any, mind: Any) -> dict[str, float]:
+def _wishes(obs: Any, mind: Any) -> dict[str, float]:
     """For each state of a pallet how good its best job is; to put down what it carries the more, the nearer it can."""
     wishes = dict.fromkeys(JOBS, 0.0)
     for s in range(SLOTS):
-        name = LOADS.get(view.slots[s].holds - 1, "")
-        if name in JOBS and not view.carries:
-            cost = cost_of(view, s, QUEUE)
+        name = LOADS.get(obs.slots[s].holds - 1, "")
+        if name in JOBS and not obs.carries:
+            cost = cost_of(obs, s, QUEUE)
             if cost < NO / 2.0:
-                wishes[name] = max(wishes[name], share(1.0 - (away(view, s) + cost) / DEAR))
-    place = cheapest_place(view, mind) if view.carries else -1
-    wishes["put"] = share(1.0 - 0.8 * away(view, place) / FAR) if place >= 0 else 0.0
-    wishes["wait"] = 1.0 if mind.near or view.frozen or mind.resting > 0 else 0.0
-    wishes["free"] = 1.0 if mind.freeing > 0 else share(mind.held_up / HELD_UP_TICKS)
+                wishes[name] = max(wishes[name], clamp(1.0 - (away(obs, s) + cost) / DEAR))
+    place = cheapest_place(obs, mind) if obs.carries else -1
+    wishes["put"] = clamp(1.0 - 0.8 * away(obs, place) / FAR) if place >= 0 else 0.0
+    wishes["wait"] = 1.0 if mind.near or obs.frozen or mind.resting > 0 else 0.0
+    wishes["free"] = 1.0 if mind.freeing > 0 else clamp(mind.held_up / HELD_UP_TICKS)
     return wishes
 
 
-def _facts(view: Any, mind: Any) -> dict[str, float]:
+def _facts(obs: Any, mind: Any) -> dict[str, float]:
     return {
         "target": mind.target,
-        "carries": view.carries,
+        "carries": obs.carries,
         "near": mind.near,
         "resting": mind.resting,
-        "frozen": view.frozen,
-        "lead": view.lead,
-        "goal_distance": view.goal_distance,
+        "frozen": obs.frozen,
+        "lead": obs.lead,
+        "goal_distance": obs.goal_distance,
         "held_up": mind.held_up,
     }
 
 
-def _sights(view: Any, mind: Any, doing: str) -> Iterator[Sight]:
+def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Sight]:
     """People and robots that are close, and the way to the slot."""
-    for person in view.people:
+    for person in obs.people:
         if person.distance < 2.0 * LOOK:
             yield Sight(PERSON, person.x, person.y)
-    for other in view.others:
+    for other in obs.others:
         if other.present and other.distance < LOOK:
             yield Sight(OPPONENT, other.x, other.y)
     if doing not in ("frozen", "ponder", "free"):
-        if not view.straight:
-            yield Sight(WAY, view.way_x, view.way_y)
-        yield Sight(GOAL, view.slots[mind.target].x, view.slots[mind.target].y)
+        if not obs.straight:
+            yield Sight(WAY, obs.way_x, obs.way_y)
+        yield Sight(GOAL, obs.slots[mind.target].x, obs.slots[mind.target].y)
 
 
-def _rose(view: Any, mind: Any, doing: str) -> list[float]:
+def _rose(obs: Any, mind: Any, doing: str) -> list[float]:
     """Where it wants to go, and which ways are not free."""
-    taken = [share(room(view, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
+    taken = [clamp(room(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
     if doing in ("frozen", "ponder"):
         return taken
     if doing == "free":
         return blend(towards(0.0 if mind.escape > 0.0 else pi), taken)
-    return blend(towards(view.way_bearing), taken)
+    return blend(towards(obs.way_bearing), taken)

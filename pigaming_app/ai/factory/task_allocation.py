@@ -9,7 +9,7 @@ from typing import Any
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, A, B
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 
 NO = 1e8  # a cost that says: impossible
 SPEED = 230.0  # px/s that a robot makes on the way, to weigh ways against waiting
@@ -26,42 +26,42 @@ LATER = 260.0  # px by which a raw pallet seems farther: what is nearer to the e
 
 
 @kernel
-def choose_job(view: Any, mind: Any) -> None:
+def choose_job(obs: Any, mind: Any) -> None:
     """Set the target of the mind; `near`: it is not free, go near it and wait."""
     mind.near = 0
-    best = cheapest_place(view, mind) if view.carries else share_out(view, mind)
+    best = cheapest_place(obs, mind) if obs.carries else share_out(obs, mind)
     if best >= 0:
         mind.target = best
-        if not view.carries or takes(view.slots[best], view.carries - 1):
+        if not obs.carries or takes(obs.slots[best], obs.carries - 1):
             mind.waiting = 0  # but not on the way back to the shelf
         return
     mind.waiting += 1
     mind.near = 1
-    mind.target = waiting_place(view, mind)
+    mind.target = waiting_place(obs, mind)
 
 
 @kernel
-def taken(view: Any, s: int) -> bool:
+def taken(obs: Any, s: int) -> bool:
     """Whether a mate says that it makes for slot s."""
     said = False
     for i in range(OTHERS):
-        other = view.others[i]
+        other = obs.others[i]
         if other.present and other.mate and other.aim == s + 1:
             said = True
     return said
 
 
 @kernel
-def away(view: Any, s: int) -> float:
+def away(obs: Any, s: int) -> float:
     """The px from the robot to slot s."""
-    dx, dy = view.slots[s].x - view.x, view.slots[s].y - view.y
+    dx, dy = obs.slots[s].x - obs.x, obs.slots[s].y - obs.y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
-def between(view: Any, s: int, t: int) -> float:
+def between(obs: Any, s: int, t: int) -> float:
     """The px from slot s to slot t."""
-    dx, dy = view.slots[s].x - view.slots[t].x, view.slots[s].y - view.slots[t].y
+    dx, dy = obs.slots[s].x - obs.slots[t].x, obs.slots[s].y - obs.slots[t].y
     return sqrt(dx * dx + dy * dy)
 
 
@@ -94,53 +94,53 @@ def takes(slot: Any, state: int) -> bool:
 
 
 @kernel
-def cheapest_place(view: Any, mind: Any) -> int:
+def cheapest_place(obs: Any, mind: Any) -> int:
     """Where to put down what is carried; -1: nowhere now."""
-    state = view.carries - 1
+    state = obs.carries - 1
     best, least = -1, NO
     for s in range(SLOTS):
-        slot = view.slots[s]
-        if not slot.put or taken(view, s):
+        slot = obs.slots[s]
+        if not slot.put or taken(obs, s):
             continue
         right = slot.kind == ENTRY if state == DAMAGED else takes(slot, state)
         if not right:
             continue
-        cost = away(view, s) + hindrance(slot) + shyness(mind, s)
+        cost = away(obs, s) + hindrance(slot) + shyness(mind, s)
         if mind.target == s:
             cost -= KEEP
         if cost < least:
             best, least = s, cost
     if best < 0 and mind.waiting > 16:  # for eight seconds: back to the shelf, and do something else
         for s in range(SLOTS):
-            slot = view.slots[s]
-            if slot.put and slot.kind == ENTRY and away(view, s) < least:
-                best, least = s, away(view, s)
+            slot = obs.slots[s]
+            if slot.put and slot.kind == ENTRY and away(obs, s) < least:
+                best, least = s, away(obs, s)
     return best
 
 
 @kernel
-def onward(view: Any, s: int, state: int) -> float:
+def onward(obs: Any, s: int, state: int) -> float:
     """The px from slot s to the best free place for a pallet in that state; NO: there is none."""
     least = NO
     for t in range(SLOTS):
-        slot = view.slots[t]
-        if takes(slot, state) and not slot.holds and not taken(view, t):
-            cost = between(view, s, t) + hindrance(slot)
+        slot = obs.slots[t]
+        if takes(slot, state) and not slot.holds and not taken(obs, t):
+            cost = between(obs, s, t) + hindrance(slot)
             if cost < least:
                 least = cost
     return least
 
 
 @kernel
-def cost_of(view: Any, s: int, queue: float) -> float:
+def cost_of(obs: Any, s: int, queue: float) -> float:
     """What it costs to do the job at slot s, after the way there; `queue`: if it must then wait for a free place."""
-    slot = view.slots[s]
+    slot = obs.slots[s]
     if not slot.lift:
         return NO
     state = slot.holds - 1
     if state == DAMAGED:
         return NO
-    then = onward(view, s, state)
+    then = onward(obs, s, state)
     if takes(
         slot, state
     ):  # where it should be, unless nobody comes to the machine and it would be better off elsewhere
@@ -151,39 +151,39 @@ def cost_of(view: Any, s: int, queue: float) -> float:
 
 
 @kernel
-def share_out(view: Any, mind: Any) -> int:
+def share_out(obs: Any, mind: Any) -> int:
     """The slot from which to lift next, when the mate's next job is thought of too; -1: nothing to do."""
     mate = -1
     for i in range(OTHERS):
-        if view.others[i].present and view.others[i].mate:
+        if obs.others[i].present and obs.others[i].mate:
             mate = i
-    alone = mate < 0 or view.others[mate].carries  # somebody must keep the fork free, to clear the machines
+    alone = mate < 0 or obs.others[mate].carries  # somebody must keep the fork free, to clear the machines
     queue = NO if alone else QUEUE
     best, least = -1, NO
     for s in range(SLOTS):
-        then = cost_of(view, s, queue)
-        if then >= NO - FREES or (alone and taken(view, s)):
+        then = cost_of(obs, s, queue)
+        if then >= NO - FREES or (alone and taken(obs, s)):
             continue
-        cost = away(view, s) + then + shyness(mind, s) - (KEEP if mind.target == s else 0.0)
+        cost = away(obs, s) + then + shyness(mind, s) - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
-            cost += mind.noise * NOISE * chance(mind)
+            cost += mind.noise * NOISE * uniform(mind)
         if not alone:
-            cost += best_other(view, view.others[mate], s, queue)
+            cost += best_other(obs, obs.others[mate], s, queue)
         if cost < least:
             best, least = s, cost
     return best
 
 
 @kernel
-def best_other(view: Any, mate: Any, without: int, queue: float) -> float:
+def best_other(obs: Any, mate: Any, without: int, queue: float) -> float:
     """What the mate's best job costs it if it leaves slot `without` to this robot."""
     least = 3000.0
     for s in range(SLOTS):
         if s == without:
             continue
-        then = cost_of(view, s, queue)
+        then = cost_of(obs, s, queue)
         if then < NO - FREES:
-            dx, dy = view.slots[s].x - mate.x, view.slots[s].y - mate.y
+            dx, dy = obs.slots[s].x - mate.x, obs.slots[s].y - mate.y
             cost = sqrt(dx * dx + dy * dy) + then - (KEEP if mate.aim == s + 1 else 0.0)
             if cost < least:
                 least = cost
@@ -191,18 +191,18 @@ def best_other(view: Any, mate: Any, without: int, queue: float) -> float:
 
 
 @kernel
-def waiting_place(view: Any, mind: Any) -> int:
+def waiting_place(obs: Any, mind: Any) -> int:
     """The slot near which to wait: where what is carried will go, or the own next pallet come out, or at home."""
     best, least = -1, NO
-    state = view.carries - 1
+    state = obs.carries - 1
     for s in range(SLOTS):
-        slot = view.slots[s]
-        if view.carries:
+        slot = obs.slots[s]
+        if obs.carries:
             good = takes(slot, state) or (state == DAMAGED and slot.kind == ENTRY and slot.mine == 1)
         else:
             good = slot.mine == 1 or (slot.kind == OUTPUT and slot.ours == 1)
-        if good and not taken(view, s):
-            cost = away(view, s) + slot.wait * SPEED + delay(slot) + shyness(mind, s)
+        if good and not taken(obs, s):
+            cost = away(obs, s) + slot.wait * SPEED + delay(slot) + shyness(mind, s)
             if slot.mine == 1:
                 cost += HOME
             if cost < least:

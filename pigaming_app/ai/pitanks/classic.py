@@ -12,16 +12,16 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.steering import bearing, follow, turning
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Errand
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance, seeded
+from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import clear
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -63,16 +63,16 @@ class ClassicMind:
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Look and decide every `period` ticks; in between the stick stays as it is."""
     period = mind.numbers.period
     if (match.tick + seat) % period:
         return
     robot, action, opponent = match.robots[seat], match.actions[seat], nearest_opponent(match, seat)
     mind.since += period
-    feel_held_up(robot, mind, action)
+    detect_stuck(robot, mind, action)
     if opponent < 0:
-        press(action, 0.0, 0.0, 0, 0)
+        set_action(action, 0.0, 0.0, 0, 0)
     elif mind.state == BREAK_FREE:
         break_free(robot, mind, action)
     elif lead(match, seat) >= 0 and hide(match, robot, match.robots[opponent], mind):
@@ -94,7 +94,7 @@ def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
         follow(match, seat, errand, mind.numbers.period)
     else:
         angle, turn_rate = bearing(robot, other.x, other.y), match.rules.turn_rate
-        press(match.actions[seat], 0.0, turning(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
+        set_action(match.actions[seat], 0.0, turning(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
 
 
 @kernel
@@ -110,13 +110,13 @@ def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
 @kernel
 def break_free(robot: Any, mind: Any, action: Any) -> None:
     """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
-    press(action, mind.escape, mind.escape_turn, 0, 0)
+    set_action(action, mind.escape, mind.escape_turn, 0, 0)
     if mind.since < FREEING:
         return
     dx, dy = robot.x - mind.anchor_x, robot.y - mind.anchor_y
     mind.since = 0
     if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
-        mind.escape, mind.escape_turn = -mind.escape, 2.0 * chance(mind) - 1.0
+        mind.escape, mind.escape_turn = -mind.escape, 2.0 * uniform(mind) - 1.0
     else:
         mind.state, mind.held_up, mind.anchor_x, mind.anchor_y = DEFEND, 0, robot.x, robot.y
 
@@ -125,7 +125,7 @@ def break_free(robot: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def feel_held_up(robot: Any, mind: Any, action: Any) -> None:
+def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
     """Notice that it wants to move and gets nowhere."""
     if mind.state == BREAK_FREE:
         return
@@ -137,7 +137,7 @@ def feel_held_up(robot: Any, mind: Any, action: Any) -> None:
     if mind.held_up > HELD_UP_TICKS:
         mind.state, mind.since = BREAK_FREE, 0
         mind.escape = -1.0 if action.linear > 0.0 else 1.0
-        mind.escape_turn = 2.0 * chance(mind) - 1.0
+        mind.escape_turn = 2.0 * uniform(mind) - 1.0
 
 
 @kernel
@@ -196,18 +196,18 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     angle = bearing(robot, other.x, other.y)
     fire = 1 if not match.tanks[seat].cooldown and abs(angle) < mind.numbers.tolerance else 0
     stick = turning(angle, robot.angular, match.rules.turn_rate, mind.numbers.period)
-    press(match.actions[seat], 0.0, stick, fire, 0)
+    set_action(match.actions[seat], 0.0, stick, fire, 0)
 
 
-def machine(name: str, unknown: Unknown) -> Kind:
+def machine(name: str, unknown: Unknown) -> BrainKind:
     """The machine with these numbers."""
 
-    def wake(mind: Any, seed: int) -> None:
+    def reset(mind: Any, seed: int) -> None:
         for key, number in vars(unknown).items():
             setattr(mind.numbers, key, number)
         mind.random = seeded(seed)
 
-    return Kind(name, ClassicMind, think, wake)
+    return BrainKind(name, ClassicMind, think, reset)
 
 
 CLASSIC = machine("classic", Unknown())

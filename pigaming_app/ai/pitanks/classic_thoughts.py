@@ -5,7 +5,7 @@ from math import atan2, pi
 from typing import Any
 
 from pigaming_app.ai.brain.steering import bearing
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Sight, Thoughts, share, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Sight, Thoughts, clamp, towards
 from pigaming_app.ai.pitanks import classic
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
@@ -13,7 +13,7 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import clear
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """The thoughts of the machine on `seat`."""
     opponent = nearest_opponent(match, seat)
     if not mind.errand.wanted or opponent < 0:
@@ -34,8 +34,8 @@ def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
         wishes={
             "cover": float(hides),
             "attack": float(mind.state == classic.ATTACK),
-            "fire": share(RADIUS / away / (aim + 1e-9)) if shows else 0.0,
-            "free": 1.0 if mind.state == classic.BREAK_FREE else share(mind.held_up / classic.HELD_UP_TICKS),
+            "fire": clamp(RADIUS / away / (aim + 1e-9)) if shows else 0.0,
+            "free": 1.0 if mind.state == classic.BREAK_FREE else clamp(mind.held_up / classic.HELD_UP_TICKS),
         },
         chosen=chosen,
     )

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from math import cos, pi, sin
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, Sight, Thoughts, blend, share, towards
+from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, Sight, Thoughts, blend, clamp, towards
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS, Action
@@ -17,29 +17,29 @@ UNTOUCHED = 9.0  # no stick stands there
 DETOUR = 320.0  # px for which it goes out of its way to collect something
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """The thoughts of the machine on `seat`."""
-    view = mind.sight
-    if not view.turn_rate:
+    obs = mind.obs
+    if not obs.turn_rate:
         return Thoughts("starts")
-    doing = _doing(view, mind)
+    doing = _doing(obs, mind)
     player = (seat + 1 + mind.target) % ROBOTS + 1
     wishes = {
-        "cover": _cover(view, mind),
-        "attack": 1.0 - _cover(view, mind),
-        "fire": _fire(view, mind),
-        "dodge": share(2.0 - 2.0 * view.threat / SOON) if mind.dodges else 0.0,
-        "free": 1.0 if mind.state == fsm.BREAK_FREE else share(mind.held_up / fsm.HELD_UP_TICKS),
+        "cover": _cover(obs, mind),
+        "attack": 1.0 - _cover(obs, mind),
+        "fire": _fire(obs, mind),
+        "dodge": clamp(2.0 - 2.0 * obs.threat / SOON) if mind.dodges else 0.0,
+        "free": 1.0 if mind.state == fsm.BREAK_FREE else clamp(mind.held_up / fsm.HELD_UP_TICKS),
     }
     if match.rules.pickups:
-        wishes["collect"] = share(1.0 - view.prize_distance / DETOUR) if view.prize else 0.0
+        wishes["collect"] = clamp(1.0 - obs.prize_distance / DETOUR) if obs.prize else 0.0
     return Thoughts(
         doing=doing,
-        because=_because(view, mind, doing),
+        because=_because(obs, mind, doing),
         names={"player": player},
-        facts=_facts(view, mind),
-        sights=tuple(_sights(match, view, mind, doing)),
-        rose=_rose(view, mind, doing),
+        facts=_facts(obs, mind),
+        sights=tuple(_sights(match, obs, mind, doing)),
+        rose=_rose(obs, mind, doing),
         wishes=wishes,
         chosen=CHOSEN.get(doing, "cover" if mind.state == fsm.DEFEND else "attack"),
     )
@@ -48,101 +48,101 @@ def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
 CHOSEN = {"free": "free", "dodge": "dodge", "duel": "fire", "collect": "collect"}
 
 
-def _doing(view: Any, mind: Any) -> str:
+def _doing(obs: Any, mind: Any) -> str:
     """What it is about, as a key of the texts."""
     if mind.state == fsm.BREAK_FREE:
         return "free"
-    if mind.dodges and _dodges(view):
+    if mind.dodges and _dodges(obs):
         return "dodge"
     if mind.target < 0:
         return "idle"
-    other, errand = view.others[mind.target], mind.eyes.errand
-    waits = mind.state == fsm.DEFEND and view.goal_distance <= fsm.ARRIVED
+    other, errand = obs.others[mind.target], mind.senses.errand
+    waits = mind.state == fsm.DEFEND and obs.goal_distance <= fsm.ARRIVED
     if mind.seen and (other.distance < fsm.CROWD or waits if mind.state == fsm.DEFEND else other.distance < fsm.REACH):
         return "duel"
-    if view.prize and (errand.goal_x, errand.goal_y) == (view.prize_x, view.prize_y):
+    if obs.prize and (errand.goal_x, errand.goal_y) == (obs.prize_x, obs.prize_y):
         return "collect"
     if mind.state == fsm.ATTACK:
         return "hunt"
     return "wait" if waits else "cover"
 
 
-def _dodges(view: Any) -> bool:
+def _dodges(obs: Any) -> bool:
     """Whether the machine would take hold of the stick because of a bullet."""
     action = Action()
     action.linear = UNTOUCHED
-    fsm.dodge(view, action)
+    fsm.dodge(obs, action)
     return action.linear != UNTOUCHED
 
 
-def _because(view: Any, mind: Any, doing: str) -> str:
+def _because(obs: Any, mind: Any, doing: str) -> str:
     if doing in ("free", "dodge", "collect", "idle"):
         return {"free": "stuck", "dodge": "bullet", "collect": "near", "idle": ""}[doing]
     if doing == "duel":
         return "sees"
     if mind.state == fsm.DEFEND:
-        return "ahead" if view.lead > 0 else "level"
-    if view.lead < 0:
+        return "ahead" if obs.lead > 0 else "level"
+    if obs.lead < 0:
         return "behind"
-    return "no_cover" if not view.cover else "nobody" if mind.unseen > mind.patience else "level"
+    return "no_cover" if not obs.cover else "nobody" if mind.unseen > mind.patience else "level"
 
 
-def _cover(view: Any, mind: Any) -> float:
+def _cover(obs: Any, mind: Any) -> float:
     """How much it wants to be in cover: level, less and less while nobody shows."""
-    if not view.cover or view.lead < 0 or mind.target < 0:
+    if not obs.cover or obs.lead < 0 or mind.target < 0:
         return 0.0
-    return 1.0 if view.lead > 0 else share(1.0 - mind.unseen / max(1, mind.patience))
+    return 1.0 if obs.lead > 0 else clamp(1.0 - mind.unseen / max(1, mind.patience))
 
 
-def _fire(view: Any, mind: Any) -> float:
+def _fire(obs: Any, mind: Any) -> float:
     """How near the gun is to where it must point to hit."""
-    if mind.target < 0 or not mind.seen or not view.loaded:
+    if mind.target < 0 or not mind.seen or not obs.loaded:
         return 0.0
-    other = view.others[mind.target]
+    other = obs.others[mind.target]
     wide = RADIUS / (other.distance + 1.0)
-    return share(wide / (abs(other.aim + mind.bias) + 1e-9))
+    return clamp(wide / (abs(other.aim + mind.bias) + 1e-9))
 
 
-def _facts(view: Any, mind: Any) -> dict[str, float]:
+def _facts(obs: Any, mind: Any) -> dict[str, float]:
     return {
         "state": mind.state,
-        "lead": view.lead,
+        "lead": obs.lead,
         "target": mind.target,
         "seen": mind.seen * DT,
         "unseen": mind.unseen * DT,
         "patience": mind.patience * DT,
-        "loaded": view.loaded,
-        "threat": view.threat,
+        "loaded": obs.loaded,
+        "threat": obs.threat,
         "aim_error": mind.bias,
     }
 
 
-def _sights(match: Any, view: Any, mind: Any, doing: str) -> Iterator[Sight]:
+def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Sight]:
     """Whom it is after, the bullet that will hit it, what lies about, and where it is going."""
     if mind.target >= 0:
-        other = view.others[mind.target]
+        other = obs.others[mind.target]
         yield Sight(OPPONENT, other.x, other.y, bool(other.clear))
-    if view.threat < SOON:
-        away, angle = view.threat * match.rules.bullet_speed, view.heading + view.threat_bearing
-        yield Sight(BULLET, view.x + away * cos(angle), view.y + away * sin(angle))
-    errand = mind.eyes.errand
+    if obs.threat < SOON:
+        away, angle = obs.threat * match.rules.bullet_speed, obs.heading + obs.threat_bearing
+        yield Sight(BULLET, obs.x + away * cos(angle), obs.y + away * sin(angle))
+    errand = mind.senses.errand
     if doing in ("hunt", "cover", "collect") and errand.wanted:
-        if not view.straight:
-            yield Sight(WAY, view.way_x, view.way_y)
+        if not obs.straight:
+            yield Sight(WAY, obs.way_x, obs.way_y)
         if doing != "hunt":
-            yield Sight(PRIZE if doing == "collect" else GOAL, errand.goal_x, errand.goal_y, bool(view.straight))
+            yield Sight(PRIZE if doing == "collect" else GOAL, errand.goal_x, errand.goal_y, bool(obs.straight))
 
 
-def _rose(view: Any, mind: Any, doing: str) -> list[float]:
+def _rose(obs: Any, mind: Any, doing: str) -> list[float]:
     """Where it wants to go, or to point; away from a bullet's path."""
     if doing == "free":
         wanted = towards(0.0 if mind.escape > 0.0 else pi)
-    elif doing == "duel" and view.loaded:
-        wanted = towards(view.others[mind.target].aim + mind.bias)
+    elif doing == "duel" and obs.loaded:
+        wanted = towards(obs.others[mind.target].aim + mind.bias)
     elif doing in ("idle", "wait"):
         wanted = towards(0.0, 0.0)
     elif doing == "duel":
-        wanted = towards(view.others[mind.target].bearing + fsm.SWERVE * mind.weave)
+        wanted = towards(obs.others[mind.target].bearing + fsm.SWERVE * mind.weave)
     else:
-        wanted = towards(view.way_bearing)
-    return blend(wanted, towards(view.threat_bearing, -1.0 if view.threat < SOON else 0.0))
+        wanted = towards(obs.way_bearing)
+    return blend(wanted, towards(obs.threat_bearing, -1.0 if obs.threat < SOON else 0.0))

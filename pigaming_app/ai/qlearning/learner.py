@@ -8,11 +8,11 @@ from typing import Annotated, Any, NamedTuple
 
 from pigaming_app.ai.brain.unstick import Reflex
 from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
-from pigaming_app.ai.qlearning.rewards import Knobs, worth_of_action, worth_of_change
-from pigaming_app.sim.action import press
+from pigaming_app.ai.qlearning.rewards import Knobs, action_reward, transition_reward
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 
 ACTIONS = 18
 PAIRS = STATES * ACTIONS
@@ -64,38 +64,38 @@ def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
     opponent = nearest_opponent(match, seat)
     here = situation(match, seat, opponent, knobs.incoming)
     if mind.begun:
-        take_in(table, mind, here)
+        update(table, mind, here)
     mind.begun, mind.state = 1, here
-    mind.move = draw(table, here, temperature(table), table)
-    push(match.actions[seat], mind.move)
-    mind.worth = worth_of_action(match, seat, opponent, here, match.actions[seat], knobs)
+    mind.move = sample_move(table, here, temperature(table), table)
+    apply_move(match.actions[seat], mind.move)
+    mind.worth = action_reward(match, seat, opponent, here, match.actions[seat], knobs)
 
 
 @kernel
 def learn_last(match: Any, seat: int, mind: Any, table: Any) -> None:
     """The time is up: that ends the match, not the world, so the last decision counts like any other."""
     if mind.begun and table.knobs.last:
-        take_in(table, mind, situation(match, seat, nearest_opponent(match, seat), table.knobs.incoming))
+        update(table, mind, situation(match, seat, nearest_opponent(match, seat), table.knobs.incoming))
     mind.begun = 0
 
 
 @kernel
-def take_in(table: Any, mind: Any, here: int) -> None:
+def update(table: Any, mind: Any, here: int) -> None:
     """One experience: Q(x, a) += (r + gamma max Q(y, b) - Q(x, a)) / n(x, a)."""
     knobs, pair = table.knobs, mind.state * ACTIONS + mind.move
     if table.n[pair] == 0:
         table.pairs += 1
-        if untried(table, mind.state):
+        if is_unvisited(table, mind.state):
             table.states += 1
     table.n[pair] += 1
     table.experiences += 1
-    reward = mind.worth + worth_of_change(mind.state, here, knobs)
-    wish = reward + knobs.gamma * best(table, here)
+    reward = mind.worth + transition_reward(mind.state, here, knobs)
+    wish = reward + knobs.gamma * max_value(table, here)
     table.q[pair] += (wish - table.q[pair]) / table.n[pair]
 
 
 @kernel
-def untried(table: Any, state: int) -> int:
+def is_unvisited(table: Any, state: int) -> int:
     """1 if no action was ever tried in a state."""
     for k in range(state * ACTIONS, (state + 1) * ACTIONS):
         if table.n[k]:
@@ -104,7 +104,7 @@ def untried(table: Any, state: int) -> int:
 
 
 @kernel
-def best(table: Any, state: int) -> float:
+def max_value(table: Any, state: int) -> float:
     """The most that any action is worth in a state."""
     most: float = table.q[state * ACTIONS]
     for k in range(state * ACTIONS + 1, (state + 1) * ACTIONS):
@@ -126,14 +126,14 @@ def temperature(table: Any) -> float:
 
 
 @kernel
-def draw(table: Any, state: int, heat: float, owner: Any) -> int:
+def sample_move(table: Any, state: int, heat: float, owner: Any) -> int:
     """An action by the roulette over exp((Q - max Q) / T), with the generator of `owner`."""
     first = state * ACTIONS
-    most = best(table, state)
+    most = max_value(table, state)
     whole = 0.0
     for k in range(first, first + ACTIONS):
         whole += exp((table.q[k] - most) / heat)
-    ball = chance(owner) * whole
+    ball = uniform(owner) * whole
     for a in range(ACTIONS):
         ball -= exp((table.q[first + a] - most) / heat)
         if ball < 0.0:
@@ -142,12 +142,12 @@ def draw(table: Any, state: int, heat: float, owner: Any) -> int:
 
 
 @kernel
-def push(action: Any, move: int) -> None:
+def apply_move(action: Any, move: int) -> None:
     """Set stick and button to one of the 18 moves."""
-    press(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
+    set_action(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
 
 
-def preferences(table: Any, state: int, heat: float) -> list[float]:
+def move_probabilities(table: Any, state: int, heat: float) -> list[float]:
     """How likely each of the 18 moves is in a state, at a temperature; `table` in either body."""
     values = [float(q) for q in table.q[state * ACTIONS : (state + 1) * ACTIONS]]
     most = max(values)

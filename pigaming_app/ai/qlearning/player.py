@@ -3,10 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.brain.unstick import free
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.unstick import act_on_reflex
 from pigaming_app.ai.qlearning.features import nearest_opponent, situation
-from pigaming_app.ai.qlearning.learner import LearnerMind, Table, draw, push
+from pigaming_app.ai.qlearning.learner import LearnerMind, Table, apply_move, sample_move
 from pigaming_app.ai.qlearning.thoughts import explain
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import packed, unpack
@@ -14,25 +14,25 @@ from pigaming_app.sim.rng import seeded
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, known: Any) -> None:
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """A trained robot's turn: it draws at the last temperature from a table that no longer changes."""
-    if match.tick % known.knobs.period:
+    if match.tick % weights.knobs.period:
         return
     opponent = nearest_opponent(match, seat)
-    if opponent >= 0 and not free(match, seat, opponent, mind, known.knobs.period):
-        mind.state = situation(match, seat, opponent, known.knobs.incoming)
-        mind.move = draw(known, mind.state, known.knobs.cold, mind)
-        push(match.actions[seat], mind.move)
+    if opponent >= 0 and not act_on_reflex(match, seat, opponent, mind, weights.knobs.period):
+        mind.state = situation(match, seat, opponent, weights.knobs.incoming)
+        mind.move = sample_move(weights, mind.state, weights.knobs.cold, mind)
+        apply_move(match.actions[seat], mind.move)
 
 
-def wake(mind: Any, seed: int) -> None:
+def reset(mind: Any, seed: int) -> None:
     """A fresh mind, which does what the table says and nothing else."""
     mind.random = seeded(seed)
 
 
-def wake_with_reflex(mind: Any, seed: int) -> None:
+def reset_with_reflex(mind: Any, seed: int) -> None:
     """A fresh mind that also frees itself where it pushes and gets nowhere."""
-    wake(mind, seed)
+    reset(mind, seed)
     mind.reflex.on = 1
 
 
@@ -47,11 +47,11 @@ class Learned:
     def __call__(self, fast: bool) -> Any:
         """A row of one table, as a NumPy record (`fast`) or a plain one."""
         if fast not in self.bodies:
-            known = self.bodies[not fast]
-            self.bodies[fast] = packed(known) if fast else [unpack(Table, known[0])]
+            weights = self.bodies[not fast]
+            self.bodies[fast] = packed(weights) if fast else [unpack(Table, weights[0])]
         return self.bodies[fast]
 
 
-def player(name: str, known: Callable[[bool], Any], reflex: bool = False) -> Kind:
+def player(name: str, weights: Callable[[bool], Any], reflex: bool = False) -> BrainKind:
     """The kind of brain that plays by a table; with `reflex`, as on a seat, it also frees itself where it is stuck."""
-    return Kind(name, LearnerMind, think, wake_with_reflex if reflex else wake, known, explain)
+    return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, weights, explain)

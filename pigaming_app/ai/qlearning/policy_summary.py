@@ -62,5 +62,5 @@ def direction(table: Any, sector: int, cold: float) -> Direction:
     most = q.max(axis=1)
     odds = np.exp((q - most[:, None]) / cold)
     odds /= odds.sum(axis=1, keepdims=True)
-    known = np.where(tried[there] > 0, q, -np.inf).max(axis=1)
-    return Direction(seen, float(weight @ known), tuple(float(share) for share in weight @ odds))
+    weights = np.where(tried[there] > 0, q, -np.inf).max(axis=1)
+    return Direction(seen, float(weight @ weights), tuple(float(share) for share in weight @ odds))

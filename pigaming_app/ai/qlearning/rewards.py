@@ -11,7 +11,7 @@ from pigaming_app.ai.qlearning.features import opponent_of, wall_of
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.sweep import clear
-from pigaming_app.sim.toml_table import quoted
+from pigaming_app.sim.toml_table import quote
 
 AHEAD = 0  # the sector in which a robot looks
 CREEP = 10.0  # px/s below which a robot does not move
@@ -61,9 +61,9 @@ class Recipe:
             value, (low, high) = getattr(self, field.name), BOUNDS.get(field.name, ANY)
             if isinstance(value, bool) or not isinstance(value, int if field.type is int else int | float):
                 kind = "whole number" if field.type is int else "number"
-                raise TypeError(f"{field.name}: {quoted(value)} is not a {kind}")
+                raise TypeError(f"{field.name}: {quote(value)} is not a {kind}")
             if not low <= value <= high:
-                raise ValueError(f"{field.name}: {quoted(value)}, but {low:g} to {high:g} are possible")
+                raise ValueError(f"{field.name}: {quote(value)}, but {low:g} to {high:g} are possible")
 
 
 @record
@@ -75,7 +75,7 @@ RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}
 
 
 @kernel
-def worth_of_action(match: Any, seat: int, opponent: int, state: int, action: Any, knobs: Any) -> float:
+def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any, knobs: Any) -> float:
     """The reward for an action in a state as such, the moment it is chosen."""
     worth = 0.0
     if action.fire and not (knobs.loaded and match.tanks[seat].cooldown):
@@ -93,7 +93,7 @@ def worth_of_action(match: Any, seat: int, opponent: int, state: int, action: An
 
 
 @kernel
-def worth_of_change(before: int, after: int, knobs: Any) -> float:
+def transition_reward(before: int, after: int, knobs: Any) -> float:
     """The reward for what came of an action: the state before it and the state at the next decision."""
     worth: float = knobs.behind if exposed(after) and (knobs.behind_always or not exposed(before)) else 0.0
     return worth

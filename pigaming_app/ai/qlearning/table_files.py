@@ -15,7 +15,7 @@ from io import BytesIO
 from typing import Any
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.brain.kind import Kind
+from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.qlearning.features import STATES
 from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, Table
 from pigaming_app.ai.qlearning.player import Learned, player
@@ -92,7 +92,7 @@ def shipped(name: str) -> Learned:
     return Learned(decode(path.read_bytes(), path.name).rows)
 
 
-def seat(name: str) -> Kind:
+def seat(name: str) -> BrainKind:
     """The kind of brain that plays by a table that comes with the arcade; the file is read when it first plays."""
     return player(name, lambda fast: shipped(name)(fast), reflex=True)
 

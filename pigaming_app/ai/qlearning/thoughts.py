@@ -18,7 +18,7 @@ from pigaming_app.ai.qlearning.features import (
     state,
     wall_of,
 )
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, best, preferences
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, max_value, move_probabilities
 
 SIGHT = 190.0  # px: it knows directions, not distances, so this far is shown
 STEERS = {
@@ -27,15 +27,15 @@ STEERS = {
 }  # fmt: skip
 
 
-def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
+def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """The thoughts of the player with a table on `seat`."""
     opponent = nearest_opponent(match, seat)
     if match.tick == 0 or opponent < 0:
         return Thoughts("starts")
     here = mind.state
-    values = [float(q) for q in known.q[here * ACTIONS : (here + 1) * ACTIONS]]
-    tried = sum(int(n) for n in known.n[here * ACTIONS : (here + 1) * ACTIONS])
-    sure = preferences(known, here, known.knobs.cold)[mind.move]
+    values = [float(q) for q in weights.q[here * ACTIONS : (here + 1) * ACTIONS]]
+    tried = sum(int(n) for n in weights.n[here * ACTIONS : (here + 1) * ACTIONS])
+    sure = move_probabilities(weights, here, weights.knobs.cold)[mind.move]
     move = _plain(mind.move)
     return Thoughts(
         doing="shoot" if move[2] else STEERS[move[:2]],
@@ -49,7 +49,7 @@ def explain(match: Any, seat: int, mind: Any, known: Any) -> Thoughts:
             "likely": sure,
         },
         sights=tuple(_sights(match, seat, opponent, here)),
-        rose=_scaled([float(best(known, state(k, wall_of(here), bullet_of(here)))) for k in range(SECTORS)]),
+        rose=_scaled([float(max_value(weights, state(k, wall_of(here), bullet_of(here)))) for k in range(SECTORS)]),
         moves=dict(zip((_plain(k) for k in range(ACTIONS)), _scaled(values), strict=True)),
         chosen=move,
     )

@@ -23,51 +23,51 @@ LEEWAY = 32.0  # px by which two robots may overlap on their lanes and still get
 
 
 @kernel
-def choose_lane(view: Any, mind: Any) -> None:
+def choose_lane(obs: Any, mind: Any) -> None:
     """The lane that costs the fewest px: those lost behind others, and those of a longer way round a bend."""
-    mark = view.ahead
+    mark = obs.ahead
     wanted = mind.line * mark.ideal
-    best, least = wanted, blocked(view, mind, wanted)
+    best, least = wanted, blocked(obs, mind, wanted)
     if least > 0.0:
         least += STEADY * abs(wanted - mind.lane)
-        room, away = mark.half - EDGE, OWN + abs(view.turn)
+        room, away = mark.half - EDGE, OWN + abs(obs.turn)
         for i in range(LANES):
             lane = room * (2.0 * i / (LANES - 1) - 1.0)
-            cost = blocked(view, mind, lane) + away * abs(lane - wanted) + STEADY * abs(lane - mind.lane)
+            cost = blocked(obs, mind, lane) + away * abs(lane - wanted) + STEADY * abs(lane - mind.lane)
             if cost < least:
                 best, least = lane, cost
     mind.lane = best
 
 
 @kernel
-def blocked(view: Any, mind: Any, lane: float) -> float:
+def blocked(obs: Any, mind: Any, lane: float) -> float:
     """The px that others on a lane cost; 0: nobody is in the way."""
     cost = 0.0
     for i in range(OTHERS):
-        other = view.others[i]
+        other = obs.others[i]
         if not other.present or other.ahead < -CLEAR or other.distance > FAR:
             continue
         gap = abs(other.aside - lane)
         if other.ahead < CLEAR:
-            if (other.aside - view.aside) * (other.aside - lane) < 0.0:
+            if (other.aside - obs.aside) * (other.aside - lane) < 0.0:
                 cost += 400.0  # through it
             if gap < CLEAR:
                 cost += 3.0 * (CLEAR - gap)
         elif gap < CLEAR:
-            closing = mind.speed * view.speed - other.speed
-            if other.speed < SLOW * view.speed and other.distance - CLEAR < SOON * closing:
+            closing = mind.speed * obs.speed - other.speed
+            if other.speed < SLOW * obs.speed and other.distance - CLEAR < SOON * closing:
                 cost += 150.0 * (1.0 + (CLEAR - gap) / CLEAR)
     return cost
 
 
 @kernel
-def held_to(view: Any, mind: Any) -> float:
+def held_to(obs: Any, mind: Any) -> float:
     """The speed of a robot right ahead on the own lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
     for i in range(OTHERS):
-        other = view.others[i]
+        other = obs.others[i]
         near = other.present and other.ahead > 15.0 and other.distance < CLEAR + TAIL
         if near and other.speed > 100.0 and abs(other.aside - mind.lane) < CLEAR - LEEWAY:
-            ahead = 0.98 * other.speed / view.speed
+            ahead = 0.98 * other.speed / obs.speed
             share = ahead if ahead < share else share
     return share

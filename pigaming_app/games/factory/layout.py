@@ -40,7 +40,7 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Errand, free_node, grow
-from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.toml_table import FieldError, Table
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, World
 
 WAYS = {"right": (1, 0), "left": (-1, 0), "down": (0, 1), "up": (0, -1)}
@@ -86,15 +86,15 @@ class Floor:
 
 
 def read(table: Table) -> Layout:
-    """A floor is warehouses, machines, an aisle and people. Raises Wrong."""
+    """A floor is warehouses, machines, an aisle and people. Raises FieldError."""
     table.only("title", "start", "aisle", "warehouse", "machine", "worker")
     starts = read_starts(table)
     machines = tuple(_machine(entry) for entry in table.tables("machine"))
     if sorted(one.kind for one in machines) != [A, A, B, B]:
-        raise table.wrong("machine", "two machines of kind A and two of kind B are needed")
+        raise table.error("machine", "two machines of kind A and two of kind B are needed")
     homes = tuple(_home(entry) for entry in table.tables("worker"))
     if len(homes) != WORKERS:
-        raise table.wrong("worker", f"{len(homes)} workers, but there must be {WORKERS}")
+        raise table.error("worker", f"{len(homes)} workers, but there must be {WORKERS}")
     slots = (*_shelves(table), *_machine_slots(machines))
     floor = Floor(slots, machines, homes, _aisle(table.table("aisle")))
     layout = Layout(tuple(wall for one in machines for wall in _body(one)), starts, floor)
@@ -107,10 +107,10 @@ def _machine(entry: Table) -> MachineSpec:
     kind = A if entry.word("kind", ("A", "B")) == "A" else B
     x, y = entry.point("at")
     if not (BODY <= x <= WIDTH - BODY and BODY <= y <= HEIGHT - BODY):
-        raise entry.wrong("at", "its body would stand outside the arena")
+        raise entry.error("at", "its body would stand outside the arena")
     flow, side = WAYS[entry.word("flow", tuple(WAYS))], WAYS[entry.word("worker", tuple(WAYS))]
     if flow[0] * side[0] + flow[1] * side[1]:
-        raise entry.wrong("worker", "must be a side across the flow")
+        raise entry.error("worker", "must be a side across the flow")
     return MachineSpec(kind, x, y, x + SPOT_AT * side[0], y + SPOT_AT * side[1], flow)
 
 
@@ -124,24 +124,24 @@ def _aisle(entry: Table) -> tuple[float, float, float, float]:
     x, y = entry.point("at")
     w, h = entry.numbers("size", 2, 50.0, WIDTH)
     if x + w > WIDTH or y + h > HEIGHT:
-        raise entry.wrong("size", "the aisle ends outside the arena")
+        raise entry.error("size", "the aisle ends outside the arena")
     return x, y, w, h
 
 
 def _shelves(table: Table) -> tuple[SlotSpec, ...]:
-    """The slots of all warehouses, in the order of `Factory.slots`. Raises Wrong."""
+    """The slots of all warehouses, in the order of `Factory.slots`. Raises FieldError."""
     there: dict[tuple[int, int], tuple[float, float]] = {}
     for entry in table.tables("warehouse"):
         entry.only("team", "kind", "at")
         key = TEAM_NAMES[entry.word("team", tuple(TEAM_NAMES))], KINDS[entry.word("kind", tuple(KINDS))]
         if key in there:
-            raise entry.wrong("kind", "this team has one already")
+            raise entry.error("kind", "this team has one already")
         x, y = entry.point("at")
         if y + (SHELVES - 1) * SHELF > HEIGHT - 36:
-            raise entry.wrong("at", "its last slot would lie outside the arena")
+            raise entry.error("at", "its last slot would lie outside the arena")
         there[key] = x, y
     if len(there) != TEAMS * len(KINDS):
-        raise table.wrong("warehouse", "each team needs an entry and an exit")
+        raise table.error("warehouse", "each team needs an entry and an exit")
     return tuple(
         SlotSpec(kind, team, -1, there[team, kind][0], there[team, kind][1] + i * SHELF)
         for team in range(TEAMS)
@@ -168,7 +168,7 @@ def _body(one: MachineSpec) -> tuple[WallSpec, WallSpec]:
 
 
 def _check_ways(layout: Layout, floor: Floor) -> None:
-    """Robots get to every slot, and people to every machine. Raises Wrong."""
+    """Robots get to every slot, and people to every machine. Raises FieldError."""
     world = World()
     build(world, Arena("", {}, layout.walls, layout.starts, "", floor))
     field = Errand()
@@ -176,18 +176,18 @@ def _check_ways(layout: Layout, floor: Floor) -> None:
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
     for k, slot in enumerate(floor.slots):
         if not any(FORK - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < FORK + REACH for x, y in free):
-            raise Wrong(_name(k, slot), f"no robot can reach its slot at ({slot.x:g}, {slot.y:g})")
+            raise FieldError(_name(k, slot), f"no robot can reach its slot at ({slot.x:g}, {slot.y:g})")
         for other in floor.slots[:k]:
             if abs(slot.x - other.x) < 68 and abs(slot.y - other.y) < 68:
-                raise Wrong(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies over another")
+                raise FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies over another")
         for m, one in enumerate(floor.machines):
             if slot.machine != m and abs(slot.x - one.x) < BODY + 34 and abs(slot.y - one.y) < BODY + 34:
-                raise Wrong(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies in machine[{m + 1}]")
+                raise FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies in machine[{m + 1}]")
     places = [(f"machine[{m + 1}].worker", one.spot_x, one.spot_y) for m, one in enumerate(floor.machines)]
     places += [(f"worker[{i + 1}].at", x, y) for i, (x, y) in enumerate(floor.homes)]
     for key, x, y in places:
         if in_wall(world, x, y) or not field.reach[free_node(world, x, y)]:
-            raise Wrong(key, f"no person can get to ({x:g}, {y:g})")
+            raise FieldError(key, f"no person can get to ({x:g}, {y:g})")
 
 
 def _name(k: int, slot: SlotSpec) -> str:

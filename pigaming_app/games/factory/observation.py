@@ -19,7 +19,7 @@ OTHERS = ROBOTS - 1
 
 
 @record
-class Eyes:
+class Senses:
     """What shapes the view of one seat, and what it asks of the navigator."""
 
     delay: float  # s by which others are seen late
@@ -57,7 +57,7 @@ class Person:
 
 
 @record
-class Place:
+class SlotView:
     """A slot."""
 
     kind: int
@@ -76,7 +76,7 @@ class Place:
 
 
 @record
-class View:
+class Observation:
     """What one seat sees."""
 
     x: float
@@ -96,7 +96,7 @@ class View:
     lead: int  # own team's deliveries less the others'
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
-    slots: Annotated[list[Place], SLOTS]
+    slots: Annotated[list[SlotView], SLOTS]
     way_x: float  # where to drive now to get on with the errand
     way_y: float
     way_bearing: float
@@ -107,29 +107,29 @@ class View:
 
 
 @kernel
-def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     """Fill the view of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
-    view.x, view.y, view.heading = robot.x, robot.y, robot.heading
-    view.linear, view.angular, view.turn_rate = robot.linear, robot.angular, rules.turn_rate
-    view.fork = rules.fork
-    view.fork_x = robot.x + rules.fork * cos(robot.heading)
-    view.fork_y = robot.y + rules.fork * sin(robot.heading)
-    view.turbo, view.frozen, view.refused = robot.turbo, load.frozen, load.refused
-    view.carries = match.pallets[load.pallet - 1].state + 1 if load.pallet else 0
-    view.seconds_left = (rules.ticks - match.tick) * 0.02
-    view.lead = match.delivered[robot.team] - match.delivered[1 - robot.team]
+    obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
+    obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, rules.turn_rate
+    obs.fork = rules.fork
+    obs.fork_x = robot.x + rules.fork * cos(robot.heading)
+    obs.fork_y = robot.y + rules.fork * sin(robot.heading)
+    obs.turbo, obs.frozen, obs.refused = robot.turbo, load.frozen, load.refused
+    obs.carries = match.pallets[load.pallet - 1].state + 1 if load.pallet else 0
+    obs.seconds_left = (rules.ticks - match.tick) * 0.02
+    obs.lead = match.delivered[robot.team] - match.delivered[1 - robot.team]
     for i in range(OTHERS):
-        see_other(match, robot, (seat + 1 + i) % ROBOTS, eyes.delay, view.others[i])
+        observe_other(match, robot, (seat + 1 + i) % ROBOTS, senses.delay, obs.others[i])
     for w in range(WORKERS):
-        see_person(match, robot, w, view.people[w])
+        observe_person(match, robot, w, obs.people[w])
     for s in range(SLOTS):
-        see_slot(match, seat, s, view.slots[s])
-    see_way(match, robot, eyes, view)
+        observe_slot(match, seat, s, obs.slots[s])
+    observe_way(match, robot, senses, obs)
 
 
 @kernel
-def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
+def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
     """Robot j as `robot` sees it."""
     seen, load, motion = match.robots[j], match.loads[j], match.motions[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -145,7 +145,7 @@ def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
 
 
 @kernel
-def see_person(match: Any, robot: Any, w: int, person: Any) -> None:
+def observe_person(match: Any, robot: Any, w: int, person: Any) -> None:
     """Worker w as `robot` sees it."""
     worker = match.workers[w]
     person.x, person.y, person.walking = worker.x, worker.y, worker.walking
@@ -156,7 +156,7 @@ def see_person(match: Any, robot: Any, w: int, person: Any) -> None:
 
 
 @kernel
-def see_slot(match: Any, seat: int, s: int, place: Any) -> None:
+def observe_slot(match: Any, seat: int, s: int, place: Any) -> None:
     """Slot s as the robot of a seat sees it."""
     slot, team = match.slots[s], match.robots[seat].team
     place.kind, place.machine, place.x, place.y = slot.kind, slot.machine, slot.x, slot.y
@@ -177,18 +177,18 @@ def see_slot(match: Any, seat: int, s: int, place: Any) -> None:
 
 
 @kernel
-def see_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
+def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
     """Where to drive now to get on with the errand."""
-    errand = eyes.errand
+    errand = senses.errand
     if not errand.wanted:
-        view.way_x, view.way_y, view.way_bearing, view.way_distance = robot.x, robot.y, 0.0, 0.0
-        view.goal_bearing, view.goal_distance, view.straight = 0.0, 0.0, 1
+        obs.way_x, obs.way_y, obs.way_bearing, obs.way_distance = robot.x, robot.y, 0.0, 0.0
+        obs.goal_bearing, obs.goal_distance, obs.straight = 0.0, 0.0, 1
         return
     find_way(match, errand, robot.x, robot.y)
-    view.way_x, view.way_y, view.straight = errand.way_x, errand.way_y, errand.straight
+    obs.way_x, obs.way_y, obs.straight = errand.way_x, errand.way_y, errand.straight
     dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
-    view.way_distance = sqrt(dx * dx + dy * dy)
-    view.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    obs.way_distance = sqrt(dx * dx + dy * dy)
+    obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
     dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
-    view.goal_distance = sqrt(dx * dx + dy * dy)
-    view.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    obs.goal_distance = sqrt(dx * dx + dy * dy)
+    obs.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)

@@ -40,7 +40,7 @@ class Motion:
 
 
 @kernel
-def observe(motion: Any, robot: Any) -> None:
+def track_motion(motion: Any, robot: Any) -> None:
     """Take in where a robot is now."""
     x, y = robot.x, robot.y
     dx, dy = x - motion.x, y - motion.y
@@ -121,13 +121,13 @@ def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
     x, y = walker.x + dx, walker.y + dy
     if in_the_way(world, walker, x, y, radius) >= 0 or in_wall(world, x, y):
         return False
-    look(walker, dx, dy)
+    turn_towards(walker, dx, dy)
     walker.x, walker.y, walker.walking = x, y, 1
     return True
 
 
 @kernel
-def look(walker: Any, vx: float, vy: float) -> None:
+def turn_towards(walker: Any, vx: float, vy: float) -> None:
     """Turn the way it walks, not at once."""
     turn = turn_to(atan2(vy, vx) - walker.heading)
     most = TURN * DT

@@ -11,7 +11,7 @@ from math import cos, sin
 from typing import Any
 
 from pigaming_app.games.factory.pallets import free_shelf, move, ship, stock_up
-from pigaming_app.games.factory.pedestrians import observe
+from pigaming_app.games.factory.pedestrians import track_motion
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DELIVERED,
@@ -32,7 +32,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.factory.workers import fits, run_crew
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, burn, stop, stop_all
+from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
 from pigaming_app.sim.world import ROBOTS
 
 APART = 6.0  # px more than a touch at which a touch has ended
@@ -46,7 +46,7 @@ def judge(match: Any) -> None:
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
-            observe(match.motions[k], match.robots[k])
+            track_motion(match.motions[k], match.robots[k])
             grip(match, k)
     age(match)
     for team in range(TEAMS):
@@ -201,7 +201,7 @@ def steer(match: Any, k: int) -> None:
         stop(robot)
         return
     speed = rules.speed
-    burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
+    use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
     if robot.boosting:
         speed *= rules.turbo_factor
     robot.ask_linear = action.linear * speed

@@ -72,7 +72,7 @@ def set_rules(rules: Rules, setup: Setup) -> None:
     rules.pallets = setup.goal or rules.pallets
 
 
-def standing(match: Factory, seat: int) -> float:
+def ranking_key(match: Factory, seat: int) -> float:
     """Deliveries of a seat's team, then the work that its robots have fed to machines.
 
     Work counts only while something is left to deliver: who delivers everything on the same tick as the others ties.
@@ -84,13 +84,13 @@ def standing(match: Factory, seat: int) -> float:
     return match.delivered[team] * STEPS_BEFORE + min(STEPS_BEFORE - 1.0, steps)
 
 
-def facts(match: Factory, seat: int) -> Mapping[str, float]:
+def stats(match: Factory, seat: int) -> Mapping[str, float]:
     """What one seat did: pallets delivered, pallets fed to the right machines, people driven over."""
     load = match.loads[seat]
     return {"delivered": load.delivered, "steps": load.steps, "bumps": load.hits}
 
 
-def feat(match: Factory, seat: int) -> Mapping[str, int]:
+def records(match: Factory, seat: int) -> Mapping[str, int]:
     """How long the seat's team took to deliver everything, in ms, if it did."""
     done = match.delivered[match.robots[seat].team] == match.rules.pallets
     return {"time": round(1000 * DT * match.tick)} if done else {}

@@ -8,7 +8,7 @@ gets no nearer for a while gives up: another who rests is sent, and other machin
 from typing import Any
 
 from pigaming_app.games.factory.pallets import first_slot, free_shelf, move
-from pigaming_app.games.factory.pedestrians import look, send, walk
+from pigaming_app.games.factory.pedestrians import send, turn_towards, walk
 from pigaming_app.games.factory.state import (
     BY_WORKER,
     CARRYING,
@@ -182,7 +182,7 @@ def work(match: Any, w: int) -> None:
     """Stand at the machine, face it, and go on or go home when it is done."""
     worker = match.workers[w]
     machine = match.machines[worker.machine]
-    look(worker, machine.x - worker.x, machine.y - worker.y)
+    turn_towards(worker, machine.x - worker.x, machine.y - worker.y)
     if not machine.pallet:
         go_home(match, worker)
 

@@ -5,7 +5,7 @@ from typing import Any
 from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS, SHIELD
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import CELL, COLUMNS, ROBOTS, ROWS
 
@@ -26,7 +26,7 @@ def lay_mine(match: Any, k: int) -> int:
 
 
 @kernel
-def mind_mines(match: Any) -> None:
+def update_mines(match: Any) -> None:
     """Mines arm, go off under an opponent, and vanish in the end."""
     rules = match.rules
     reach = RADIUS + rules.mine_radius
@@ -50,7 +50,7 @@ def mind_mines(match: Any) -> None:
 
 
 @kernel
-def mind_pickups(match: Any) -> None:
+def update_pickups(match: Any) -> None:
     """Pick-ups appear, are taken by whoever touches them, and vanish in the end."""
     rules = match.rules
     reach = RADIUS + rules.pickup_reach
@@ -80,12 +80,12 @@ def drop_pickup(match: Any) -> None:
     if free < 0:
         return
     for _ in range(8):
-        column = 2 + int(chance(match) * (COLUMNS - 4))
-        row = 2 + int(chance(match) * (ROWS - 4))
+        column = 2 + int(uniform(match) * (COLUMNS - 4))
+        row = 2 + int(uniform(match) * (ROWS - 4))
         x, y = column * CELL, row * CELL
         if not match.grid[row * COLUMNS + column] & BLOCKED and lonely(match, x, y):
             pickup = match.pickups[free]
-            pickup.kind = int(chance(match) * KINDS)
+            pickup.kind = int(uniform(match) * KINDS)
             pickup.alive = match.rules.pickup_life
             pickup.x, pickup.y = x, y
             return

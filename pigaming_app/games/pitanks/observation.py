@@ -22,7 +22,7 @@ BESIDE = 22.0  # px between a robot in cover and the wall
 
 
 @record
-class Eyes:
+class Senses:
     """What shapes the view of one seat, and what it asks of the navigator."""
 
     delay: float  # s by which others are seen late
@@ -47,7 +47,7 @@ class Other:
 
 
 @record
-class View:
+class Observation:
     """What one seat sees."""
 
     x: float
@@ -84,35 +84,35 @@ class View:
 
 
 @kernel
-def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     """Fill the view of one seat."""
     robot, tank = match.robots[seat], match.tanks[seat]
-    view.x, view.y, view.heading = robot.x, robot.y, robot.heading
-    view.linear, view.angular, view.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
-    view.seconds_left = (match.rules.ticks - match.tick) * 0.02
-    view.loaded = 0 if tank.cooldown else 1
-    view.turbo, view.protected = robot.turbo, tank.protected
-    view.shield, view.mine = tank.powers[SHIELD], tank.powers[MINE]
+    obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
+    obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
+    obs.seconds_left = (match.rules.ticks - match.tick) * 0.02
+    obs.loaded = 0 if tank.cooldown else 1
+    obs.turbo, obs.protected = robot.turbo, tank.protected
+    obs.shield, obs.mine = tank.powers[SHIELD], tank.powers[MINE]
     nearest = -1
     for i in range(OTHERS):
         j = (seat + 1 + i) % ROBOTS
-        other = view.others[i]
-        see_other(match, robot, j, eyes.delay, other)
-        if other.present and not other.mate and (nearest < 0 or other.distance < view.others[nearest].distance):
+        other = obs.others[i]
+        observe_other(match, robot, j, senses.delay, other)
+        if other.present and not other.mate and (nearest < 0 or other.distance < obs.others[nearest].distance):
             nearest = i
-    view.lead = lead(match, seat)
-    view.cover = 0
+    obs.lead = lead(match, seat)
+    obs.cover = 0
     if nearest >= 0:
-        see_cover(match, robot, view.others[nearest].x, view.others[nearest].y, view)
-    see_threat(match, seat, robot, eyes.delay, view)
-    view.prize = 0
+        observe_cover(match, robot, obs.others[nearest].x, obs.others[nearest].y, obs)
+    observe_threat(match, seat, robot, senses.delay, obs)
+    obs.prize = 0
     if match.rules.pickups:
-        see_prize(match, robot, view)
-    see_way(match, robot, eyes, view)
+        observe_pickup(match, robot, obs)
+    observe_way(match, robot, senses, obs)
 
 
 @kernel
-def see_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
+def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
     """Robot j as `robot` sees it."""
     seen = match.robots[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -152,7 +152,7 @@ def lead(match: Any, seat: int) -> int:
 
 
 @kernel
-def see_cover(match: Any, robot: Any, from_x: float, from_y: float, view: Any) -> None:
+def observe_cover(match: Any, robot: Any, from_x: float, from_y: float, obs: Any) -> None:
     """The nearest place from which an inner wall hides this robot from (from_x, from_y)."""
     least = 1e9
     for i in range(match.wall_count):
@@ -178,15 +178,15 @@ def see_cover(match: Any, robot: Any, from_x: float, from_y: float, view: Any) -
             and not match.grid[node_at(x, y)] & BLOCKED
         ):
             least = away
-            view.cover, view.cover_x, view.cover_y = 1, x, y
-    if view.cover:
-        view.cover_distance = sqrt(least)
+            obs.cover, obs.cover_x, obs.cover_y = 1, x, y
+    if obs.cover:
+        obs.cover_distance = sqrt(least)
 
 
 @kernel
-def see_threat(match: Any, seat: int, robot: Any, delay: float, view: Any) -> None:
+def observe_threat(match: Any, seat: int, robot: Any, delay: float, obs: Any) -> None:
     """The soonest bullet that would hit if nobody moved; those fired less than `delay` ago are not seen yet."""
-    view.threat, view.threat_bearing, view.threat_side = 9.0, 0.0, 0.0
+    obs.threat, obs.threat_bearing, obs.threat_side = 9.0, 0.0, 0.0
     reach = RADIUS + match.rules.bullet_radius
     speed2 = match.rules.bullet_speed * match.rules.bullet_speed
     for k in range(ROBOTS):
@@ -199,18 +199,18 @@ def see_threat(match: Any, seat: int, robot: Any, delay: float, view: Any) -> No
                 continue
             px, py = robot.x - bullet.x, robot.y - bullet.y
             ahead = (px * bullet.vx + py * bullet.vy) / speed2
-            if ahead <= 0.0 or ahead >= view.threat:
+            if ahead <= 0.0 or ahead >= obs.threat:
                 continue
             side = (bullet.vx * py - bullet.vy * px) / match.rules.bullet_speed
             if -reach < side < reach:
                 ox, oy = bullet.x - owner.x, bullet.y - owner.y
                 if ox * ox + oy * oy >= delay * delay * speed2:
-                    view.threat, view.threat_side = ahead, side
-                    view.threat_bearing = turn_to(atan2(-bullet.vy, -bullet.vx) - robot.heading)
+                    obs.threat, obs.threat_side = ahead, side
+                    obs.threat_bearing = turn_to(atan2(-bullet.vy, -bullet.vx) - robot.heading)
 
 
 @kernel
-def see_prize(match: Any, robot: Any, view: Any) -> None:
+def observe_pickup(match: Any, robot: Any, obs: Any) -> None:
     """The nearest pick-up."""
     least = 1e9
     for pickup in match.pickups:
@@ -218,22 +218,22 @@ def see_prize(match: Any, robot: Any, view: Any) -> None:
         away = dx * dx + dy * dy
         if pickup.alive and away < least:
             least = away
-            view.prize, view.prize_x, view.prize_y = 1, pickup.x, pickup.y
-    if view.prize:
-        view.prize_distance = sqrt(least)
+            obs.prize, obs.prize_x, obs.prize_y = 1, pickup.x, pickup.y
+    if obs.prize:
+        obs.prize_distance = sqrt(least)
 
 
 @kernel
-def see_way(match: Any, robot: Any, eyes: Any, view: Any) -> None:
+def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
     """Where to drive now to get on with the errand."""
-    errand = eyes.errand
+    errand = senses.errand
     if not errand.wanted:
-        view.way_bearing, view.way_distance, view.goal_distance, view.straight = 0.0, 0.0, 0.0, 1
+        obs.way_bearing, obs.way_distance, obs.goal_distance, obs.straight = 0.0, 0.0, 0.0, 1
         return
     find_way(match, errand, robot.x, robot.y)
-    view.way_x, view.way_y, view.straight = errand.way_x, errand.way_y, errand.straight
+    obs.way_x, obs.way_y, obs.straight = errand.way_x, errand.way_y, errand.straight
     dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
-    view.way_distance = sqrt(dx * dx + dy * dy)
-    view.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    obs.way_distance = sqrt(dx * dx + dy * dy)
+    obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
     dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
-    view.goal_distance = sqrt(dx * dx + dy * dy)
+    obs.goal_distance = sqrt(dx * dx + dy * dy)

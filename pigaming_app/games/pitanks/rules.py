@@ -10,11 +10,11 @@ walls; a mine, which your next shot lays behind you.
 from math import cos, sin
 from typing import Any
 
-from pigaming_app.games.pitanks.items import lay_mine, mind_mines, mind_pickups, score
+from pigaming_app.games.pitanks.items import lay_mine, score, update_mines, update_pickups
 from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
 from pigaming_app.sim.grid import ONE_NEAR, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, burn, stop_all
+from pigaming_app.sim.robot import RADIUS, stop_all, use_turbo
 from pigaming_app.sim.sweep import meets_bounds, meets_disc, meets_wall, off_wall
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
@@ -35,8 +35,8 @@ def judge(match: Any) -> None:
     if fly(match):
         strike(match)
     if match.rules.pickups:
-        mind_mines(match)
-        mind_pickups(match)
+        update_mines(match)
+        update_pickups(match)
     for k in range(ROBOTS):
         if match.robots[k].present:
             steer(match, k)
@@ -63,7 +63,7 @@ def steer(match: Any, k: int) -> None:
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     speed = rules.speed
     if rules.turbo:
-        burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
+        use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
         if robot.boosting:
             speed *= rules.turbo_factor
     if match.tanks[k].powers[SPEED]:

@@ -38,7 +38,7 @@ def set_rules(rules: Rules, setup: Setup) -> None:
         rules.turbo = rules.protection = 0
 
 
-def facts(match: PiTanks, seat: int) -> Mapping[str, float]:
+def stats(match: PiTanks, seat: int) -> Mapping[str, float]:
     """What one seat did: hits made, hits taken, and the share of its bullets that scored."""
     tank = match.tanks[seat]
     return {
@@ -48,13 +48,13 @@ def facts(match: PiTanks, seat: int) -> Mapping[str, float]:
     }
 
 
-def standing(match: PiTanks, seat: int) -> float:
+def ranking_key(match: PiTanks, seat: int) -> float:
     """The points of a seat's team."""
     team = match.robots[seat].team
     return float(sum(robot.score for robot in match.robots if robot.present and robot.team == team))
 
 
-def feat(match: PiTanks, seat: int) -> Mapping[str, int]:
+def records(match: PiTanks, seat: int) -> Mapping[str, int]:
     """The own points."""
     return {"points": match.robots[seat].score}
 

@@ -10,7 +10,7 @@ from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt, tan
 from typing import NamedTuple
 
 from pigaming_app.games.race.course import POINTS, Course
-from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.toml_table import FieldError, Table
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH
 
 WIDEST, NARROWEST = 400.0, 150.0  # px; two robots side by side are 144
@@ -41,16 +41,16 @@ class Bend(NamedTuple):
 
 
 def read_course(table: Table) -> Course:
-    """The course of the tables [[corner]]; it is shared, copy it before you change it. Raises Wrong."""
+    """The course of the tables [[corner]]; it is shared, copy it before you change it. Raises FieldError."""
     corners = tuple(_corner(entry) for entry in table.tables("corner"))
     if len(corners) < 3:
-        raise table.wrong("corner", f"{len(corners)} corners, but at least 3 are needed to close a course")
+        raise table.error("corner", f"{len(corners)} corners, but at least 3 are needed to close a course")
     return course_of(corners)
 
 
 @lru_cache(maxsize=32)
 def course_of(corners: tuple[Corner, ...]) -> Course:
-    """The course of these corners, beginning where the arc of the first does. Raises Wrong."""
+    """The course of these corners, beginning where the arc of the first does. Raises FieldError."""
     course = Course()
     xs, ys, widths, length = _line(corners, _bends(corners))
     course.count, course.step, course.length = POINTS, length / POINTS, length
@@ -71,7 +71,7 @@ def _corner(entry: Table) -> Corner:
 
 
 def _bends(corners: Sequence[Corner]) -> list[Bend]:
-    """The arc of every corner. Raises Wrong where one does not fit."""
+    """The arc of every corner. Raises FieldError where one does not fit."""
     bends = [_bend(i, corners[i - 1], corner, corners[(i + 1) % len(corners)]) for i, corner in enumerate(corners)]
     for i, bend in enumerate(bends):
         before = (i - 1) % len(corners)
@@ -79,7 +79,7 @@ def _bends(corners: Sequence[Corner]) -> list[Bend]:
         if bends[before].cut + bend.cut > way + 0.5:
             need = bends[before].cut + bend.cut
             reason = f"its arc and that of corner[{before + 1}] need {need:.0f} px, but they are {way:.0f} px apart"
-            raise Wrong(f"corner[{i + 1}].radius", reason)
+            raise FieldError(f"corner[{i + 1}].radius", reason)
     return bends
 
 
@@ -87,16 +87,16 @@ def _bend(i: int, before: Corner, corner: Corner, after: Corner) -> Bend:
     key = f"corner[{i + 1}]"
     come, go = hypot(before.x - corner.x, before.y - corner.y), hypot(after.x - corner.x, after.y - corner.y)
     if min(come, go) < 1.0:
-        raise Wrong(f"{key}.at", "is the same point as its neighbour")
+        raise FieldError(f"{key}.at", "is the same point as its neighbour")
     if corner.radius < corner.width / 2:
-        raise Wrong(
+        raise FieldError(
             f"{key}.radius", f"{corner.radius:g} px, but at least half the width, {corner.width / 2:g}, is needed"
         )
     ux, uy = (before.x - corner.x) / come, (before.y - corner.y) / come
     vx, vy = (after.x - corner.x) / go, (after.y - corner.y) / go
     half = acos(max(-1.0, min(1.0, ux * vx + uy * vy))) / 2  # of the angle between the two straights
     if half < 0.1:
-        raise Wrong(f"{key}.at", "the course turns back on itself here")
+        raise FieldError(f"{key}.at", "the course turns back on itself here")
     cut = corner.radius / tan(half)
     start, end = (corner.x + ux * cut, corner.y + uy * cut), (corner.x + vx * cut, corner.y + vy * cut)
     clockwise = 1 if uy * vx - ux * vy > 0 else -1
@@ -167,7 +167,9 @@ def _check_inside(course: Course) -> None:
         for side in (across, -across):
             a, b = x - side * ey, y + side * ex
             if not (0 <= a <= WIDTH and 0 <= b <= HEIGHT):
-                raise Wrong("corner", f"the edge at ({a:.0f}, {b:.0f}) lies outside the arena, {WIDTH:g} x {HEIGHT:g}")
+                raise FieldError(
+                    "corner", f"the edge at ({a:.0f}, {b:.0f}) lies outside the arena, {WIDTH:g} x {HEIGHT:g}"
+                )
 
 
 def _check_apart(course: Course) -> None:
@@ -178,11 +180,11 @@ def _check_apart(course: Course) -> None:
             need = half + course.half[j]
             dx, dy = course.xs[j] - x, course.ys[j] - y
             if dx * dx + dy * dy < need * need and min(j - i, POINTS - j + i) * course.step > 0.5 * pi * need:
-                raise Wrong("corner", f"the course lies over itself near ({x + dx / 2:.0f}, {y + dy / 2:.0f})")
+                raise FieldError("corner", f"the course lies over itself near ({x + dx / 2:.0f}, {y + dy / 2:.0f})")
 
 
 def _enter(course: Course) -> None:
-    """For each node of the grid, the points to look at from there. Raises Wrong where three stretches meet."""
+    """For each node of the grid, the points to look at from there. Raises FieldError where three stretches meet."""
     for node in range(NODES):
         x, y = node % COLUMNS * CELL, node // COLUMNS * CELL
         away = [sqrt((a - x) * (a - x) + (b - y) * (b - y)) for a, b in zip(course.xs, course.ys, strict=True)]
@@ -195,7 +197,7 @@ def _enter(course: Course) -> None:
         course.near[node] = near[0]
         course.other[node] = near[1] if len(near) > 1 and depths[1] < depths[0] + 2 * REACH else -1
         if len(near) > 2 and depths[2] < REACH:
-            raise Wrong("corner", f"three stretches of the course meet near ({x:g}, {y:g})")
+            raise FieldError("corner", f"three stretches of the course meet near ({x:g}, {y:g})")
 
 
 def _parted(away: list[float], i: int, j: int) -> bool:

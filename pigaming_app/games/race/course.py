@@ -31,7 +31,7 @@ class Course:
 
 
 @record
-class Place:
+class CoursePosition:
     """Where something is along a course."""
 
     along: float  # px from the first point, in [0, length)

@@ -7,7 +7,7 @@ positive. Others are seen as they were `delay` seconds ago, by their speed; the 
 from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
-from pigaming_app.games.race.course import Place, leg, locate, spot, way_round
+from pigaming_app.games.race.course import CoursePosition, leg, locate, spot, way_round
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -20,12 +20,12 @@ RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 
 @record
-class Eyes:
+class Senses:
     """What shapes the view of one seat."""
 
     delay: float  # s by which others are seen late
     look: float  # px along the course to what it drives for
-    place: Place  # for working things out
+    place: CoursePosition  # for working things out
 
 
 @record
@@ -57,7 +57,7 @@ class Other:
 
 
 @record
-class View:
+class Observation:
     """What one seat sees."""
 
     x: float
@@ -89,40 +89,40 @@ class View:
 
 
 @kernel
-def see(match: Any, seat: int, eyes: Any, view: Any) -> None:
+def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     """Fill the view of one seat."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
-    course, place = match.course, eyes.place
+    course, place = match.course, senses.place
     locate(course, robot.x, robot.y, place)
     along = place.along
-    view.x, view.y, view.heading = robot.x, robot.y, robot.heading
-    view.linear, view.angular = robot.linear, robot.angular
-    view.speed, view.turn_rate = rules.speed, rules.turn_rate
-    view.turbo, view.turbo_factor, view.boosting = robot.turbo, rules.turbo_factor, robot.boosting
-    view.along, view.aside = along / course.length, place.aside
-    view.half, view.on = place.half, place.on
-    view.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
-    view.left = rules.laps * course.length - racer.progress
-    view.rank, view.finished = racer.rank, racer.finished
-    see_way(match, place, eyes.look, view)
-    see_mark(match, along + eyes.look, view.ahead)
-    see_next(match, seat, along, view)
+    obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
+    obs.linear, obs.angular = robot.linear, robot.angular
+    obs.speed, obs.turn_rate = rules.speed, rules.turn_rate
+    obs.turbo, obs.turbo_factor, obs.boosting = robot.turbo, rules.turbo_factor, robot.boosting
+    obs.along, obs.aside = along / course.length, place.aside
+    obs.half, obs.on = place.half, place.on
+    obs.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
+    obs.left = rules.laps * course.length - racer.progress
+    obs.rank, obs.finished = racer.rank, racer.finished
+    observe_way(match, place, senses.look, obs)
+    observe_mark(match, along + senses.look, obs.ahead)
+    observe_next_line(match, seat, along, obs)
     for i in range(OTHERS):
-        see_other(match, robot, (seat + 1 + i) % ROBOTS, along, eyes, view.others[i])
+        observe_other(match, robot, (seat + 1 + i) % ROBOTS, along, senses, obs.others[i])
 
 
 @kernel
-def see_way(match: Any, place: Any, look: float, view: Any) -> None:
+def observe_way(match: Any, place: Any, look: float, obs: Any) -> None:
     """The fastest line from here on, and how the course turns."""
     course = match.course
     k, _ = leg(course, place.along)
-    view.ideal, view.pace = match.ideal[k], match.pace[k]
+    obs.ideal, obs.pace = match.ideal[k], match.pace[k]
     for i in range(k + 1, k + 1 + int(PACE / course.step)):
         pace = match.pace[i % course.count]
-        if pace < view.pace:
-            view.pace = pace
+        if pace < obs.pace:
+            obs.pace = pace
     x, y = leg_way(course, k + int(2.0 * look / course.step))
-    view.turn = place.tangent_x * y - place.tangent_y * x
+    obs.turn = place.tangent_x * y - place.tangent_y * x
 
 
 @kernel
@@ -134,7 +134,7 @@ def leg_way(course: Any, k: int) -> tuple[float, float]:
 
 
 @kernel
-def see_mark(match: Any, along: float, mark: Any) -> None:
+def observe_mark(match: Any, along: float, mark: Any) -> None:
     """A point of the fastest line."""
     course = match.course
     k, share = leg(course, along)
@@ -150,31 +150,31 @@ def see_mark(match: Any, along: float, mark: Any) -> None:
 
 
 @kernel
-def see_next(match: Any, seat: int, along: float, view: Any) -> None:
+def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
     """How far it is to the line that the robot must cross next, or past it, and where to go then."""
     racer, course = match.racers[seat], match.course
     behind = racer.passed - 1 - racer.back
     here = match.lines[(seat + behind) % ROBOTS].along
     ahead = match.lines[(seat + behind + 1) % ROBOTS].along
     gap, way = way_round(course, here, ahead), way_round(course, here, along)
-    view.past = way - gap
+    obs.past = way - gap
     if way > gap and not racer.missed and way - gap > course.length - way:  # not yet at the last one
-        view.past = way - course.length - gap
+        obs.past = way - course.length - gap
     if racer.finished:
-        view.past = -course.length
-    back = view.past + RUN_UP if view.past > 0.0 else RUN_UP
-    view.return_x, view.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
+        obs.past = -course.length
+    back = obs.past + RUN_UP if obs.past > 0.0 else RUN_UP
+    obs.return_x, obs.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
 
 
 @kernel
-def see_other(match: Any, robot: Any, j: int, along: float, eyes: Any, other: Any) -> None:
+def observe_other(match: Any, robot: Any, j: int, along: float, senses: Any, other: Any) -> None:
     """Robot j as `robot`, at `along`, sees it."""
-    seen, place = match.robots[j], eyes.place
+    seen, place = match.robots[j], senses.place
     other.present = seen.present
     if not seen.present:
         return
     vx, vy = seen.linear * cos(seen.heading), seen.linear * sin(seen.heading)
-    other.x, other.y = seen.x - eyes.delay * vx, seen.y - eyes.delay * vy
+    other.x, other.y = seen.x - senses.delay * vx, seen.y - senses.delay * vy
     dx, dy = other.x - robot.x, other.y - robot.y
     other.distance = sqrt(dx * dx + dy * dy)
     other.bearing = turn_to(atan2(dy, dx) - robot.heading)

@@ -13,7 +13,7 @@ from typing import Any
 from pigaming_app.games.race.course import locate, way_round
 from pigaming_app.games.race.state import LINES
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import burn, stop, stop_all
+from pigaming_app.sim.robot import stop, stop_all, use_turbo
 from pigaming_app.sim.world import ROBOTS
 
 AGAINST = 40.0  # px/s from which driving against the way counts
@@ -200,7 +200,7 @@ def steer(match: Any, k: int) -> None:
         stop(robot)
         return
     speed = rules.speed
-    burn(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
+    use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
     if robot.boosting:
         speed *= rules.turbo_factor
     if not racer.place.on:

@@ -55,13 +55,13 @@ def _lines(table: Table, course: Course) -> tuple[float, ...]:
     shares = table.numbers("lines", LINES, 0.0, 1.0)
     gaps = [(shares[(i + 1) % LINES] - shares[i]) % 1.0 for i in range(LINES)]
     if 1.0 in shares:
-        raise table.wrong("lines", "1 is the same place as 0, write 0")
+        raise table.error("lines", "1 is the same place as 0, write 0")
     if abs(sum(gaps) - 1.0) > 1e-9:
-        raise table.wrong("lines", "must lie in the order of the way round")
+        raise table.error("lines", "must lie in the order of the way round")
     for i, gap in enumerate(gaps):
         if gap * course.length < APART:
             reason = f"{gap * course.length:.0f} px to the next, but at least {APART:g} px are needed"
-            raise table.wrong(f"lines[{i + 1}]", reason)
+            raise table.error(f"lines[{i + 1}]", reason)
     return tuple(share * course.length for share in shares)
 
 
@@ -104,19 +104,19 @@ def set_rules(rules: Rules, setup: Setup) -> None:
     rules.laps = setup.goal or rules.laps
 
 
-def standing(match: Race, seat: int) -> float:
+def ranking_key(match: Race, seat: int) -> float:
     """Who has finished is before who has not, and earlier is better; else what counts is how far one came."""
     racer = match.racers[seat]
     return 1e9 - racer.finish if racer.finished else racer.progress
 
 
-def facts(match: Race, seat: int) -> Mapping[str, float]:
+def stats(match: Race, seat: int) -> Mapping[str, float]:
     """What one seat drove: laps, its best lap and the whole race in s, 0 where there is none."""
     racer = match.racers[seat]
     return {"laps": match.robots[seat].score, "best": racer.best_lap * DT, "total": racer.finish * DT}
 
 
-def feat(match: Race, seat: int) -> Mapping[str, int]:
+def records(match: Race, seat: int) -> Mapping[str, int]:
     """The best lap, and the race if it was finished, in ms."""
     racer = match.racers[seat]
     done = {"lap": racer.best_lap, "race": racer.finish}

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pigaming_app.games.race.course import POINTS, Course, Place
+from pigaming_app.games.race.course import POINTS, Course, CoursePosition
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, ROBOTS, World
 
@@ -42,7 +42,7 @@ class Line:
 class Racer:
     """What Robot Race adds to a robot. Times are in ticks, with the share of a tick at which a line was crossed."""
 
-    place: Place  # where it is now
+    place: CoursePosition  # where it is now
     last_x: float  # where it was on the tick before
     last_y: float
     passed: int  # lines crossed in order, its own first; 1 + 4 * laps: finished

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker, Fix
-from pigaming_app.sim.toml_table import Table, Wrong
+from pigaming_app.sim.toml_table import FieldError, Table
 from pigaming_app.sim.world import WIDTH
-from pigaming_app.storage.parsing import ParseError, shown, toml_of
+from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
 VERSION = 1
 LID = 70.0  # mm from the mat to the marker on a robot
@@ -119,17 +119,17 @@ def written(ground: GroundPlane) -> str:
 def read(text: str, display: str | None = None, camera: tuple[int, int] | None = None) -> GroundPlane:
     """The calibration that a file holds; one of another display or camera size is refused. Raises CalibrationError."""
     try:
-        entries = toml_of(text)
+        entries = parse_toml(text)
     except ParseError as error:
         raise CalibrationError(OperatorMessage("damaged", detail=error)) from error
     if entries.get("version") != VERSION:
-        raise CalibrationError(OperatorMessage("version", theirs=shown(entries.get("version")), ours=VERSION))
+        raise CalibrationError(OperatorMessage("version", theirs=quote(entries.get("version")), ours=VERSION))
     check = entries.pop("check", None)
     if check != _check(entries):
         raise CalibrationError(OperatorMessage("changed"))
     try:
         ground = _ground(Table(entries))
-    except (Wrong, np.linalg.LinAlgError) as wrong:
+    except (FieldError, np.linalg.LinAlgError) as wrong:
         raise CalibrationError(OperatorMessage("damaged", detail=wrong)) from wrong
     if display is not None and ground.display != display:
         raise CalibrationError(OperatorMessage("other_display", theirs=ground.display, ours=display))
@@ -161,14 +161,14 @@ def _ground(table: Table) -> GroundPlane:
     plane = table.numbers("plane", 9, -1e6, 1e6)
     foot = table.numbers("foot", 2, -1e5, 1e5)
     if not np.isfinite(np.linalg.inv(np.array(plane).reshape(3, 3))).all():
-        raise table.wrong("plane", "not a plane that can be seen")
+        raise table.error("plane", "not a plane that can be seen")
     cx, cy = lens.numbers("centre", 2, 0, 16384)
     display = table.entries.get("display")
     if not isinstance(display, str):
-        raise table.wrong("display", "a text is missing")
+        raise table.error("display", "a text is missing")
     lid, above = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
     if lid >= above:
-        raise table.wrong("lid", "as high as the camera")
+        raise table.error("lid", "as high as the camera")
     return GroundPlane(
         display,
         Lens((int(width), int(height)), lens.number("k1"), lens.number("k2"), (cx, cy)),

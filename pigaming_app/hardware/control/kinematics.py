@@ -9,7 +9,7 @@ from math import copysign
 
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.signals import WheelCommand
-from pigaming_app.sim.drivetrain import Drivetrain, shares, twist
+from pigaming_app.sim.drivetrain import Drivetrain, twist, wheel_shares
 from pigaming_app.sim.plant import Twist
 
 LEVELS = 63  # of speed, each way: packets.STOP
@@ -29,7 +29,7 @@ class Kinematics:
         """What to tell the wheels, on the levels that the radio knows."""
         linear, half = asked[0], 0.5 * self.drivetrain.base * asked[1] / _kept(self.wear.turning)
         left, right = self._told(linear + half, self.wear.left), self._told(linear - half, self.wear.right)
-        told = shares(self.drivetrain, 0.5 * (left + right), (left - right) / self.drivetrain.base)
+        told = wheel_shares(self.drivetrain, 0.5 * (left + right), (left - right) / self.drivetrain.base)
         return WheelCommand(self._level(0, told[0]), self._level(1, told[1]))
 
     def stand(self) -> WheelCommand:

@@ -10,9 +10,9 @@ from typing import Any
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.sim.contact import ROUNDS, SLOP, keep_out, part, settle
+from pigaming_app.sim.contact import ROUNDS, SLOP, limit_step, push_out_of_walls, separate
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robot import RADIUS, roll
+from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import off_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH, World
 
@@ -91,14 +91,14 @@ def drive_among(world: Any, simulated: Sequence[int]) -> None:
     from_where = [(robots[i], robots[i].x, robots[i].y) for i in simulated]
     fixed = [(robot, robot.x, robot.y) for i, robot in enumerate(robots) if i not in simulated]
     for i in simulated:
-        roll(robots[i])
+        integrate(robots[i])
     for _ in range(2 * ROUNDS):  # each takes back half of what a robot overlaps one that cannot be pushed
-        moved = part(robots) > SLOP
+        moved = separate(robots) > SLOP
         for robot, x, y in fixed:
             robot.x, robot.y = x, y
         for i in simulated:
-            moved = bool(keep_out(world, robots[i])) or moved
+            moved = bool(push_out_of_walls(world, robots[i])) or moved
         if not moved:
             break
     for robot, x, y in from_where:
-        settle(world, robot, x, y)
+        limit_step(world, robot, x, y)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.proof.testbed import Testbed
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import off_wall
@@ -116,7 +116,7 @@ class ButtonMasher:
                 random.randrange(2),
             )
         self._ticks -= 1
-        press(state.actions[seat], *self._held)
+        set_action(state.actions[seat], *self._held)
 
 
 class MatchResult(NamedTuple):

@@ -11,8 +11,8 @@ from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.parsing import ParseError, read_text, reason
-from pigaming_app.storage.safe_files import keep
+from pigaming_app.storage.parsing import ParseError, describe_error, read_text
+from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.storage.settings import Settings, folders
 
 
@@ -32,13 +32,13 @@ def load(path: Path, projection: str | None = None, camera: tuple[int, int] | No
     except FileNotFoundError:
         raise CalibrationError(OperatorMessage("none")) from None
     except (OSError, ParseError) as error:
-        raise CalibrationError(OperatorMessage("damaged", detail=reason(error))) from error
+        raise CalibrationError(OperatorMessage("damaged", detail=describe_error(error))) from error
     return read(text, projection, camera)
 
 
 def save(ground: GroundPlane, path: Path) -> None:
     """Keep a calibration; the one before stays beside it as `.bak`. Raises NotSaved."""
-    keep(path, written(ground))
+    write_with_backup(path, written(ground))
 
 
 def robots_file(emulated: bool) -> Path:
@@ -53,7 +53,7 @@ def load_robots(path: Path) -> tuple[Drivetrain, ...]:
     except FileNotFoundError:
         found = ()
     except (OSError, ParseError) as error:
-        raise DrivetrainError(f"{path.name}: cannot be read ({reason(error)})") from None
+        raise DrivetrainError(f"{path.name}: cannot be read ({describe_error(error)})") from None
     return (*found, *(UNMEASURED,) * (ROBOTS - len(found)))
 
 

@@ -9,7 +9,7 @@ from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.recordings import Recording
 from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Identification, predictions
 from pigaming_app.sim.drivetrain import NOMINAL
-from pigaming_app.storage.safe_files import write
+from pigaming_app.storage.safe_files import write_atomic
 
 SHOWN = 6  # predictions drawn for each robot
 
@@ -30,7 +30,7 @@ def draw(run: Recording, verdicts: Sequence[Identification], folder: Path) -> li
         paint(figure, run, verdicts)
         picture = BytesIO()
         figure.savefig(picture, dpi=120, format="png")
-        write(folder / name, picture.getvalue())
+        write_atomic(folder / name, picture.getvalue())
         made.append(folder / name)
     return made
 

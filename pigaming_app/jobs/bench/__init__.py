@@ -28,10 +28,10 @@ def run(arguments: Namespace) -> int:
 
 def _game(game: str) -> dict[str, Any]:
     from pigaming_app.games.registry import games
-    from pigaming_app.games.setup import ChoiceError, one_of
+    from pigaming_app.games.setup import ChoiceError, require_one_of
 
     with refused(ChoiceError):
-        one_of("game", game, [*games(), ROBOTS])
+        require_one_of("game", game, [*games(), ROBOTS])
     from pigaming_app.jobs.bench.figures import measure
 
     return measure(game)

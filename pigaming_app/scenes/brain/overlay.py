@@ -9,7 +9,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.brain.kind import Thinker
+from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import PETALS, Move, Thoughts
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain import panels as cards
@@ -63,9 +63,9 @@ class BrainOverlay:
         self._floor(screen, state, self.seat, blend)
         self._boxes(screen, state, self.seat)
 
-    def _brain(self, seat: int) -> Thinker | None:
+    def _brain(self, seat: int) -> BrainPlayer | None:
         brain = self.match.brains[seat]
-        return brain if isinstance(brain, Thinker) and brain.kind.explain else None
+        return brain if isinstance(brain, BrainPlayer) and brain.kind.explain else None
 
     def _ease(self, seconds: float) -> None:
         """Let what is shown follow what is thought."""

@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.ai.brain.kind import Kind, Thinker
+from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.experiments.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
@@ -26,13 +26,13 @@ IDLE = 60.0  # seconds without a press until the Lab
 class Fight:
     """One match of a person against the robot."""
 
-    def __init__(self, house: House, kind: Kind, device: Device, arena: str = ARENA) -> None:
+    def __init__(self, house: House, kind: BrainKind, device: Device, arena: str = ARENA) -> None:
         self.house, self.kind, self.device, self.arena = house, kind, device, arena
         off = Seat("off", 2), Seat("off", 3)
         setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
         self.inner = MatchScene(house, setup, [device])
         self.inner.open = False  # nobody else takes the robot's seat
-        self.inner.match.sit(ROBOT, Thinker(kind, setup.seed))
+        self.inner.match.sit(ROBOT, BrainPlayer(kind, setup.seed))
         self.inner.stage.players[ROBOT] = kind.name
 
     def entered(self) -> None:

@@ -10,8 +10,8 @@ from time import perf_counter
 import pygame
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.experiments.evaluation import HANDMADE, Exam
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.lab.bench import IDLE, Bench
@@ -39,7 +39,7 @@ class Player:
     """One row of the table."""
 
     name: str
-    kind: Kind
+    kind: BrainKind
     own: bool = True  # a robot of this training
     won: int = 0
     tied: int = 0
@@ -67,7 +67,7 @@ class Compare:
             player.y = TOP + PITCH * i
         self.pairs = list(combinations(self.players, 2))
         self.whole = len(self.pairs)
-        self.exam: Exam | None = None
+        self.exam: Evaluation | None = None
         self.prompts = self.house.prompts([(Act.BACK, "lab.hint_lab")])
 
     def entered(self) -> None:
@@ -121,7 +121,7 @@ class Compare:
         one, other = self.pairs[0]
         if self.exam is None:
             fast, arena = self.lab.workshop.fast, self.lab.workshop.training.arena
-            self.exam = Exam(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
+            self.exam = Evaluation(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
         self.exam.play(TICKS)
         if self.exam.over:
             exam, self.exam = self.exam, None

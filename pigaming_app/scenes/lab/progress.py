@@ -5,8 +5,8 @@ from time import perf_counter
 from typing import Any
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain.kind import Kind
-from pigaming_app.ai.experiments.evaluation import HANDMADE, Exam
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME, Checkpoint, Training
 from pigaming_app.ai.qlearning.policy_summary import Direction, direction
 from pigaming_app.scenes.brain.rose import PETALS
@@ -42,7 +42,7 @@ class Progress:
         self.plan: list[Direction | None] = [None] * PETALS
         self.checkpoints: dict[int, Checkpoint] = {}
         self.moment = Moment(training.look(), 0, training.matches, knowing(training))
-        self._exam: Exam | None = None
+        self._exam: Evaluation | None = None
         self._at = -1.0  # matches at which the last exam began
         self._when = self._seen = self._petal = perf_counter()
         self._sector = 0
@@ -83,7 +83,7 @@ class Progress:
             self.plan[self._sector] = direction(self.training.table, self._sector, self.training.recipe.cold)
             self._sector = (self._sector + 1) % PETALS
 
-    def exam_due(self) -> Exam | None:
+    def exam_due(self) -> Evaluation | None:
         """The exam that is going on, or one that should begin now."""
         if self._exam is None:
             played, now = self.played, perf_counter()
@@ -99,12 +99,12 @@ class Progress:
             self.measures = [*self.measures, Measure(self._at, self._exam.share)]
             self._exam = None
 
-    def _examined(self, learned: Kind) -> Exam:
+    def _examined(self, learned: BrainKind) -> Evaluation:
         """An exam by the hand-made robot."""
         training, handmade = self.training, BRAINS[GAME][HANDMADE]
         fast = training.fast
         minutes = min(MINUTES[fast], training.minutes)
-        return Exam(learned, handmade, MATCHES[fast], EXAM_SEED, minutes, training.arena, fast)
+        return Evaluation(learned, handmade, MATCHES[fast], EXAM_SEED, minutes, training.arena, fast)
 
     def _mark(self) -> None:
         """Keep what it knows after so many matches."""

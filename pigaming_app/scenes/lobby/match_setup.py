@@ -198,7 +198,7 @@ class SetupPage:
         """The best so far with this choice, where the rows leave room for it."""
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
-        for feat in self.game.feats:
+        for feat in self.game.record_kinds:
             best = self.house.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.house.words(f"setup.best_{feat.name}")
@@ -231,7 +231,7 @@ class SetupPage:
                     (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
                     special_flags=pygame.BLEND_RGB_ADD,
                 )
-            if self.game.sides == PAIRS:  # where a robot begins depends on its team
+            if self.game.team_mode == PAIRS:  # where a robot begins depends on its team
                 choice.mark(i).draw(screen, round(x0 + dx + k * starts[i][0]), round(y0 + k * starts[i][1]))
         screen.set_clip(None)
 

@@ -40,7 +40,8 @@ class Lobby:
 
     def __init__(self, house: House, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.house, self.game = house, game
-        self.seats = Seats(house.settings.strength, sides=games()[game].sides, rivals=RIVALS[game], mat=house.robots)
+        team_mode = games()[game].team_mode
+        self.seats = Seats(house.settings.strength, team_mode=team_mode, rivals=RIVALS[game], mat=house.robots)
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in house.settings.real and not unfit(house.settings)
         for seat, driver in enumerate(drivers):
@@ -83,7 +84,7 @@ class Lobby:
                 self._leave(device)
             case Act.ALT:
                 self._ais()
-            case Act.EXTRA if self.seats.sides == FREE:
+            case Act.EXTRA if self.seats.team_mode == FREE:
                 self.seats.teams = not self.seats.teams
                 self.house.sounds.play("move")
             case Act.LEFT | Act.RIGHT | Act.UP | Act.DOWN:

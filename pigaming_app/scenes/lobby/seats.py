@@ -34,13 +34,13 @@ class Seats:
 
     strength: str = "normal"
     teams: bool = False
-    sides: str = FREE
+    team_mode: str = FREE
     rivals: tuple[str, ...] = STRENGTHS
     mat: bool = False
     places: list[Place] = field(default_factory=lambda: [Place(team=i % 2) for i in range(PLACES)])
 
     def __post_init__(self) -> None:
-        self.teams = self.sides == PAIRS or (self.teams and self.sides == FREE)
+        self.teams = self.team_mode == PAIRS or (self.teams and self.team_mode == FREE)
 
     # ---- what is so
 
@@ -138,13 +138,13 @@ class Seats:
 
     def fill(self) -> list[int]:
         """Company for one person alone, or for a pair without rivals: an AI, or in games for four all seats; which."""
-        lonely = self.robots == 1 or (self.sides == PAIRS and self.robots > 1 and self.one_team)
+        lonely = self.robots == 1 or (self.team_mode == PAIRS and self.robots > 1 and self.one_team)
         if not lonely:
             return []
         first = next(place for place in self.places if place.kind != EMPTY)
-        wanted = 1 if self.sides == FREE else len(self.like(EMPTY))
+        wanted = 1 if self.team_mode == FREE else len(self.like(EMPTY))
         added = [seat for seat in (self.add() for _ in range(wanted)) if seat is not None]
-        if self.sides == FREE:
+        if self.team_mode == FREE:
             self.places[added[0]].team = 1 - first.team
         return added
 
@@ -153,7 +153,7 @@ class Seats:
         place = self.places[seat]
         place.team = 1 - place.team
         mates = [one for one in self.places if one is not place and one.kind != EMPTY and one.team == place.team]
-        if self.sides == PAIRS and len(mates) > 1:
+        if self.team_mode == PAIRS and len(mates) > 1:
             sorted(mates, key=lambda one: one.kind == AI)[-1].team = 1 - place.team
 
     def _wanted(self, seat: int) -> int:

@@ -72,7 +72,7 @@ class LobbyPage:
             (Act.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
             (Act.ALT, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
         ]
-        if self.seats.sides == FREE:
+        if self.seats.team_mode == FREE:
             hints.append((Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
         return self.house.prompts([*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
 
@@ -94,7 +94,7 @@ class LobbyPage:
         card.frame(seat, said, place.ready or place.kind == AI).draw(screen, x, y)
         self._robot(screen, seat)
         if self.seats.teams:
-            if self.seats.sides == PAIRS:
+            if self.seats.team_mode == PAIRS:
                 card.side(words(f"lobby.side_{place.team + 1}"), place.team).draw(screen, x, y)
             else:
                 card.team(words("lobby.team", team=place.team + 1), place.team).draw(screen, x, y)

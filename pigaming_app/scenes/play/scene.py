@@ -14,7 +14,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.ai import make, seated
-from pigaming_app.ai.brain.kind import Hands
+from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
 from pigaming_app.scenes.flow.context import House
@@ -301,7 +301,7 @@ class MatchScene:
         self.devices[seat] = device
         if device is None:
             self.helped.add(seat)
-        brain = Hands(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        brain = HumanPlayer(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
         self.stage.players[seat] = "human" if device else STAND_IN
 

@@ -26,12 +26,12 @@ def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int]
 
 def in_teams(outcome: Outcome, setup: Setup) -> bool:
     """Whether teams played: always two in the factory, elsewhere where two robots share one."""
-    return games()[setup.game].sides == PAIRS or len({row.team for row in outcome.rows}) < len(outcome.rows)
+    return games()[setup.game].team_mode == PAIRS or len({row.team for row in outcome.rows}) < len(outcome.rows)
 
 
 def team_name(words: Words, setup: Setup, team: int) -> str:
     """What a team is called in the lobby."""
-    if games()[setup.game].sides == PAIRS:
+    if games()[setup.game].team_mode == PAIRS:
         return words(f"lobby.side_{team + 1}")
     return words("lobby.team", team=team + 1)
 
@@ -41,4 +41,4 @@ def winning_color(outcome: Outcome, setup: Setup) -> Color:
     if not outcome.winners:
         return ICE
     seat = outcome.winners[0]
-    return TEAMS[setup.seats[seat].team] if games()[setup.game].sides == PAIRS else PLAYERS[seat]
+    return TEAMS[setup.seats[seat].team] if games()[setup.game].team_mode == PAIRS else PLAYERS[seat]

@@ -6,7 +6,7 @@ number of people. A match counts for a seat only if every opponent is a person o
 
 from dataclasses import dataclass, replace
 
-from pigaming_app.games.game import Feat, Setup
+from pigaming_app.games.game import RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, Table
 
@@ -42,14 +42,14 @@ def contest(setup: Setup, seat: int | None = None) -> Table:
     return Table(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
 
 
-def table_of(contest: Table, feat: Feat) -> Table:
+def table_of(contest: Table, feat: RecordKind) -> Table:
     """The table of a feat under the conditions of a contest."""
     return replace(contest, feat=feat.name, timed=feat.timed)
 
 
 def boards(contest: Table) -> list[Board]:
     """The two tables shown side by side: of each feat, or of the only one today's and that of all time."""
-    feats = games()[contest.game].feats
+    feats = games()[contest.game].record_kinds
     tables = [table_of(contest, feat) for feat in feats]
     if len(feats) > 1:
         return [Board(f"results.best_{table.feat}", table) for table in tables[:2]]
@@ -58,7 +58,7 @@ def boards(contest: Table) -> list[Board]:
 
 def older_boards(contest: Table, scores: Scores) -> list[Board]:
     """The tables of all time that have rows, of a contest of version 1.3.0."""
-    tables = [table_of(contest, feat) for feat in games()[contest.game].feats]
+    tables = [table_of(contest, feat) for feat in games()[contest.game].record_kinds]
     return [Board(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
 
 
@@ -69,7 +69,7 @@ def contests(scores: Scores) -> list[Table]:
     return sorted(found, key=lambda one: (names.index(one.game), one.arena != "classic", one.arena, one.older, one))
 
 
-def told(value: int, feat: Feat | Table) -> str:
+def told(value: int, feat: RecordKind | Table) -> str:
     """Points, or milliseconds as minutes and seconds."""
     return clock(value / 1000.0) if feat.timed else str(value).replace("-", "−")
 
@@ -86,6 +86,6 @@ def clock(seconds: float) -> str:
 def _is_known(table: Table) -> bool:
     """Whether there is such a game, with such a feat and such rules; a file may hold anything."""
     game = games().get(table.game)
-    if not game or not any((feat.name, feat.timed) == (table.feat, table.timed) for feat in game.feats):
+    if not game or not any((feat.name, feat.timed) == (table.feat, table.timed) for feat in game.record_kinds):
         return False
     return table.older or (table.rules in game.variants and table.people <= 4 and table.side <= table.people)

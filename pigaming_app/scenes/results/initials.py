@@ -67,12 +67,12 @@ def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Devic
 
 def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Feats]:
     """By seat, what people did above zero in a match that counts for them."""
-    feats = games()[setup.game].feats
+    feats = games()[setup.game].record_kinds
     done = {}
     for row in outcome.rows:
         if row.seat in seats and setup.seats[row.seat].brain == "human" and counts(setup, row.seat):
             conditions = contest(setup, row.seat)
-            values = [(table_of(conditions, feat), row.feats.get(feat.name, 0)) for feat in feats]
+            values = [(table_of(conditions, feat), row.records.get(feat.name, 0)) for feat in feats]
             done[row.seat] = tuple((table, value) for table, value in values if value > 0)
     return done
 

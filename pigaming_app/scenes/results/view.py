@@ -330,7 +330,7 @@ def cell(name: str, row: Row) -> str:
     """What a row says in a column."""
     if name == "score":
         return signed(row.score)
-    value = row.facts[name]
+    value = row.stats[name]
     if name in TIMES:
         return clock(value)
     return f"{round(100 * value)}%" if name == "aim" else signed(round(value))

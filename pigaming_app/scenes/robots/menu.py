@@ -8,7 +8,7 @@ from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Turn
-from pigaming_app.storage.safe_files import NotSaved, write
+from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, Ink, cut
 from pigaming_app.ui.draw.layers import Lit, backdrop
@@ -95,7 +95,7 @@ class RobotsMenu:
 
         path, words = folders().data / SHEET, self.house.words
         try:
-            write(path, sheet(notes=in_every_language("sheet.print", "sheet.cut")))
+            write_atomic(path, sheet(notes=in_every_language("sheet.print", "sheet.cut")))
             self.navigation.say(words("robots.written", path=path))
         except OpenCVMissing as missing:
             log.warning("%s", english().explained(missing.message))

@@ -101,7 +101,7 @@ class Demonstration:
 
     def __init__(self, house: House, game: str) -> None:
         rules = games()[game]
-        teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.sides == FREE else rules.teams
+        teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.team_mode == FREE else rules.teams
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.variants[0], rules.default_goal)

@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import DT
-from pigaming_app.storage.safe_files import write
+from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.png import png_of
@@ -34,4 +34,4 @@ class Still:
     def picture(self, path: Path) -> None:
         """Save the match as it stands as a PNG file. Raises NotSaved."""
         self.view.draw(self.screen, self.match.state, 1.0, 0.0)
-        write(path, png_of(self.screen))
+        write_atomic(path, png_of(self.screen))

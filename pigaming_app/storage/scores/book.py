@@ -12,9 +12,9 @@ from pathlib import Path
 
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.parsing import read_text
-from pigaming_app.storage.safe_files import NotSaved, keep, recall
-from pigaming_app.storage.scores.file_format import Content, Faults, Migrated, parse, text_of
-from pigaming_app.storage.scores.migration import back_up, carry_over, pending
+from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
+from pigaming_app.storage.scores.file_format import Content, Faults, Migrated, parse, to_text
+from pigaming_app.storage.scores.migration import back_up, migrate, pending
 from pigaming_app.storage.scores.table import LENGTH, Score, Table, are_initials, day, local, worth_keeping
 
 FILE = "scores2.toml"  # version 1.3.0 has no use for it and leaves it alone
@@ -107,11 +107,11 @@ class Scores:
         """Take over the file as it is now, with the own changes on top; what to report."""
         path = folder / FILE
         self._stamp = _stamp(path)  # before it is read: if it is replaced meanwhile, it is read again
-        found, said = recall(path, parse, LARGEST)
+        found, said = read_or_restore(path, parse, LARGEST)
         self._seen, faults = found or (Content(), Faults())
         said += faults.sentences(path)
         self._content = self._seen.copy()
-        said += carry_over(folder, self._content)
+        said += migrate(folder, self._content)
         self._content.trim(local(None).date())
         if self._cleared:
             self._content.clear()
@@ -125,7 +125,7 @@ class Scores:
             return
         for migrated in carried:
             back_up(folder, migrated)
-        keep(folder / FILE, text_of(self._content))
+        write_with_backup(folder / FILE, to_text(self._content))
         self._added.clear()
         self._cleared = False
         self._seen, self._stamp = self._content.copy(), _stamp(folder / FILE)

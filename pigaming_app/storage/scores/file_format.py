@@ -28,7 +28,7 @@ from dataclasses import asdict, dataclass, field
 from datetime import date, datetime
 from typing import Any
 
-from pigaming_app.storage.parsing import SHOWN, one_line, toml_of
+from pigaming_app.storage.parsing import QUOTE_LENGTH, one_line, parse_toml
 from pigaming_app.storage.scores.table import LONGEST, Score, Table, is_score, local, worth_keeping
 
 FORMAT = 2
@@ -95,7 +95,7 @@ class Faults:
 
 def parse(text: str) -> tuple[Content, Faults]:
     """The content of a file and what had to be ignored in it. Raises ValueError for a file that is no scores file."""
-    found = toml_of(text)
+    found = parse_toml(text)
     if type(found.get("format")) is not int or found["format"] != FORMAT:
         raise ValueError(f"its format is not {FORMAT}")
     content, faults = Content(resets=_resets(found.get("resets"))), Faults()
@@ -105,7 +105,7 @@ def parse(text: str) -> tuple[Content, Faults]:
             faults.add(f"table {i}")
             continue
         rows = content.tables.setdefault(table, [])
-        rows += read_rows(table, entry.get("rows"), one_line(f"{table.game}.{table.arena}", SHOWN), faults)
+        rows += read_rows(table, entry.get("rows"), one_line(f"{table.game}.{table.arena}", QUOTE_LENGTH), faults)
     for entry in _list(found.get("migrated", []), "migrated", faults):
         if migrated := _migrated(entry):
             content.migrated.append(migrated)
@@ -114,7 +114,7 @@ def parse(text: str) -> tuple[Content, Faults]:
     return content, faults
 
 
-def text_of(content: Content) -> str:
+def to_text(content: Content) -> str:
     """The text of the file."""
     import tomli_w
 

@@ -14,8 +14,8 @@ from hashlib import sha256
 from itertools import count
 from pathlib import Path
 
-from pigaming_app.storage.parsing import SHOWN, one_line, read, read_text, reason, toml_of
-from pigaming_app.storage.safe_files import NotSaved, recall, write
+from pigaming_app.storage.parsing import QUOTE_LENGTH, describe_error, one_line, parse_toml, read, read_text
+from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_atomic
 from pigaming_app.storage.scores.file_format import Content, Faults, Migrated, row_of
 from pigaming_app.storage.scores.table import LONGEST, Score, Table, local
 
@@ -26,12 +26,12 @@ _TIMED = re.compile(r"(?P<arena>.+) (?P<feat>[a-z]+)(?: (?P<goal>\d{1,2}))?", re
 Rows = Counter[tuple[Table, Score]]
 
 
-def carry_over(folder: Path, content: Content) -> list[str]:
+def migrate(folder: Path, content: Content) -> list[str]:
     """Add the rows of version 1.3.0 that are not in `content` yet, and a note of it; what to report."""
     path = folder / FILE
     if not pending(folder, content):
         return []
-    found, said = recall(path, parse, LARGEST)
+    found, said = read_or_restore(path, parse, LARGEST)
     if found is None:
         return said
     rows, faults = found
@@ -49,11 +49,11 @@ def back_up(folder: Path, migrated: Migrated) -> None:
     try:
         raw = read(path, LARGEST)
     except OSError as error:
-        raise NotSaved(f"{path} was not backed up: {reason(error)}.") from error
+        raise NotSaved(f"{path} was not backed up: {describe_error(error)}.") from error
     if sha256(raw).hexdigest() != migrated.digest:
         raise NotSaved(f"{path} was not backed up: it has just changed.")
     if not os.path.lexists(folder / migrated.backup):
-        write(folder / migrated.backup, raw)
+        write_atomic(folder / migrated.backup, raw)
 
 
 def pending(folder: Path, content: Content) -> bool:
@@ -65,8 +65,8 @@ def pending(folder: Path, content: Content) -> bool:
 def parse(text: str) -> tuple[Rows, Faults]:
     """The rows of a file of version 1.3.0, and what is wrong in it. Raises ParseError."""
     rows, faults = Rows(), Faults()
-    for game, arena, entries in _tables(toml_of(text)):
-        where = one_line(f"{game}.{arena}", SHOWN)
+    for game, arena, entries in _tables(parse_toml(text)):
+        where = one_line(f"{game}.{arena}", QUOTE_LENGTH)
         if not isinstance(entries, list) or max(len(game), len(arena)) > LONGEST:
             faults.add(where)
             continue

@@ -5,7 +5,7 @@ from math import isfinite, pi
 import pytest
 
 from pigaming_app.ai import BRAINS, make
-from pigaming_app.ai.brain.kind import Thinker
+from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.pitanks import fsm
@@ -26,7 +26,7 @@ ALL = [(game, name) for game in games() for name in BRAINS[game]]
 KEPT = 0.9  # of a table's best move, for the second best
 
 
-def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Thinker:
+def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> BrainPlayer:
     """A player who knows of every state that one move is worth most, and the next one nearly as much."""
     table = Table()
     for name, value in vars(Recipe()).items():
@@ -34,7 +34,7 @@ def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Thin
     for k in range(0, len(table.q), ACTIONS):
         table.q[k + best], table.q[k + (best + 1) % ACTIONS] = reward, KEPT * reward
         table.n[k + best] = 7
-    return Thinker(player("taught", Learned(table)), seed=1)
+    return BrainPlayer(player("taught", Learned(table)), seed=1)
 
 
 def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> Match:
@@ -57,7 +57,7 @@ def load(game: str):
 
 def thoughts(match: Match, seat: int = 0) -> Thoughts:
     brain = match.brains[seat]
-    assert isinstance(brain, Thinker)
+    assert isinstance(brain, BrainPlayer)
     told = brain.explain(match.state, seat)
     assert told is not None
     return told
@@ -173,15 +173,15 @@ def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_
     match = run(play("pitanks", "hard", "hard", seed=2), 60)
     mind, told = match.brains[0].mind, thoughts(match)
     seen = {sight.kind: sight for sight in told.sights}
-    assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.sight.others[0].x, mind.sight.others[0].y)
+    assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.obs.others[0].x, mind.obs.others[0].y)
     if GOAL in seen:
-        assert (seen[GOAL].x, seen[GOAL].y) == (mind.eyes.errand.goal_x, mind.eyes.errand.goal_y)
+        assert (seen[GOAL].x, seen[GOAL].y) == (mind.senses.errand.goal_x, mind.senses.errand.goal_y)
     assert told.names["player"] == 2
 
 
 def test_it_says_that_it_dodges_exactly_when_it_would():
     match = run(play("pitanks", "normal", "idle", variant="plain"), 10)
-    view, said = match.brains[0].mind.sight, []
+    view, said = match.brains[0].mind.obs, []
     for threat, bearing in ((9.0, 0.0), (0.5, pi / 2), (0.5, 0.0), (0.69, 0.4)):
         view.threat, view.threat_bearing, view.threat_side = threat, bearing, 5.0
         action = match.state.actions[0]
@@ -210,7 +210,7 @@ def test_it_knows_that_it_is_stuck():
 def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
     match = run(play("race", "hard", "easy"), 100)
     mind = match.brains[0].mind
-    mind.sight.past, mind.sight.return_x, mind.sight.return_y = 2 * racer.SLACK, 321.0, 123.0
+    mind.obs.past, mind.obs.return_x, mind.obs.return_y = 2 * racer.SLACK, 321.0, 123.0
     told = thoughts(match)
     assert (told.doing, told.because, told.chosen) == ("return", "missed", "back")
     assert [(sight.x, sight.y) for sight in told.sights if sight.kind == GOAL] == [(321.0, 123.0)]
@@ -219,14 +219,14 @@ def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
 def test_who_has_finished_is_not_stuck_though_nothing_moves_it_any_more():
     match = run(play("race", "hard", "easy"), 100)
     mind = match.brains[0].mind
-    mind.sight.finished, mind.state = 1, racer.BREAK_FREE
+    mind.obs.finished, mind.state = 1, racer.BREAK_FREE
     assert (thoughts(match).doing, thoughts(match).because) == ("done", "finish")
 
 
 def test_a_driver_makes_way_to_the_side_on_which_it_passes():
     match = run(play("race", "hard", "easy"), 100)
     mind = match.brains[0].mind
-    mind.sight.past, own = -100.0, mind.line * mind.sight.ahead.ideal
+    mind.obs.past, own = -100.0, mind.line * mind.obs.ahead.ideal
     for aside, doing in ((-60.0, "pass_left"), (60.0, "pass_right"), (0.0, None)):
         mind.lane = own + aside
         told = thoughts(match)
@@ -241,7 +241,7 @@ def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
     told = []
     for _ in range(1500):
         match.tick()
-        view, mind = match.brains[0].mind.sight, match.brains[0].mind
+        view, mind = match.brains[0].mind.obs, match.brains[0].mind
         slot = view.slots[mind.target]
         busy = mind.near or mind.freeing > 0 or mind.resting > 0 or view.frozen
         if view.carries == RAW + 1 and mind.carried == view.carries and slot.kind == INPUT and not busy:
@@ -256,7 +256,7 @@ def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
 
 def test_a_frozen_driver_waits():
     match = run(play("factory", "normal", "normal", "normal", "normal"), 60)
-    match.brains[0].mind.sight.frozen = 50
+    match.brains[0].mind.obs.frozen = 50
     told = thoughts(match)
     assert (told.doing, told.because, told.chosen) == ("frozen", "bumped", "wait")
     assert told.wishes["wait"] == 1.0
@@ -288,7 +288,7 @@ def test_a_table_shows_its_state_its_values_and_the_move_it_drew():
 def test_what_a_table_has_never_seen_it_says():
     match = play("pitanks", "idle", "idle", variant="classic")
     empty = taught(reward=0.0)
-    empty.known.n[:] = [0] * len(empty.known.n)
+    empty.weights.n[:] = [0] * len(empty.weights.n)
     match.sit(0, empty)
     told = thoughts(run(match, 6))
     assert told.because == "new"
@@ -303,9 +303,9 @@ def test_the_rose_of_a_table_says_where_it_would_have_the_opponent():
     match.sit(0, brain)
     run(match, 6)
     wall = int(thoughts(match).facts["wall"])
-    brain.known.q[state(3, wall, NONE) * ACTIONS + 5] = 8.0
+    brain.weights.q[state(3, wall, NONE) * ACTIONS + 5] = 8.0
     for k in range(state(9, wall, NONE) * ACTIONS, state(9, wall, NONE) * ACTIONS + ACTIONS):
-        brain.known.q[k] = -2.0
+        brain.weights.q[k] = -2.0
     rose = thoughts(match).rose
     assert rose[3] == 1.0
     assert rose[9] == pytest.approx(-0.5), "the root of a quarter"

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain.kind import Kind, Thinker
+from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.brain.unstick import PATIENCE, Reflex
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.qlearning.learner import MOVES, LearnerMind, Move
@@ -20,7 +20,7 @@ from tests.cases import one_in
 AHEAD = Move(1.0, 0.0, 0)
 
 
-def single_minded(move: Move, reflex: bool) -> Kind:
+def single_minded(move: Move, reflex: bool) -> BrainKind:
     """A player whose table knows one move, whatever it sees."""
     table = training.fresh_table(1)
     table.knobs.period, table.knobs.cold = 5, 0.02
@@ -30,8 +30,8 @@ def single_minded(move: Move, reflex: bool) -> Kind:
 
 def driven(reflex: bool, variant: str = "classic") -> list[tuple[float, float]]:
     """Where it has been at the end of each second of half a minute, with the opponent standing still far away."""
-    match = Match(replace(training.setting(1, minutes=0.5), variant=variant))
-    match.sit(0, Thinker(single_minded(AHEAD, reflex), 1))
+    match = Match(replace(training.training_setup(1, minutes=0.5), variant=variant))
+    match.sit(0, BrainPlayer(single_minded(AHEAD, reflex), 1))
     places = []
     while not match.over:
         match.tick()
@@ -56,7 +56,7 @@ def test_with_the_reflex_it_gets_about():
 def test_whoever_waits_for_nobody_goes_out_in_the_end_but_not_by_the_rules_of_the_measured_results(variant, leaves):
     seats = (Seat("q1", 0), Seat("idle", 1), Seat("off", 2), Seat("off", 3))
     match = Match(Setup("pitanks", "classic", seats, 0.2, 1, variant))
-    match.sit(0, Thinker(single_minded(Move(0.0, 0.0, 0), reflex=True), 1))
+    match.sit(0, BrainPlayer(single_minded(Move(0.0, 0.0, 0), reflex=True), 1))
     before = match.state.robots[0].x
     while not match.over:
         match.tick()
@@ -70,8 +70,8 @@ def test_by_the_rules_of_the_measured_results_it_only_comes_off_the_wall_now_and
 
 def test_whoever_gets_on_never_feels_it():
     assert PATIENCE / HZ > 1.0  # a second's push against something that gives way is none of its business
-    match = Match(training.setting(1, minutes=0.02))
-    brain = Thinker(single_minded(AHEAD, reflex=True), 1)
+    match = Match(training.training_setup(1, minutes=0.02))
+    brain = BrainPlayer(single_minded(AHEAD, reflex=True), 1)
     match.sit(0, brain)
     while not match.over:
         match.tick()
@@ -80,9 +80,9 @@ def test_whoever_gets_on_never_feels_it():
 
 
 def test_it_is_on_for_seats_alone():
-    def switched(kind: Kind) -> int:
+    def switched(kind: BrainKind) -> int:
         mind = LearnerMind()
-        kind.wake(mind, 1)
+        kind.reset(mind, 1)
         return mind.reflex.on
 
     assert Reflex().on == 0

@@ -3,13 +3,13 @@
 import pytest
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.experiments.evaluation import HANDMADE, Exam
+from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME, contest
 
 HARD, IDLE, OWN = BRAINS[GAME]["hard"], BRAINS[GAME]["idle"], BRAINS[GAME][HANDMADE]
 
 
-def played(exam: Exam, ticks: int) -> Exam:
+def played(exam: Evaluation, ticks: int) -> Evaluation:
     while not exam.over:
         exam.play(ticks)
     return exam
@@ -17,23 +17,23 @@ def played(exam: Exam, ticks: int) -> Exam:
 
 @pytest.mark.parametrize("ticks", [7, 10_000])
 def test_a_little_at_a_time_comes_to_the_same(ticks: int) -> None:
-    exam = played(Exam(HARD, IDLE, 4, 3, minutes=0.3), ticks)
+    exam = played(Evaluation(HARD, IDLE, 4, 3, minutes=0.3), ticks)
     assert (exam.wins, exam.ties, exam.losses) == contest(HARD, IDLE, 4, 3, minutes=0.3, fast=False)
 
 
 def test_whoever_is_better_wins_on_both_sides() -> None:
-    exam = played(Exam(HARD, IDLE, 4, 3, minutes=0.5), 500)
+    exam = played(Evaluation(HARD, IDLE, 4, 3, minutes=0.5), 500)
     assert (exam.wins, exam.share) == (4, 1.0)
-    assert played(Exam(IDLE, HARD, 4, 3, minutes=0.5), 500).share == 0.0
+    assert played(Evaluation(IDLE, HARD, 4, 3, minutes=0.5), 500).share == 0.0
 
 
 def test_against_one_like_itself_it_is_a_half() -> None:
-    exam = played(Exam(OWN, OWN, 20, 9, minutes=0.3), 500)
+    exam = played(Evaluation(OWN, OWN, 20, 9, minutes=0.3), 500)
     assert exam.share == pytest.approx(0.5, abs=0.25)
-    assert played(Exam(IDLE, IDLE, 2, 9, minutes=0.05), 500).share == 0.5
+    assert played(Evaluation(IDLE, IDLE, 2, 9, minutes=0.05), 500).share == 0.5
 
 
 def test_after_its_end_nothing_more_is_played() -> None:
-    exam = played(Exam(IDLE, IDLE, 2, 1, minutes=0.02), 50)
+    exam = played(Evaluation(IDLE, IDLE, 2, 1, minutes=0.02), 50)
     exam.play(50)
     assert exam.wins + exam.ties + exam.losses == 2

@@ -19,7 +19,7 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.ai import BRAINS
-from pigaming_app.ai.brain.kind import Thinker
+from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.experiments.training import Training
 from pigaming_app.ai.qlearning import table_files as tables
@@ -104,12 +104,12 @@ def test_a_checkpoint_stays_as_it_was_and_takes_a_seat(fast):
     course = short(fast)
     course.run(600)
     kept = course.checkpoint()
-    before = digest(kept.kind.known(False)[0])
+    before = digest(kept.kind.weights(False)[0])
     course.run(600)
     assert (kept.matches, kept.experiences) == (2, 240)
-    assert digest(kept.kind.known(False)[0]) == before != digest(course.checkpoint().kind.known(False)[0])
-    match = Match(training.setting(1, minutes=0.1))
-    match.sit(0, Thinker(kept.kind, 1))
+    assert digest(kept.kind.weights(False)[0]) == before != digest(course.checkpoint().kind.weights(False)[0])
+    match = Match(training.training_setup(1, minutes=0.1))
+    match.sit(0, BrainPlayer(kept.kind, 1))
     while not match.over:
         match.tick()
     assert any(match.log.ticks[tick : tick + 3] != b"\x40\x40\x00" for tick in range(0, len(match.log.ticks), 12))
@@ -248,7 +248,7 @@ def test_the_tables_that_come_with_the_arcade_were_trained_on_this_engine(name):
     trained = read(ASSETS / "brains" / f"{name}.npz")
     assert (trained.name, trained.reward, trained.recipe) == (name, int(name[1]), RECIPES[int(name[1])])
     assert (trained.matches, trained.minutes, trained.arena) == (200, 2.0, "classic")
-    assert BRAINS["pitanks"][name].known(False)[0].experiences == 200 * 2 * 1200
+    assert BRAINS["pitanks"][name].weights(False)[0].experiences == 200 * 2 * 1200
     assert not trained.other_engine, "run `python -m tests.bench.reproduce_table --ship`"
 
 

@@ -5,7 +5,7 @@ from math import cos, exp, pi, sin, tau
 
 import pytest
 
-from pigaming_app.ai.experiments.training import fresh_table, setting
+from pigaming_app.ai.experiments.training import fresh_table, training_setup
 from pigaming_app.ai.qlearning.features import (
     NONE,
     SECTORS,
@@ -24,18 +24,18 @@ from pigaming_app.ai.qlearning.learner import (
     PAIRS,
     LearnerMind,
     Table,
-    draw,
     learn,
     learn_last,
-    preferences,
-    take_in,
+    move_probabilities,
+    sample_move,
     temperature,
+    update,
 )
-from pigaming_app.ai.qlearning.player import think, wake
-from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe, worth_of_action, worth_of_change
+from pigaming_app.ai.qlearning.player import reset, think
+from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe, action_reward, transition_reward
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
 
 FIRE = MOVES.index((0.0, 0.0, 1))
@@ -44,7 +44,7 @@ DRIVE = MOVES.index((1.0, 0.0, 0))
 
 def standing(*poses):
     """A match of two with its robots at these (x, y, heading)."""
-    match = Match(setting(1)).state
+    match = Match(training_setup(1)).state
     for robot, (x, y, heading) in zip(match.robots, poses, strict=False):
         robot.x, robot.y, robot.heading = x, y, heading
     return match
@@ -135,13 +135,13 @@ def test_among_several_the_nearest_of_another_team_is_the_opponent():
 
 def act(match, linear, fire):
     action = match.actions[0]
-    press(action, linear, 0.0, fire, 0)
+    set_action(action, linear, 0.0, fire, 0)
     return action
 
 
 def shot(match, recipe=RECIPES[1], linear=1.0):
     """The reward of seat 0 for a shot as things stand."""
-    return worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, linear, 1), recipe)
+    return action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, linear, 1), recipe)
 
 
 def test_a_shot_at_an_opponent_in_plain_sight_is_worth_10():
@@ -173,8 +173,8 @@ def test_a_button_held_down_while_the_gun_cools_counts_unless_only_real_shots_do
 def test_standing_still_costs_10_by_the_second_table_alone(reward, worth):
     match = standing((300.0, 300.0, 1.0), (900.0, 300.0, pi))
     recipe = RECIPES[reward]
-    assert worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, 0.0, 0), recipe) == worth
-    assert worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == 0.0
+    assert action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, 0.0, 0), recipe) == worth
+    assert action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == 0.0
 
 
 def test_who_pushes_a_wall_is_still_only_where_moving_counts():
@@ -182,7 +182,7 @@ def test_who_pushes_a_wall_is_still_only_where_moving_counts():
     for speed, moving, worth in ((0.0, 0, 0.0), (0.0, 1, -10.0), (-200.0, 1, 0.0)):
         match.robots[0].linear = speed
         recipe = replace(RECIPES[2], moving=moving)
-        assert worth_of_action(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == worth
+        assert action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == worth
 
 
 def test_an_opponent_that_gets_behind_costs_1_once_by_the_first_table_and_every_time_by_the_second():
@@ -190,10 +190,10 @@ def test_an_opponent_that_gets_behind_costs_1_once_by_the_first_table_and_every_
         for wall in range(NONE + 1):
             there, away = state(ahead, wall, NONE), state(0, wall, NONE)
             exposed = 4 <= ahead <= 12 and wall != ahead
-            assert worth_of_change(away, there, RECIPES[1]) == (-1.0 if exposed else 0.0)
-            assert worth_of_change(there, there, RECIPES[1]) == 0.0
-            assert worth_of_change(there, there, RECIPES[2]) == (-1.0 if exposed else 0.0)
-            assert worth_of_change(there, away, RECIPES[2]) == 0.0
+            assert transition_reward(away, there, RECIPES[1]) == (-1.0 if exposed else 0.0)
+            assert transition_reward(there, there, RECIPES[1]) == 0.0
+            assert transition_reward(there, there, RECIPES[2]) == (-1.0 if exposed else 0.0)
+            assert transition_reward(there, away, RECIPES[2]) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -214,7 +214,7 @@ def test_a_kernel_reads_the_same_numbers_as_a_recipe_has():
 def experience(table, state, move, worth, here):
     mind = LearnerMind()
     mind.state, mind.move, mind.worth = state, move, worth
-    take_in(table, mind, here)
+    update(table, mind, here)
 
 
 def test_the_first_visit_overwrites_and_later_ones_average():
@@ -270,8 +270,8 @@ def test_the_roulette_draws_by_exp_of_q_over_t():
     odds = [exp(q / 0.5) for q in table.q[:ACTIONS]]
     drawn = [0] * ACTIONS
     for _ in range(20_000):
-        drawn[draw(table, 0, 0.5, table)] += 1
-    for count, share, wish in zip(drawn, odds, preferences(table, 0, 0.5), strict=True):
+        drawn[sample_move(table, 0, 0.5, table)] += 1
+    for count, share, wish in zip(drawn, odds, move_probabilities(table, 0, 0.5), strict=True):
         assert share / sum(odds) == pytest.approx(wish)
         assert count / 20_000 == pytest.approx(wish, abs=0.012)  # 4 standard deviations are 0.0094
 
@@ -279,13 +279,13 @@ def test_the_roulette_draws_by_exp_of_q_over_t():
 def test_q_of_25_at_the_lowest_temperature_overflows_nothing():
     table = taught()
     table.q[:ACTIONS] = [25.0 if a == DRIVE else -25.0 for a in range(ACTIONS)]
-    assert {draw(table, 0, 0.02, table) for _ in range(100)} == {DRIVE}
+    assert {sample_move(table, 0, 0.02, table) for _ in range(100)} == {DRIVE}
 
 
 def test_both_robots_learn_into_one_table_ten_times_a_second():
-    match = Match(setting(1, minutes=0.1)).state
+    match = Match(training_setup(1, minutes=0.1)).state
     table, minds = taught(), (LearnerMind(), LearnerMind())
-    game = Match(setting(1)).game
+    game = Match(training_setup(1)).game
     while not match.over:
         for seat in (0, 1):
             learn(match, seat, minds[seat], table)
@@ -298,8 +298,8 @@ def test_both_robots_learn_into_one_table_ten_times_a_second():
 
 
 def test_a_player_draws_at_the_last_temperature_and_changes_nothing_but_its_action():
-    match, table, mind = Match(setting(1)).state, taught(), LearnerMind()
-    wake(mind, 1)
+    match, table, mind = Match(training_setup(1)).state, taught(), LearnerMind()
+    reset(mind, 1)
     here = situation(match, 0, 1, 1)
     table.q[here * ACTIONS + FIRE] = table.q[here * ACTIONS + DRIVE] = 1.0
     known, before = digest(table), digest(match)
@@ -309,7 +309,7 @@ def test_a_player_draws_at_the_last_temperature_and_changes_nothing_but_its_acti
         moves.add(mind.move)
     assert moves == {FIRE, DRIVE}  # equals are drawn alike: it is a roulette, not the first of the best
     assert digest(table) == known
-    press(match.actions[0], 0.0, 0.0, 0, 0)
+    set_action(match.actions[0], 0.0, 0.0, 0, 0)
     assert digest(match) == before
 
 

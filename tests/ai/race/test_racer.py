@@ -82,7 +82,7 @@ def test_courses_can_be_driven_anticlockwise(track):
         match.tick()
         assert not any(racer.missed for racer in match.state.racers)
     assert all(racer.finished for racer in match.state.racers)
-    best = match.game.facts(match.state, 0)["best"]
+    best = match.game.stats(match.state, 0)["best"]
     assert best == pytest.approx(REFERENCE[track] / 1.09, rel=0.06)
 
 

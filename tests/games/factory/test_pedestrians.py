@@ -7,7 +7,7 @@ from typing import Annotated
 import pytest
 
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.factory.pedestrians import CLOSE, NEARLY, THERE, TURN, Motion, observe, send, walk
+from pigaming_app.games.factory.pedestrians import CLOSE, NEARLY, THERE, TURN, Motion, send, track_motion, walk
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import in_wall
@@ -59,7 +59,7 @@ def drive_on(world, ticks=1):
     for _ in range(ticks):
         robot.x += DT * robot.linear * cos(robot.heading)
         robot.y += DT * robot.linear * sin(robot.heading)
-        observe(world.motions[0], robot)
+        track_motion(world.motions[0], robot)
 
 
 def at_speed(world, speed):
@@ -273,7 +273,7 @@ def test_a_robot_whose_motors_turn_but_that_stays_where_it_is_is_passed_like_one
         who = walker(500.0, 450.0, (1100.0, 450.0))
         world.robots[0].linear = speed
         for tick in range(8 * HZ):
-            observe(world.motions[0], world.robots[0])
+            track_motion(world.motions[0], world.robots[0])
             if walk(world, who, PACE, GIRTH):
                 took.append(tick)
                 break
@@ -300,7 +300,7 @@ def test_a_robot_that_is_pushed_sideways_is_waited_for():
     robot, motion = world.robots[0], world.motions[0]
     for _ in range(HZ):
         robot.y -= 200.0 * DT
-        observe(motion, robot)
+        track_motion(motion, robot)
     assert (motion.vx, motion.vy) == pytest.approx((0.0, -200.0), abs=1e-2)
     who = walker(robot.x, robot.y - 150.0, (robot.x, robot.y + 300.0))
     y = who.y
@@ -323,7 +323,7 @@ def test_what_is_carried_off_has_not_driven():
     robot, motion = world.robots[0], world.motions[0]
     before = motion.vx
     robot.x += 300.0
-    observe(motion, robot)
+    track_motion(motion, robot)
     assert 0.0 < motion.vx < before
 
 

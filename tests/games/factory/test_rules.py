@@ -623,10 +623,10 @@ def test_whoever_has_delivered_everything_wins_at_once(pallets):
     outcome = shop.match.outcome()
     assert sorted(outcome.winners) == [1, 3]
     assert [row.place for row in outcome.rows] == [1, 1, 3, 3]
-    assert [set(row.feats) for row in outcome.rows] == [{"time"}, {"time"}, set(), set()]
-    assert outcome.rows[0].feats["time"] == round(1000 * shop.match.seconds)
-    assert sum(row.facts["delivered"] for row in outcome.rows) == pallets
-    assert tuple(outcome.rows[0].facts) == FACTORY.columns
+    assert [set(row.records) for row in outcome.rows] == [{"time"}, {"time"}, set(), set()]
+    assert outcome.rows[0].records["time"] == round(1000 * shop.match.seconds)
+    assert sum(row.stats["delivered"] for row in outcome.rows) == pallets
+    assert tuple(outcome.rows[0].stats) == FACTORY.columns
 
 
 @pytest.mark.parametrize("work", [(0, 0), (9, 0), (0, 9)])
@@ -652,7 +652,7 @@ def test_two_teams_that_finish_on_the_same_tick_tie(seats, work, last):
     outcome = shop.match.outcome()
     assert outcome.winners == ()
     assert [row.place for row in outcome.rows] == [1] * 4
-    assert [row.feats for row in outcome.rows] == [{"time": 20 * shop.state.tick}] * 4
+    assert [row.records for row in outcome.rows] == [{"time": 20 * shop.state.tick}] * 4
 
 
 @pytest.mark.parametrize("first", [0, 1])
@@ -702,7 +702,7 @@ def test_when_the_time_is_up_deliveries_count_then_work(ice, fire, winners):
     assert shop.state.tick == 30 * HZ
     assert sorted(shop.match.outcome().winners) == winners
     assert shop.state.winner == 0
-    assert not any(row.feats for row in shop.match.outcome().rows)
+    assert not any(row.records for row in shop.match.outcome().rows)
 
 
 # ------------------------------------------------------------------------------------------------------ who takes part

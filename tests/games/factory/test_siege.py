@@ -23,7 +23,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.action import press
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.world import DT, HZ
 from tests.cases import one_in
@@ -41,7 +41,7 @@ class Stick:
 
     def think(self, state, seat):
         back = self.every and state.tick // self.every % 2
-        press(state.actions[seat], -self.linear if back else self.linear, self.angular, 0, 0)
+        set_action(state.actions[seat], -self.linear if back else self.linear, self.angular, 0, 0)
 
 
 PARK = Stick(linear=0.0)

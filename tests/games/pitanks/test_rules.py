@@ -19,7 +19,7 @@ from pigaming_app.games.pitanks.state import (
     TRIPLE,
 )
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.rng import chance
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HZ
 from tests.floor import pitanks
@@ -488,9 +488,9 @@ def wild(match, luck, count):
     for tick in range(count):
         if tick % 10 == 0:
             for action in match.actions:
-                action.linear = float(int(chance(luck) * 3) - 1)
-                action.angular = float(int(chance(luck) * 3) - 1)
-                action.turbo = int(chance(luck) * 2)
+                action.linear = float(int(uniform(luck) * 3) - 1)
+                action.angular = float(int(uniform(luck) * 3) - 1)
+                action.turbo = int(uniform(luck) * 2)
         ticks(match, 1, fire=range(4))
         yield
 

@@ -8,7 +8,7 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.race.circuit import Corner, course_of
-from pigaming_app.games.race.course import POINTS, Place, locate, spot, way_round
+from pigaming_app.games.race.course import POINTS, CoursePosition, locate, spot, way_round
 from pigaming_app.sim.arena import ArenaError
 
 TRACKS = arenas("race")
@@ -66,7 +66,7 @@ def test_a_width_becomes_the_next_without_a_step():
 
 
 def test_a_place_on_a_straight_and_in_a_bend():
-    course, place = course_of(RING), Place()
+    course, place = course_of(RING), CoursePosition()
     locate(course, 500.0, 230.0, place)  # on the upper straight, driven to the right
     assert (place.along, place.aside) == pytest.approx((pi / 2 * 150 + 50, 30), abs=0.1)
     assert (place.tangent_x, place.tangent_y, place.half, place.on) == pytest.approx((1, 0, 80, 1))
@@ -87,7 +87,7 @@ def test_the_way_round_wraps():
 @pytest.mark.parametrize("track", TRACKS)
 def test_places_are_those_that_looking_everywhere_finds(track):
     """On the course along and aside agree; off it the two agree that it is off."""
-    course, place, random = load("race", track).plan.course, Place(), Random(track)
+    course, place, random = load("race", track).plan.course, CoursePosition(), Random(track)
     on = 0
     for _ in range(250):
         x, y = random.uniform(36, 1564), random.uniform(36, 864)
@@ -105,7 +105,7 @@ def test_places_are_those_that_looking_everywhere_finds(track):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_a_spot_of_the_course_is_found_again(track):
-    course, place, random = load("race", track).plan.course, Place(), Random(track)
+    course, place, random = load("race", track).plan.course, CoursePosition(), Random(track)
     for _ in range(500):
         along, aside = random.uniform(0, course.length - 1e-6), random.uniform(-70, 70)
         x, y = spot(course, along, aside)
@@ -118,7 +118,7 @@ def test_a_spot_of_the_course_is_found_again(track):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_places_change_smoothly_all_the_way_round(track):
-    course, place = load("race", track).plan.course, Place()
+    course, place = load("race", track).plan.course, CoursePosition()
     for aside in (-60.0, 0.0, 60.0):
         last = None
         for i in range(2000):
@@ -227,7 +227,7 @@ def test_there_are_four_tracks_and_the_first_is_classic():
 @pytest.mark.parametrize("track", TRACKS)
 def test_lines_go_from_edge_to_edge_and_robots_wait_55_px_behind_them(track):
     arena = load("race", track)
-    course, place = arena.plan.course, Place()
+    course, place = arena.plan.course, CoursePosition()
     for line, start in zip(arena.plan.lines, arena.starts, strict=True):
         locate(course, start.x, start.y, place)
         assert way_round(course, place.along, line) == pytest.approx(55, abs=0.1)

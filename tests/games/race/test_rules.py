@@ -259,19 +259,19 @@ def test_who_has_finished_first_stands_first_then_progress_counts():
     assert [row.place for row in outcome.rows] == [1, 2, 3, 4]
     assert outcome.winners == (2,)
     first, second, third, _ = outcome.rows
-    assert first.facts["total"] < second.facts["total"]
-    assert third.facts == {"laps": 0, "best": 0, "total": 0}
-    assert set(first.feats) == {"lap", "race"}
-    assert first.feats["race"] == round(1000 * first.facts["total"])
-    assert third.feats == {}
-    assert first.times == pytest.approx((first.facts["best"],))
-    assert tuple(first.facts) == games()["race"].columns
+    assert first.stats["total"] < second.stats["total"]
+    assert third.stats == {"laps": 0, "best": 0, "total": 0}
+    assert set(first.records) == {"lap", "race"}
+    assert first.records["race"] == round(1000 * first.stats["total"])
+    assert third.records == {}
+    assert first.times == pytest.approx((first.stats["best"],))
+    assert tuple(first.stats) == games()["race"].columns
 
 
 def test_a_best_lap_without_a_finish_is_a_feat_of_its_own():
     ride = Ride(present=(0,), laps=2)
     ride.lap(0)
-    assert set(games()["race"].feat(ride.state, 0)) == {"lap"}
+    assert set(games()["race"].records(ride.state, 0)) == {"lap"}
 
 
 # ----------------------------------------------------------------------------------------------------------- wrong way
@@ -381,4 +381,4 @@ def test_empty_seats_leave_their_lines_but_nothing_else(seats):
         match.tick()
     assert len(match.state.lines) == 4
     assert {row.seat for row in match.outcome().rows} == {i for i, brain in enumerate(seats) if brain != "off"}
-    assert all(row.facts["total"] > 0 for row in match.outcome().rows)
+    assert all(row.stats["total"] > 0 for row in match.outcome().rows)

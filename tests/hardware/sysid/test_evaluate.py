@@ -12,7 +12,7 @@ from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
 from pigaming_app.hardware.sysid.excitation import ExcitationPattern
 from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
-from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, tell
+from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from tests.floor import floor
 from tests.hardware.mat import TRUE, Mat
 from tests.hardware.sentences import refused
@@ -121,7 +121,7 @@ def test_a_run_played_again_in_the_simulator_stays_near_for_a_while_and_nearer_w
 
 def test_the_result_is_a_file_that_the_simulator_reads():
     (verdict,) = measure(Recording(MM, {2: danced(25.0).courses[2]}))
-    (found,) = parse(tell([verdict.drivetrain]), "robots.toml")
+    (found,) = parse(to_toml([verdict.drivetrain]), "robots.toml")
     assert found.base == pytest.approx(verdict.drivetrain.base, abs=1e-3)
 
 

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from pigaming_app.ai import make, seated
-from pigaming_app.games.setup import choose
+from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.brain import floor_marks as marks
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.overlay import BrainOverlay
@@ -43,7 +43,7 @@ def f4(arcade: Arcade) -> None:
 
 def stage_of(arcade: Arcade, game: str, seed: int = 1) -> Stage:
     brains = SEATS[game]
-    wish = choose(game, brains, None, 1.0, seed, None, None, brains)
+    wish = make_setup(game, brains, None, 1.0, seed, None, None, brains)
     return Stage(arcade.house, seated(wish), loud=False)
 
 
@@ -256,7 +256,7 @@ def test_a_seat_without_a_brain_that_explains_itself_is_passed_over(arcade: Arca
     stage = stage_of(arcade, "pitanks")
     stage.match.sit(0, make("pitanks", "idle", 1))
     kind = stage.match.brains[0].kind
-    object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.wake))
+    object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.reset))
     overlay = BrainOverlay(stage.match, stage.view, arcade.house.words)
     assert overlay.seats == [1, 2, 3]
 

@@ -157,7 +157,7 @@ def test_what_cannot_be_saved_is_said_and_nothing_is_lost(
         raise NotSaved(f"{path} was not saved: the disk is full.")
 
     concluded(arcade, made)
-    monkeypatch.setattr(store, "keep", full)
+    monkeypatch.setattr(store, "write_with_backup", full)
     arcade.press(Act.FIRE)
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
     monkeypatch.undo()

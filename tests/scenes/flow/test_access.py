@@ -8,7 +8,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.ai.brain.kind import Hands, Thinker
+from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
 from pigaming_app.scenes.flow.access import ESCAPE, OWNED, TAKE
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.game_choice import GameChoice
@@ -364,13 +364,13 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
     assert not match.walkoff.asked(), "any button answers"
     arcade.wait(REST + 1.0, fps=20)
     before = match.match.state.tick
-    arcade.until(lambda: isinstance(match.match.brains[1], Thinker))
+    arcade.until(lambda: isinstance(match.match.brains[1], BrainPlayer))
     assert match.match.state.tick - before == pytest.approx((ASK - 1.0) * 50, abs=20), "nobody else had to wait"
     assert arcade.stack.top is match
-    assert isinstance(match.match.brains[0], Hands)
+    assert isinstance(match.match.brains[0], HumanPlayer)
     tap(arcade, two, "a")
     assert match.devices[:2] == [first, second]
-    assert isinstance(match.match.brains[1], Hands)
+    assert isinstance(match.match.brains[1], HumanPlayer)
 
 
 def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
@@ -405,7 +405,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
     arcade.wait(TAKE + 0.2, draw=True)
     guest.release("a")
     assert match.devices == [first, None, device, None]
-    assert isinstance(match.match.brains[2], Hands)
+    assert isinstance(match.match.brains[2], HumanPlayer)
     assert 2 in match.helped, "what the AI scored is no record of the newcomer"
     tap(arcade, guest, "start")
     arcade.shown(Pause)
@@ -414,7 +414,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
     arcade.frame()
     again = arcade.shown(MatchScene)
     assert again.devices == [first, None, device, None]
-    assert isinstance(again.match.brains[2], Hands)
+    assert isinstance(again.match.brains[2], HumanPlayer)
 
 
 # ---- results

@@ -123,7 +123,7 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
 @pytest.mark.parametrize("game", [game for game in games() if games()[game].goals])
 def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: Arcade, game: str) -> None:
     rules = games()[game]
-    seats = Seats(sides=rules.sides)
+    seats = Seats(team_mode=rules.team_mode)
     seats.join(KEYS[0])
     seats.fill()
     arcade.open(SetupPage(arcade.house, game, seats))

@@ -91,7 +91,7 @@ def team_of(seats: Seats) -> list[int]:
 
 
 def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> None:
-    seats = Seats(sides=PAIRS)
+    seats = Seats(team_mode=PAIRS)
     assert [seats.join(ANA), seats.join(BEN)] == [0, 1]
     assert team_of(seats) == [0, 1]
     assert not seats.fill(), "one against one is a match too"
@@ -103,14 +103,14 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
 
 
 def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
-    seats = Seats(sides=PAIRS)
+    seats = Seats(team_mode=PAIRS)
     seats.join(ANA)
     assert seats.fill() == [1, 2, 3]
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
 def test_three_never_stand_on_one_side_and_the_ai_is_who_gives_way() -> None:
-    seats = Seats(sides=PAIRS)
+    seats = Seats(team_mode=PAIRS)
     for device in (ANA, BEN):
         seats.join(device)
     seats.add()
@@ -121,7 +121,7 @@ def test_three_never_stand_on_one_side_and_the_ai_is_who_gives_way() -> None:
 
 
 def test_in_a_race_everyone_drives_alone_against_three() -> None:
-    seats = Seats(sides=ALONE, teams=True)
+    seats = Seats(team_mode=ALONE, teams=True)
     seats.join(ANA)
     assert seats.fill() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]

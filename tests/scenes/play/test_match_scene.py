@@ -6,7 +6,7 @@ from contextlib import ExitStack
 import pygame
 import pytest
 
-from pigaming_app.ai.brain.kind import Hands, Thinker
+from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
@@ -184,8 +184,8 @@ def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade, pads: Exi
     arcade.frame()
     arcade.shown(MatchScene)
     assert match.devices[:2] == [KEYS[2], None]
-    assert isinstance(match.match.brains[0], Hands)
-    assert isinstance(match.match.brains[1], Thinker)
+    assert isinstance(match.match.brains[0], HumanPlayer)
+    assert isinstance(match.match.brains[1], BrainPlayer)
 
 
 def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade: Arcade, pads: ExitStack) -> None:
@@ -196,7 +196,7 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     waited = arcade.until(lambda: arcade.stack.top is match)
     assert waited == pytest.approx(WAIT, abs=0.2)
     arcade.wait(2.0)
-    assert isinstance(match.match.brains[1], Thinker)
+    assert isinstance(match.match.brains[1], BrainPlayer)
     back, device = plug(arcade, pads)
     assert match.devices[1] is None
     assert match.stage.view.players[:2] == ["human", "normal"], "the view marks the AI"
@@ -204,7 +204,7 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     arcade.frame(draw=True)
     assert arcade.shown(MatchScene) is match, "no pause"
     assert match.devices[1] == device
-    assert isinstance(match.match.brains[1], Hands)
+    assert isinstance(match.match.brains[1], HumanPlayer)
     assert match.stage.view.players[:2] == ["human", "human"], "and the mark goes"
 
 

@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.race.course import Place, locate
+from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes.views.benchmark.pitanks import Full
 from pigaming_app.scenes.views.benchmark.race import Busy
@@ -25,7 +25,7 @@ from pigaming_app.scenes.views.race.track import edges, sign_post
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
-from pigaming_app.storage.safe_files import keep
+from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.ui.draw.frame_budget import finished
 from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import LANGUAGES, Words
@@ -89,7 +89,7 @@ def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, sea
 
 @pytest.mark.parametrize("track", arenas("race"))
 def test_every_track_has_its_badges_in_the_mud_beside_it_and_its_edges_in_the_arena(screen, track):
-    arena, place = load("race", track), Place()
+    arena, place = load("race", track), CoursePosition()
     for along in arena.plan.lines:
         x, y = sign_post(arena.plan.course, along)
         locate(arena.plan.course, x, y, place)
@@ -458,7 +458,7 @@ def test_a_ghost_of_another_engine_that_no_robot_could_drive_is_dropped_with_a_w
     scene = Busy(2)
     ghosts.write(tmp_path, scene.arena, a_ghost()).join()
     path = file_of(tmp_path, scene.arena)
-    keep(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
+    write_with_backup(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
     view = seen(scene)
     view.for_real(tmp_path)
     assert view.haunt.ghost is None

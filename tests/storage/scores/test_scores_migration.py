@@ -96,15 +96,15 @@ def test_copies_that_start_together_carry_over_once(folder):
 
 
 def test_a_pulled_plug_after_the_backup_loses_nothing(folder, monkeypatch):
-    kept = keeping.keep
+    kept = keeping.write_with_backup
 
     def pulled(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("pigaming_app.storage.scores.book.keep", pulled)
+    monkeypatch.setattr("pigaming_app.storage.scores.book.write_with_backup", pulled)
     with pytest.raises(KeyboardInterrupt):
         Scores.load(folder)
-    monkeypatch.setattr("pigaming_app.storage.scores.book.keep", kept)
+    monkeypatch.setattr("pigaming_app.storage.scores.book.write_with_backup", kept)
     assert rows(Scores.load(folder)[0]) == FOUND
     assert not (folder / "scores-1.3.0-2.toml").exists()
 
@@ -113,7 +113,7 @@ def test_on_a_full_disk_the_rows_are_shown_and_the_next_save_carries_them_over(f
     def full(*_):
         raise keeping.NotSaved("the disk is full")
 
-    monkeypatch.setattr("pigaming_app.storage.scores.migration.write", full)
+    monkeypatch.setattr("pigaming_app.storage.scores.migration.write_atomic", full)
     scores, said = Scores.load(folder)
     assert said == ["the disk is full"]
     assert rows(scores) == FOUND

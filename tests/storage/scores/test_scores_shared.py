@@ -132,7 +132,7 @@ def test_a_copy_killed_while_it_saves_costs_no_row_and_no_lock(tmp_path):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGSTOP")
 def test_a_copy_that_hangs_with_the_lock_delays_a_save_and_loses_none(tmp_path, monkeypatch):
-    monkeypatch.setattr("pigaming_app.storage.file_lock.PATIENCE", 0.05)
+    monkeypatch.setattr("pigaming_app.storage.file_lock.TIMEOUT", 0.05)
     command = [sys.executable, "-c", HOLDER, str(tmp_path / FILE)]
     process = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     assert process.stdout

@@ -17,12 +17,12 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-from pigaming_app.games.race.course import Place, locate
+from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES, Rules
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.source_hash import engine_hash
-from pigaming_app.storage.parsing import json_of, shown
-from pigaming_app.storage.safe_files import NotSaved, keep, recall
+from pigaming_app.storage.parsing import parse_json, quote
+from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
 
 RATE = 10.0  # poses in a second
 FOLDER = "ghosts"
@@ -90,7 +90,7 @@ def file_of(folder: Path, arena: Arena) -> Path:
 
 def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
     """The ghost of a track, if there is one; and a word if one had to be dropped: "old", "lost", else ""."""
-    found, said = recall(file_of(folder, arena), _parsed)
+    found, said = read_or_restore(file_of(folder, arena), _parsed)
     for line in said:
         log.warning("%s", line)
     if found is None:
@@ -104,7 +104,7 @@ def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
 
 def drivable(ghost: Ghost, arena: Arena) -> bool:
     """Whether a lap is no faster than the rules allow, and crosses each line when it says so."""
-    rules, course, place = Rules(), arena.plan.course, Place()
+    rules, course, place = Rules(), arena.plan.course, CoursePosition()
     way = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
     if way > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
         return False
@@ -124,7 +124,7 @@ def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
 
     def save() -> None:
         try:
-            keep(file_of(folder, arena), text)
+            write_with_backup(file_of(folder, arena), text)
         except NotSaved as trouble:
             log.warning("%s", trouble)
 
@@ -141,7 +141,7 @@ def forget(folder: Path) -> None:
 
 def _parsed(text: str) -> tuple[str, Ghost]:
     """Engine and ghost of a file. Raises ValueError."""
-    match json_of(text):
+    match parse_json(text):
         case {"engine": str(engine), "line": int(line), "seconds": seconds, "crossed": crossed, "poses": poses}:
             pass
         case _:
@@ -159,7 +159,7 @@ def _parsed(text: str) -> tuple[str, Ghost]:
 def _numbers(found: Any, count: int, low: float, high: float) -> tuple[float, ...]:
     """So many numbers from `low` to `high`. Raises ValueError."""
     if not isinstance(found, list) or len(found) != count:
-        raise ValueError(f"{shown(found)} should be {count} numbers")
+        raise ValueError(f"{quote(found)} should be {count} numbers")
     if not all(isinstance(one, int | float) and not isinstance(one, bool) and low <= one <= high for one in found):
-        raise ValueError(f"{shown(found)} are not all numbers from {low:g} to {high:g}")
+        raise ValueError(f"{quote(found)} are not all numbers from {low:g} to {high:g}")
     return tuple(float(one) for one in found)

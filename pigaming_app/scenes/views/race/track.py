@@ -8,7 +8,7 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from pigaming_app.games.race.course import Course, Place, half_at, leg, locate, spot
+from pigaming_app.games.race.course import Course, CoursePosition, half_at, leg, locate, spot
 from pigaming_app.games.race.start import BEHIND, Track
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
@@ -175,7 +175,7 @@ def draw_slot(ink: Ink, course: Course, along: float, seat: int) -> None:
 @lru_cache(maxsize=32)
 def sign_post(course: Course, along: float) -> Point:
     """Where the badge of a line stands: beside the track, where there is most room."""
-    line, place = frame(course, along), Place()
+    line, place = frame(course, along), CoursePosition()
     best, room = (0.0, 0.0), -1e9
     for out in BESIDE:
         for side in (1, -1):
