@@ -5,7 +5,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.session.robot_session import new_rig, refused, trouble_of
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable, new_rig, trouble_of
 from pigaming_app.sim.world import DT, HZ
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ class EmulatedSession:
             try:
                 opencv()
             except OpenCVMissing as trouble:
-                raise refused(trouble.message) from trouble
+                raise RobotsUnavailable(trouble.message) from trouble
             self._arena = self._new_arena()
         if self.live and self._time is None:
             from pigaming_app.hardware.emulator.paced import PacedArena

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
-from pigaming_app.hardware.session.robot_session import new_rig, refused, trouble_of
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable, new_rig, trouble_of
 from pigaming_app.sim.world import DT
 from pigaming_app.storage.settings import Settings
 
@@ -63,9 +63,9 @@ class RealSession:
                     camera.close()
                     raise
             except OperatorError as trouble:
-                raise refused(trouble.message) from trouble
+                raise RobotsUnavailable(trouble.message) from trouble
             except (DrivetrainError, ImportError) as trouble:
-                raise refused(OperatorMessage("robots_file", detail=trouble)) from trouble
+                raise RobotsUnavailable(OperatorMessage("robots_file", detail=trouble)) from trouble
             rig.channels = tuple(one - 1 for one in self.settings.radios)
             self.mm, self._rig = ground.mm, rig.start()
         return self._rig

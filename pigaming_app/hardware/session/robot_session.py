@@ -4,7 +4,6 @@
 The session watches the projected corner markers, so that every rig it opens knows by how much the camera has moved.
 """
 
-import logging
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
@@ -21,8 +20,6 @@ if TYPE_CHECKING:
     from pigaming_app.storage.settings import Settings
 
 LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
-
-log = logging.getLogger("pigaming")
 
 
 class RobotsUnavailable(OperatorError):
@@ -98,9 +95,3 @@ def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:
     if fault == "camera":
         return rig.camera.trouble
     return rig.link.trouble if fault == "radio" else None
-
-
-def refused(message: OperatorMessage) -> RobotsUnavailable:
-    """The error with this message, which is also logged."""
-    log.warning("no robots: %s", message)
-    return RobotsUnavailable(message)

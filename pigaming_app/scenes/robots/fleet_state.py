@@ -1,5 +1,6 @@
 """What can be known about the robots of a mat: who is heard and seen, who is who, how late it is. No drawing."""
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,10 +13,13 @@ from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnav
 from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import english
 
 SEEN = 0.5  # s within which a robot has been seen if it is seen
 LOOKS = 3.0  # s for which robots that are heard are looked for before they move, at most
 RATE = 1.0  # s over which pictures are counted
+
+log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,7 @@ class Checkup:
             self.rig = self.session.open()
             self.link = self.rig.link
         except RobotsUnavailable as trouble:
+            log.warning("%s", english().explained(trouble.message))
             self.refusal = trouble.message
             self.rig, self.link = None, self.session.listen()
 

@@ -10,7 +10,7 @@ import pygame
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault, Response
-from pigaming_app.hardware.session.robot_session import RobotSession, cause_of, refused, unfit
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, unfit
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import House
@@ -53,7 +53,7 @@ class RealMatch(MatchScene):
         game_choice: After | None = None,
     ) -> None:
         if reason := unfit(house.settings):
-            raise refused(reason)
+            raise RobotsUnavailable(reason)
         rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         self.session, self.match_of = session, match_of

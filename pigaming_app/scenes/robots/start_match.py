@@ -1,5 +1,6 @@
 """How a match begins: with simulated robots, with real ones, or with a page that tells why there are no real ones."""
 
+import logging
 from collections.abc import Collection, Sequence
 
 from pigaming_app.games.game import Setup
@@ -8,7 +9,10 @@ from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import After
+from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Device
+
+log = logging.getLogger("pigaming")
 
 
 def match_of(
@@ -35,4 +39,5 @@ def match_of(
     try:
         return RealMatch(house, setup, devices, real, house.session, again, game_choice)
     except RobotsUnavailable as trouble:
+        log.warning("%s", english().explained(trouble.message))
         return Refused(house, setup, devices, real, trouble.message, again)

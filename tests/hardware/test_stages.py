@@ -1,0 +1,40 @@
+"""The stages of the robot loop import each other one way only; their root holds nothing but shared words."""
+
+from graphlib import TopologicalSorter
+
+import pytest
+
+from tests.test_layers import PACKAGE, imported
+
+HARDWARE = PACKAGE / "hardware"
+ROOT = {"messages", "recordings", "signals", "worker"}
+MAY = {
+    "radio": set(),
+    "vision": set(),
+    "calibration": {"vision"},
+    "control": {"radio"},
+    "tracking": {"calibration", "control", "vision"},
+    "commissioning": {"control"},
+    "sysid": {"calibration"},
+    "emulator": {"calibration", "vision"},
+    "session": {"calibration", "control", "emulator", "radio", "tracking", "vision"},
+    "proof": {"calibration", "control", "emulator", "session", "tracking"},
+}
+
+
+def test_no_stage_leads_back_to_itself():
+    assert set(TopologicalSorter(MAY).static_order()) == set(MAY)
+
+
+def test_every_stage_and_every_shared_module_has_its_place():
+    assert {path.name for path in HARDWARE.iterdir() if (path / "__init__.py").is_file()} == set(MAY)
+    assert {path.stem for path in HARDWARE.glob("*.py")} == ROOT | {"__init__"}
+
+
+@pytest.mark.parametrize("path", sorted(HARDWARE.rglob("*.py")), ids=lambda path: path.relative_to(HARDWARE).as_posix())
+def test_a_stage_imports_only_those_before_it(path):
+    stage = path.relative_to(HARDWARE).parts[0].removesuffix(".py")
+    for module, _ in imported(path):
+        if module.startswith("pigaming_app.hardware."):
+            other = module.split(".")[2]
+            assert other in ROOT | {stage} | MAY.get(stage, set()), f"{path.name} imports {module}"
