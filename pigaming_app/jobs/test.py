@@ -22,7 +22,13 @@ UNITS = tuple(f"tests/{room}" for room in (
     "sim", "games", "ai/brain", "ai/pitanks", "ai/factory", "ai/race", "ai/qlearning", "storage", "test_layers.py",
 ))  # fmt: skip
 WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "worksteal")
-UNSEEN = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+# No window and no sound; bytecode is written even where the caller forbids it, because tests start many processes.
+ENVIRONMENT = {
+    "SDL_VIDEODRIVER": "dummy",
+    "SDL_AUDIODRIVER": "dummy",
+    "PYGAME_HIDE_SUPPORT_PROMPT": "1",
+    "PYTHONDONTWRITEBYTECODE": "",
+}
 
 
 class ToolResult(NamedTuple):
@@ -78,7 +84,7 @@ def _run(tool: tuple[str, Sequence[str]]) -> ToolResult:
 
 def _python(words: Sequence[str], output: int | None = None) -> subprocess.Popen[bytes]:
     """Start a module of this Python; `output` is the destination of both its streams."""
-    command, environment = [sys.executable, "-m", *words], {**os.environ, **UNSEEN}
+    command, environment = [sys.executable, "-m", *words], {**os.environ, **ENVIRONMENT}
     errors = None if output is None else subprocess.STDOUT
     return subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=errors)
 

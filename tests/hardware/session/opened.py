@@ -1,0 +1,39 @@
+"""A session of robots on this computer: a window, a calibration, and waiting for threads."""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+from pigaming_app.hardware.calibration.ground_plane import written
+from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.storage.settings import Settings, folders
+from tests.hardware.grounds import nominal
+
+HERE = "1: 1920 × 1080"
+
+
+def real_mat(settings: Settings | None = None) -> RealSession:
+    return RealSession(settings or Settings(), lambda: HERE)
+
+
+def calibrate(projection: str) -> None:
+    """Keep a calibration made on this projection."""
+    folder = folders().config
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "calibration.toml").write_text(written(replace(nominal(), display=projection)), encoding="utf-8")
+
+
+def soon(true: Callable[[], bool], most: float = 30.0) -> bool:
+    """Whether it is so before long."""
+    end = time.monotonic() + most
+    while time.monotonic() < end:
+        if true():
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def threads() -> set[str]:
+    mine = ("rig", "link", "emulated arena", "camera")
+    return {thread.name for thread in threading.enumerate() if thread.name.startswith(mine)}

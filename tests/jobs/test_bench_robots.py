@@ -1,0 +1,61 @@
+"""The job `bench robots`, in small: a match of every game, and the figures that it prints."""
+
+import json
+
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.cli import main
+from pigaming_app.games.registry import games
+from pigaming_app.hardware.proof.testbed import Testbed
+from pigaming_app.jobs.bench import robots as bench_robots
+from pigaming_app.jobs.bench.robots import TARGETS, Job, jobs, on_mat, reached
+
+
+@pytest.fixture(scope="module")
+def ground():
+    """A calibration of the emulated arena."""
+    return Testbed(5, 30.0).ground
+
+
+@pytest.mark.parametrize("game", games())
+def test_a_match_on_the_mat_plays_to_its_end(game, ground):
+    arena = jobs()[list(games()).index(game)].arena
+    run = on_mat(Job(game, arena, 30.0, 7, 0.05, mashed=False, carried=True), ground)
+    assert run.deepest_mm < TARGETS["wall_entry_mm"]
+    assert 3.0 <= run.seconds - run.paused < 4.0
+
+
+def test_twenty_minutes_are_played_in_every_game():
+    planned = jobs()
+    assert sum(job.minutes for job in planned) == 20.0
+    assert {job.game for job in planned} == set(games())
+    assert {job.fps for job in planned} == {30.0, 60.0}
+
+
+def test_figures_are_compared_with_what_they_must_reach():
+    assert all(reached(dict(TARGETS)).values())
+    assert [
+        key for key, good in reached({**TARGETS, "frames_complete": 0.99, "tracker_ms": 5.0}).items() if not good
+    ] == [
+        "tracker_ms",
+        "frames_complete",
+    ]
+
+
+def test_the_job_prints_exactly_these_figures(monkeypatch, capsys):
+    monkeypatch.setattr(bench_robots, "measure", lambda note: dict(TARGETS))
+    assert main(["bench", "robots", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == TARGETS
+    assert main(["bench", "robots"]) == 0
+    assert "everything is reached" in capsys.readouterr().err
+
+
+def test_what_fails_is_one_line(monkeypatch, capsys):
+    def fails(note):
+        raise bench_robots.Unproven("race in classic, seed 3: the match did not end: []")
+
+    monkeypatch.setattr(bench_robots, "measure", fails)
+    assert main(["bench", "robots"]) == 2
+    assert capsys.readouterr().err.strip().endswith("the match did not end: []")

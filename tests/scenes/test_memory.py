@@ -1,0 +1,148 @@
+"""What the arcade keeps in memory: no more than the budget of its cache, and nothing of a match that is over."""
+
+import gc
+import random
+import weakref
+from collections.abc import Hashable
+from pathlib import Path
+
+import pygame
+import pytest
+from pigaming_app.ui.draw.ink import PLAYERS
+
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, Swap, Turn
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.scenes.views.sprites.effects import beam, wave
+from pigaming_app.ui.draw import surface_cache
+from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Act
+from tests.bench.memory import press
+from tests.scenes.arcade import Arcade, Floor
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    surfaces.clear()
+    arcade = Arcade(controls)
+    arcade.stack = Stack(Title(arcade.house))
+    return arcade
+
+
+def match(arcade: Arcade, game: str) -> MatchScene:
+    """A match of AIs with the longest way to the goal."""
+    rules = games()[game]
+    one, two, three, four = (Seat("normal", team) for team in rules.teams)
+    goal = max(rules.goals, default=0)
+    setup = Setup(game, arenas(game)[0], (one, two, three, four), 2.0, 1, rules.variants[0], goal)
+    return MatchScene(arcade.house, setup)
+
+
+def warmed(arcade: Arcade, game: str) -> None:
+    """Put a match on top, and wait until it has all its sprites and has begun."""
+    scene = match(arcade, game)
+    arcade.stack.turn(Push(scene))
+    arcade.until(lambda: scene.warm, 60.0)
+    arcade.until(lambda: not scene.count.locked, 10.0)
+    arcade.wait(0.2, draw=True)
+
+
+def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> None:
+    arcade.wait(0.1, draw=True)
+    title = surfaces.bytes
+    warmed(arcade, "race")
+    sprites = [beam(0, 5), wave(PLAYERS[1], 3), *(tank.tank(seat, turn) for seat in range(4) for turn in range(1, 96))]
+    images = [weakref.ref(sprite.image) for sprite in sprites]
+    assert surfaces.bytes > title + (90 << 20)
+    del sprites
+    arcade.press(Act.START)
+    arcade.wait(0.1, draw=True)
+    arcade.stack.turn(Home())
+    assert [image for image in images if image()] == []
+    arcade.wait(0.1, draw=True)
+    assert surfaces.bytes < title + (24 << 20), "what is left are the pages of the match"
+
+
+@pytest.mark.parametrize("game", games())
+def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[tuple[int, Hashable]] = []
+    keep = SurfaceCache._keep
+
+    def noted(cache: SurfaceCache, entry: Entry) -> None:
+        made.append((id(entry.table), entry.key))
+        keep(cache, entry)
+
+    monkeypatch.setattr(SurfaceCache, "_keep", noted)
+    warmed(arcade, game)
+    assert len(made) == len(set(made)) > 2000
+    assert surfaces.bytes <= surface_cache.BUDGET
+
+
+@pytest.mark.long
+def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    surfaces.clear()
+    monkeypatch.setattr(surfaces, "budget", 64 << 20)
+    rng, used = random.Random(5), [0]
+
+    def over() -> bool:
+        used.append(surfaces.bytes)
+        press(rng, 40)
+        return len(used) > 50
+
+    assert run(Options(headless=True, kiosk=True, step=0.1, over=over)) == 0
+    pygame.display.quit()
+    assert len(used) > 50
+    assert 40 << 20 < max(used) <= surfaces.budget
+    assert not (tmp_path / "data" / "pigaming.log").read_text()
+
+
+class Leaving(Floor):
+    """A scene in a reference cycle that leaves the stack in its third frame."""
+
+    def __init__(self, turn: Turn) -> None:
+        self.turn, self.frames = turn, 0
+        self.cycle = lambda: self.turn
+
+    def update(self, seconds: float) -> Turn:
+        self.frames += 1
+        return self.cycle() if self.frames == 3 else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        screen.fill("black")
+
+
+@pytest.mark.parametrize(
+    "turn", [Pop(), Home(), Swap(Leaving(None)), Home(Leaving(None))], ids=["pop", "home", "swap", "home and on"]
+)
+def test_a_scene_that_has_left_is_freed_in_the_next_frame(
+    turn: Turn, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    scenes: list[weakref.ref[Leaving]] = []
+    alive: list[bool] = []
+
+    def first(house: House) -> Leaving:
+        gc.disable()
+        scene = Leaving(turn)
+        scenes.append(weakref.ref(scene))
+        return scene
+
+    def over() -> bool:
+        alive.append(scenes[0]() is not None)
+        return len(alive) == 5
+
+    try:
+        run(Options(headless=True, first=first, step=0.1, over=over))
+    finally:
+        gc.enable()
+        pygame.display.quit()
+    assert alive == [True, True, True, False, False]
