@@ -54,12 +54,12 @@ def _one_calibration(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]
 
     The wizard does not take this way: it calibrates in every test.
     """
-    from pigaming_app.hardware.proof import testbed
+    from pigaming_app.hardware.session import emulated
 
     worker = os.environ.get("PYTEST_XDIST_WORKER", "")
     folder = tmp_path_factory.getbasetemp()
     folder = folder.parent if worker else folder
-    calibrated = testbed.calibrated
+    calibrated = emulated.calibrated
 
     def once(arena: Any) -> Any:
         pace = arena.camera.pace
@@ -71,7 +71,7 @@ def _one_calibration(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]
         return pickle.loads(file.read_bytes())
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(testbed, "calibrated", once)
+        patch.setattr(emulated, "calibrated", once)
         yield
 
 
