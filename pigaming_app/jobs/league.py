@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 from pigaming_app.ai.experiments import league as leagues
-from pigaming_app.ai.experiments.league import Duel, League, Standing
+from pigaming_app.ai.experiments.league import Duel, League, LeagueRow
 
 WIDTH = 100  # columns
 NOTES = (
@@ -68,7 +68,7 @@ def told(found: League) -> Iterator[str]:
     yield from NOTES
 
 
-def _row(standing: Standing) -> str:
+def _row(standing: LeagueRow) -> str:
     rating, played = standing.rating, standing.wins + standing.ties + standing.losses
     low, high = (100 * share for share in standing.wilson95)
     around = f"[{round(rating.low):+}, {round(rating.high):+}]"

@@ -4,8 +4,8 @@ Winning or level it defends: it goes behind the nearest inner wall, waits there,
 Losing it attacks: it closes in round the walls, aims, fires. It aims at where the opponent is, not at where it will be,
 dodges nothing, picks nothing up and never grows bored. It does not change when `fsm` gets better: that is its use.
 
-What the original's paper does not say about its machine are the numbers of `Unknown`, and only they were chosen so that
-trained robots fare against it as published: see tests/bench/reproduce_table.py.
+The original's paper leaves the numbers of `Parameters` open. Only they were chosen so that trained robots fare against
+it as published: see tests/bench/reproduce_table.py.
 """
 
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px in ticks that are getting n
 
 
 @dataclass(frozen=True)
-class Unknown:
+class Parameters:
     """What the original leaves unknown about its machine."""
 
     engage: float = 200.0  # px from which it aims and fires at an opponent in sight, closing in no further
@@ -42,7 +42,7 @@ class Unknown:
 
 
 @record
-class Numbers(Unknown):
+class ParameterRecord(Parameters):
     """The same as a kernel reads it."""
 
 
@@ -50,7 +50,7 @@ class Numbers(Unknown):
 class ClassicMind:
     """What the machine remembers."""
 
-    numbers: Numbers
+    numbers: ParameterRecord
     errand: Errand
     random: int
     state: int
@@ -199,7 +199,7 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     set_action(match.actions[seat], 0.0, stick, fire, 0)
 
 
-def machine(name: str, unknown: Unknown) -> BrainKind:
+def machine(name: str, unknown: Parameters) -> BrainKind:
     """The machine with these numbers."""
 
     def reset(mind: Any, seed: int) -> None:
@@ -210,4 +210,4 @@ def machine(name: str, unknown: Unknown) -> BrainKind:
     return BrainKind(name, ClassicMind, think, reset)
 
 
-CLASSIC = machine("classic", Unknown())
+CLASSIC = machine("classic", Parameters())

@@ -5,7 +5,7 @@ from math import atan2, pi
 from typing import Any
 
 from pigaming_app.ai.brain.steering import bearing
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Sight, Thoughts, clamp, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Percept, Thoughts, clamp, towards
 from pigaming_app.ai.pitanks import classic
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
@@ -58,15 +58,15 @@ def _away(robot: Any, x: float, y: float) -> float:
     return float((dx * dx + dy * dy) ** 0.5)
 
 
-def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterator[Sight]:
+def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterator[Percept]:
     seen = bool(clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
-    yield Sight(OPPONENT, other.x, other.y, seen)
+    yield Percept(OPPONENT, other.x, other.y, seen)
     errand = mind.errand
     if doing in ("hunt", "cover"):
         if not errand.straight:
-            yield Sight(WAY, errand.way_x, errand.way_y)
+            yield Percept(WAY, errand.way_x, errand.way_y)
         if doing == "cover":
-            yield Sight(GOAL, errand.goal_x, errand.goal_y)
+            yield Percept(GOAL, errand.goal_x, errand.goal_y)
 
 
 def _rose(robot: Any, other: Any, mind: Any, doing: str) -> list[float]:

@@ -67,7 +67,7 @@ class Recipe:
 
 
 @record
-class Knobs(Recipe):
+class RecipeRecord(Recipe):
     """The recipe as a kernel reads it."""
 
 

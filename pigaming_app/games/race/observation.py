@@ -29,7 +29,7 @@ class Senses:
 
 
 @record
-class Mark:
+class TrackPoint:
     """A point of the fastest line."""
 
     x: float
@@ -84,7 +84,7 @@ class Observation:
     return_y: float
     rank: int
     finished: int
-    ahead: Mark  # as far ahead as the eyes look
+    ahead: TrackPoint  # as far ahead as the eyes look
     others: Annotated[list[Other], OTHERS]
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.messages import Said
 from pigaming_app.hardware.signals import Fix, Mark
-from pigaming_app.sim.toml_table import FieldError, Table
+from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
@@ -136,7 +136,7 @@ def read(text: str, display: str, camera: tuple[int, int]) -> Ground:
     if check != _check(entries):
         raise NoGround(Said("The calibration was changed by hand or is damaged: calibrate again.", "damaged"))
     try:
-        ground = _ground(Table(entries))
+        ground = _ground(TomlTable(entries))
     except (FieldError, np.linalg.LinAlgError) as wrong:
         raise NoGround(Said(f"The calibration cannot be used ({wrong}): calibrate again.", "damaged")) from wrong
     if ground.display != display:
@@ -170,7 +170,7 @@ def _plain(value: object) -> object:
     return [_plain(inner) for inner in value] if isinstance(value, list | tuple) else value
 
 
-def _ground(table: Table) -> Ground:
+def _ground(table: TomlTable) -> Ground:
     lens = table.table("lens")
     width, height = lens.numbers("size", 2, 16, 16384)
     plane = table.numbers("plane", 9, -1e6, 1e6)

@@ -10,7 +10,19 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PETALS, PRIZE, WALL, WAY, Sight, petal
+from pigaming_app.ai.brain.thoughts import (
+    BULLET,
+    GOAL,
+    MATE,
+    OPPONENT,
+    PERSON,
+    PETALS,
+    PRIZE,
+    WALL,
+    WAY,
+    Percept,
+    petal,
+)
 from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Pose
@@ -55,7 +67,7 @@ class Marks:
         self.others, self.color, self.clock = others, color, clock
         self.light: Batch = []
 
-    def rose(self, rose: Sequence[float], sights: Sequence[Sight]) -> None:
+    def rose(self, rose: Sequence[float], sights: Sequence[Percept]) -> None:
         """Sixteen petals that turn with the robot; where something is, the petal's edge has its colour."""
         for k, value in enumerate(rose):
             self._turned(leaf, round(LEVELS * value), k)
@@ -64,7 +76,7 @@ class Marks:
                 bearing = math.atan2(TOP + sight.y - self.y, LEFT + sight.x - self.x) - self.heading
                 self._turned(lamp, COLORS[sight.kind], petal(bearing))
 
-    def sights(self, state: Any, sights: Sequence[Sight]) -> None:
+    def sights(self, state: Any, sights: Sequence[Percept]) -> None:
         """Lines to what it sees, a cross where a wall is between. Its way, and two rings where it leads."""
         here = self.x, self.y
         begin, at = BEGIN, here

@@ -10,7 +10,7 @@ from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL,
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Table
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.race import racer
@@ -28,7 +28,7 @@ KEPT = 0.9  # of a table's best move, for the second best
 
 def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> BrainPlayer:
     """A player who knows of every state that one move is worth most, and the next one nearly as much."""
-    table = Table()
+    table = QTable()
     for name, value in vars(Recipe()).items():
         setattr(table.knobs, name, value)
     for k in range(0, len(table.q), ACTIONS):

@@ -8,7 +8,7 @@ from pigaming_app.ai import BRAINS
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.high_score_tables import STRONG, boards, contest, contests, counts, older_boards, told
-from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.storage.scores import Scores, ScoreTable
 
 FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 
@@ -105,9 +105,9 @@ def test_what_a_file_holds_of_games_and_rules_that_are_not_there_is_not_shown():
 
 def test_older_tables_come_last_and_show_only_what_they_have():
     scores = Scores()
-    older = Table("race", "classic", "race", True, length=3)
+    older = ScoreTable("race", "classic", "race", True, length=3)
     scores.add(older, "OLD", 9000)
-    scores.add(Table("race", "classic", "lap", True, "standard", 3, 1), "NEW", 9000)
+    scores.add(ScoreTable("race", "classic", "lap", True, "standard", 3, 1), "NEW", 9000)
     new, old = contests(scores)
     assert not new.older
     assert old.older

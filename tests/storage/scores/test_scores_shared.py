@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.scores import FILE, Scores, Table
+from pigaming_app.storage.scores import FILE, Scores, ScoreTable
 
 ROOT = Path(__file__).parents[3]
-TABLES = [Table("pitanks", arena, "points", rules="plain", length=2, people=1) for arena in "abcdefgh"]
+TABLES = [ScoreTable("pitanks", arena, "points", rules="plain", length=2, people=1) for arena in "abcdefgh"]
 WRITER = """
 import sys
 from pathlib import Path

@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from pigaming_app.games.race.course import Course, CoursePosition, half_at, leg, locate, spot
-from pigaming_app.games.race.start import BEHIND, Track
+from pigaming_app.games.race.start import BEHIND, TrackPlan
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.ink import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
@@ -64,7 +64,7 @@ def edges(course: Course) -> tuple[list[Point], list[Point]]:
     return [beside(rib, -1) for rib in ribs(course)], [beside(rib, 1) for rib in ribs(course)]
 
 
-def draw_track(hot: Ink, cold: Ink, track: Track) -> Steps[None]:
+def draw_track(hot: Ink, cold: Ink, track: TrackPlan) -> Steps[None]:
     """All of it: what glows on one sheet, what is only painted on the other. The road itself is black."""
     course = track.course
     cold.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
@@ -113,7 +113,7 @@ def _part(near: list[Point], far: list[Point], start: float, end: float) -> list
     return [between(a, b, start), between(a, b, end), between(c, d, end), between(c, d, start)]
 
 
-def draw_arrows(ink: Ink, track: Track) -> None:
+def draw_arrows(ink: Ink, track: TrackPlan) -> None:
     """Two pairs of arrowheads between any two lines: the way to drive."""
     course = track.course
     for i, along in enumerate(track.lines):
