@@ -10,7 +10,7 @@ from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_KEPT, ROWS
 
 SLACK = 2  # nodes that a goal may move before the field is grown anew
@@ -53,7 +53,7 @@ def free_node(world: Any, x: float, y: float) -> int:
 
 
 @kernel
-def grow(world: Any, errand: Any, root: int, until: int) -> None:
+def expand(world: Any, errand: Any, root: int, until: int) -> None:
     """Grow the field from `root`, breadth first, until it has passed the node `until` or filled its room."""
     reach, queue, grid = errand.reach, errand.queue, world.grid
     for node in range(NODES):
@@ -94,7 +94,7 @@ def grow(world: Any, errand: Any, root: int, until: int) -> None:
 
 
 @kernel
-def downhill(errand: Any, node: int) -> int:
+def descend(errand: Any, node: int) -> int:
     """The neighbour nearest to the root; a diagonal one only where both nodes beside it are free too."""
     reach = errand.reach
     best, least = node, reach[node]
@@ -122,7 +122,7 @@ def downhill(errand: Any, node: int) -> int:
 def find_way(world: Any, errand: Any, x: float, y: float) -> None:
     """Set the point that a robot at (x, y) should drive to now to get on with its errand."""
     errand.way_x, errand.way_y, errand.straight = errand.goal_x, errand.goal_y, 1
-    if not errand.wanted or clear(world, x, y, errand.goal_x, errand.goal_y, RADIUS + 1.0):
+    if not errand.wanted or is_clear(world, x, y, errand.goal_x, errand.goal_y, RADIUS + 1.0):
         return
     root = free_node(world, errand.goal_x, errand.goal_y)
     node = free_node(world, x, y)
@@ -134,15 +134,15 @@ def find_way(world: Any, errand: Any, x: float, y: float) -> None:
             standing += 1
     if not near_root(errand, root) or errand.walls != standing or errand.reach[node] == 0:
         errand.walls = standing
-        grow(world, errand, root, node)
+        expand(world, errand, root, node)
         if errand.reach[node] == 0:  # no way there: stay on the straight line
             return
     errand.straight = 0
     errand.way_x, errand.way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
     for _ in range(LOOK):
-        node = downhill(errand, node)
+        node = descend(errand, node)
         way_x, way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
-        if not clear(world, x, y, way_x, way_y, RADIUS + 1.0):
+        if not is_clear(world, x, y, way_x, way_y, RADIUS + 1.0):
             return
         errand.way_x, errand.way_y = way_x, way_y
         if node == errand.root:

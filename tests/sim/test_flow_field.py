@@ -10,7 +10,7 @@ from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import drive, in_wall
 from pigaming_app.sim.flow_field import Errand, find_way, free_node
 from pigaming_app.sim.grid import BLOCKED, wall_on_grid
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, HZ, World
 from tests.floor import floor
 
@@ -86,7 +86,7 @@ def test_the_way_is_always_one_that_the_robot_fits_through():
             if world.grid[row * COLUMNS + column] & BLOCKED:
                 continue
             find_way(world, to, x, y)
-            assert clear(world, x, y, to.way_x, to.way_y, 36.0)
+            assert is_clear(world, x, y, to.way_x, to.way_y, 36.0)
             assert not in_wall(world, to.way_x, to.way_y)
 
 

@@ -18,7 +18,7 @@ def bearing(robot: Any, x: float, y: float) -> float:
 
 
 @kernel
-def turning(angle: float, angular: float, turn_rate: float, period: int) -> float:
+def turn_stick(angle: float, angular: float, turn_rate: float, period: int) -> float:
     """The stick that turns by `angle` within `period` ticks, as far as the motors can; they turn by `angular` now."""
     return float(0.75 * (angle - LAG * angular) / (turn_rate * period * DT))
 
@@ -44,4 +44,4 @@ def follow(match: Any, seat: int, errand: Any, period: int) -> None:
     angle, speed = approach(bearing(robot, errand.way_x, errand.way_y), gap)
     if errand.straight and gap < 70.0:
         speed *= 0.3 + 0.7 * gap / 70.0
-    set_action(match.actions[seat], speed, turning(angle, robot.angular, match.rules.turn_rate, period), 0, 0)
+    set_action(match.actions[seat], speed, turn_stick(angle, robot.angular, match.rules.turn_rate, period), 0, 0)

@@ -18,7 +18,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HZ
 
 SOMEWHERE = 20.0  # px that count as having got somewhere
@@ -118,5 +118,5 @@ def update_reflex(match: Any, robot: Any, opponent: int, reflex: Any, action: An
         return
     if action.linear != 0.0:
         reflex.held_up += period
-    elif match.rules.turbo and not clear(match, robot.x, robot.y, other.x, other.y, 0.0):
+    elif match.rules.turbo and not is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
         reflex.waited += period

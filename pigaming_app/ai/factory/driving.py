@@ -6,7 +6,7 @@
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.steering import turning
+from pigaming_app.ai.brain.steering import turn_stick
 from pigaming_app.ai.brain.unstick import choose_escape, held_up
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import SLOTS, WORKERS
@@ -78,7 +78,7 @@ def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
         speed = (obs.goal_distance - obs.fork) / 40.0
         if speed > 0.0 and room(obs, 0.0, 0.0) < 20.0:
             speed = 0.0
-    set_action(action, speed, turning(obs.goal_bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
+    set_action(action, speed, turn_stick(obs.goal_bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
 
 
 @kernel
@@ -101,7 +101,7 @@ def follow_round(obs: Any, mind: Any, action: Any) -> None:
     if not free and ahead < 80.0:
         speed = 0.0
     dash = mind.dash and obs.goal_distance > 350.0 and obs.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
-    set_action(action, speed, turning(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
+    set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
 
 
 @kernel

@@ -13,7 +13,7 @@ from math import sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.steering import bearing, follow, turning
+from pigaming_app.ai.brain.steering import bearing, follow, turn_stick
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
 from pigaming_app.sim.action import set_action
@@ -23,7 +23,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
@@ -94,7 +94,7 @@ def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
         follow(match, seat, errand, mind.numbers.period)
     else:
         angle, turn_rate = bearing(robot, other.x, other.y), match.rules.turn_rate
-        set_action(match.actions[seat], 0.0, turning(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
+        set_action(match.actions[seat], 0.0, turn_stick(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
 
 
 @kernel
@@ -147,7 +147,7 @@ def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
     dx, dy = other.x - robot.x, other.y - robot.y
     if dx * dx + dy * dy > reach * reach:
         return 0
-    return clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius)
+    return is_clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius)
 
 
 @kernel
@@ -195,7 +195,7 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     robot = match.robots[seat]
     angle = bearing(robot, other.x, other.y)
     fire = 1 if not match.tanks[seat].cooldown and abs(angle) < mind.numbers.tolerance else 0
-    stick = turning(angle, robot.angular, match.rules.turn_rate, mind.numbers.period)
+    stick = turn_stick(angle, robot.angular, match.rules.turn_rate, mind.numbers.period)
     set_action(match.actions[seat], 0.0, stick, fire, 0)
 
 

@@ -10,7 +10,7 @@ from pigaming_app.ai.pitanks import classic
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
@@ -59,7 +59,7 @@ def _away(robot: Any, x: float, y: float) -> float:
 
 
 def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterator[Percept]:
-    seen = bool(clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
+    seen = bool(is_clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
     yield Percept(OPPONENT, other.x, other.y, seen)
     errand = mind.errand
     if doing in ("hunt", "cover"):

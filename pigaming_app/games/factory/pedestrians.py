@@ -69,7 +69,7 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     if left < THERE:
         return 1
     find_way(world, errand, walker.x, walker.y)
-    get_on(world, walker, left)
+    advance(world, walker, left)
     dx, dy = errand.way_x - walker.x, errand.way_y - walker.y
     gap = sqrt(dx * dx + dy * dy)
     if gap < 1e-6:
@@ -81,14 +81,14 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
         if in_the_way(world, walker, walker.x + ux, walker.y + uy, radius + PAST) < 0:
             walker.side = 0
         return 0
-    if block >= 0 and left < NEARLY and not drives(world.motions[block]):
+    if block >= 0 and left < NEARLY and not is_driving(world.motions[block]):
         return 1
     go_round(world, walker, block, ux, uy, radius)
     return 0
 
 
 @kernel
-def get_on(world: Any, walker: Any, left: float) -> None:
+def advance(world: Any, walker: Any, left: float) -> None:
     """Count the ticks since a walker last came nearer to its goal, by the way that it has to go."""
     errand = walker.errand
     if not errand.straight:
@@ -139,7 +139,7 @@ def turn_towards(walker: Any, vx: float, vy: float) -> None:
 
 
 @kernel
-def drives(motion: Any) -> bool:
+def is_driving(motion: Any) -> bool:
     """Whether a robot is on the move."""
     return motion.vx * motion.vx + motion.vy * motion.vy > DRIVING * DRIVING  # type: ignore[no-any-return]
 
@@ -155,7 +155,7 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
         if not (-SIGHT < dx < SIGHT and -SIGHT < dy < SIGHT):
             continue
         motion = world.motions[k]
-        looks, reach = (3, RADIUS + radius + ROOM) if drives(motion) else (1, RADIUS + radius + CLOSE)
+        looks, reach = (3, RADIUS + radius + ROOM) if is_driving(motion) else (1, RADIUS + radius + CLOSE)
         for half in range(looks):
             ahead = 0.5 * half * AHEAD
             rx, ry = robot.x + ahead * motion.vx, robot.y + ahead * motion.vy
@@ -163,13 +163,13 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
             gap = dx * dx + dy * dy
             if gap < reach * reach:
                 ox, oy = walker.x - rx, walker.y - ry
-                if gap < ox * ox + oy * oy and gets_there(world, robot, motion, half):
+                if gap < ox * ox + oy * oy and arrives(world, robot, motion, half):
                     return k
     return -1
 
 
 @kernel
-def gets_there(world: Any, robot: Any, motion: Any, half: int) -> bool:
+def arrives(world: Any, robot: Any, motion: Any, half: int) -> bool:
     """Whether no wall stops a robot in so many halves of AHEAD."""
     for part in range(1, half + 1):
         ahead = 0.5 * part * AHEAD

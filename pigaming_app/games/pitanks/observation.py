@@ -1,7 +1,7 @@
 """What a brain sees of a match of PiTanks: named numbers, as from the robot's own seat.
 
 Bearings are relative to the own heading, in (-pi, pi], clockwise positive. Others are seen as they were `delay` seconds
-ago, by their speed; the own pose is never delayed. `clear` says that nothing stands between.
+ago, by their speed; the own pose is never delayed. `is_clear` says that nothing stands between.
 """
 
 from math import atan2, cos, sin, sqrt
@@ -14,7 +14,7 @@ from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
 OTHERS = ROBOTS - 1
@@ -127,7 +127,7 @@ def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> N
     soon = other.distance / match.rules.bullet_speed + delay
     other.aim = turn_to(atan2(dy + soon * vy, dx + soon * vx) - robot.heading)
     other.facing = turn_to(seen.heading - delay * seen.angular - way - 3.141592653589793)
-    other.clear = clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
+    other.clear = is_clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
     other.protected = match.tanks[j].protected
     other.score = seen.score
 

@@ -17,7 +17,7 @@ from math import atan2, tau
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.race.circuit import read_course
-from pigaming_app.games.race.course import POINTS, Course, half_at, leg, locate, spot
+from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.racing_line import fastest_line
 from pigaming_app.games.race.state import LINES, MOST_LAPS, Race, Rules, TimingLine
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
@@ -67,8 +67,8 @@ def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
 
 def _start(course: Course, line: float) -> StartPose:
     """Where the robot of a line begins: behind it, heading along the course."""
-    k, _ = leg(course, line - BEHIND)
-    x, y = spot(course, line - BEHIND, 0.0)
+    k, _ = segment_at(course, line - BEHIND)
+    x, y = point_at(course, line - BEHIND, 0.0)
     after = (k + 1) % POINTS
     return StartPose(x, y, atan2(course.ys[after] - course.ys[k], course.xs[after] - course.xs[k]) % tau)
 
@@ -92,10 +92,10 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
 
 def _draw(line: TimingLine, course: Course, along: float) -> None:
     """A line across the course, from edge to edge."""
-    half = half_at(course, *leg(course, along))
+    half = half_width_at(course, *segment_at(course, along))
     line.along = along
-    line.ax, line.ay = spot(course, along, -half)
-    line.bx, line.by = spot(course, along, half)
+    line.ax, line.ay = point_at(course, along, -half)
+    line.bx, line.by = point_at(course, along, half)
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:

@@ -26,7 +26,7 @@ from pigaming_app.ai.brain.thoughts import (
 from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Pose
-from pigaming_app.sim.sweep import meets_wall
+from pigaming_app.sim.sweep import wall_contact
 from pigaming_app.ui.draw.ink import ALARM, FOCUS, LINE, THIN, Color, Ink, Points, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, master, painted, put, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
@@ -127,7 +127,7 @@ class Marks:
 def blocked(state: Any, x: float, y: float, to_x: float, to_y: float) -> float:
     """The share of the way to a point, arena px, after which the first wall that still stands is met; 1: none is."""
     walls = [wall for wall in state.walls[: state.wall_count] if wall.health]
-    return min((meets_wall(x, y, to_x - x, to_y - y, wall, 0.0) for wall in walls), default=1.0)
+    return min((wall_contact(x, y, to_x - x, to_y - y, wall, 0.0) for wall in walls), default=1.0)
 
 
 # ---- sprites

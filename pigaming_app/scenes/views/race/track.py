@@ -8,7 +8,7 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from pigaming_app.games.race.course import Course, CoursePosition, half_at, leg, locate, spot
+from pigaming_app.games.race.course import Course, CoursePosition, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.start import BEHIND, TrackPlan
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw.frame_budget import Steps
@@ -121,8 +121,8 @@ def draw_arrows(ink: Ink, track: TrackPlan) -> None:
         for share in (0.36, 0.72):
             for back in (0.0, 26.0):
                 here = along + share * gap - back
-                k, _ = leg(course, here % course.length)
-                x, y = spot(course, here % course.length, 0.0)
+                k, _ = segment_at(course, here % course.length)
+                x, y = point_at(course, here % course.length, 0.0)
                 c, s = math.cos(ribs(course)[k].heading), math.sin(ribs(course)[k].heading)
                 head = [(-12.0, -17.0), (0.0, 0.0), (-12.0, 17.0)]
                 ink.line([(x + a * c - b * s, y + a * s + b * c) for a, b in head], ARROWS, 6)
@@ -144,8 +144,8 @@ class Frame(NamedTuple):
 
 def frame(course: Course, along: float) -> Frame:
     """The frame of a line across the course."""
-    (ax, ay), (bx, by) = spot(course, along, -1.0), spot(course, along, 1.0)
-    half = half_at(course, *leg(course, along))
+    (ax, ay), (bx, by) = point_at(course, along, -1.0), point_at(course, along, 1.0)
+    half = half_width_at(course, *segment_at(course, along))
     return Frame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
 
 
