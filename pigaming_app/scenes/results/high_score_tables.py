@@ -69,7 +69,7 @@ def contests(scores: Scores) -> list[ScoreTable]:
     return sorted(found, key=lambda one: (names.index(one.game), one.arena != "classic", one.arena, one.older, one))
 
 
-def told(value: int, feat: RecordKind | ScoreTable) -> str:
+def format_score(value: int, feat: RecordKind | ScoreTable) -> str:
     """Points, or milliseconds as minutes and seconds."""
     return clock(value / 1000.0) if feat.timed else str(value).replace("-", "−")
 

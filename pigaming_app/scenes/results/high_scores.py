@@ -11,7 +11,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.lobby.match_setup import load_kept, measure, playable, title
-from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, older_boards, told
+from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, format_score, older_boards
 from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.ui.draw.ink import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
 from pigaming_app.ui.draw.layers import RIGHT, Lit, backdrop, span
@@ -151,7 +151,7 @@ class Best:
         screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
-        value = self.house.words.decimal(told(row.score, board.table))
+        value = self.house.words.decimal(format_score(row.score, board.table))
         text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
         if row in self.fresh:
             sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)

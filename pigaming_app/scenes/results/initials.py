@@ -15,7 +15,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.results import initials_view as page
-from pigaming_app.scenes.results.high_score_tables import contest, counts, table_of, told
+from pigaming_app.scenes.results.high_score_tables import contest, counts, format_score, table_of
 from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, ScoreTable
@@ -179,7 +179,7 @@ class Initials:
         lines = []
         for (table, value), found in zip(claim.feats, claim.places, strict=True):
             shown = found if len(claim.feats) == 1 else found[-1:]
-            lines.append((words(f"setup.best_{table.feat}"), words.decimal(told(value, table))))
+            lines.append((words(f"setup.best_{table.feat}"), words.decimal(format_score(value, table))))
             lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
         return tuple(lines)
 

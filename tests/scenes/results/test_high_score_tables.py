@@ -7,7 +7,15 @@ import pytest
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.results.high_score_tables import STRONG, boards, contest, contests, counts, older_boards, told
+from pigaming_app.scenes.results.high_score_tables import (
+    STRONG,
+    boards,
+    contest,
+    contests,
+    counts,
+    format_score,
+    older_boards,
+)
 from pigaming_app.storage.scores import Scores, ScoreTable
 
 FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
@@ -84,7 +92,7 @@ def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
         ("lap", True, None),
         ("race", True, None),
     ]
-    assert told(61_230, first.table) == "1:01.23"
+    assert format_score(61_230, first.table) == "1:01.23"
 
 
 def test_what_a_file_holds_of_games_and_rules_that_are_not_there_is_not_shown():
