@@ -25,7 +25,7 @@ from math import pi, radians, sqrt
 from typing import Any
 
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import Errand, expand, free_node
+from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.robot import GAIN, RADIUS
 from pigaming_app.sim.toml_table import FieldError, TomlTable, quote
@@ -176,7 +176,7 @@ def _check_ways(arena: Arena) -> None:
             if sqrt((start.x - other.x) ** 2 + (start.y - other.y) ** 2) < 2 * RADIUS:
                 raise FieldError(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide")
         nodes.append(free_node(world, start.x, start.y))
-    field = Errand()
+    field = Route()
     expand(world, field, nodes[0], -1)
     for i, node in enumerate(nodes):
         if not field.reach[node] or not nodes[0]:

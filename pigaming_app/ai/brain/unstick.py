@@ -13,7 +13,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.steering import follow
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.flow_field import Errand
+from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
@@ -68,7 +68,7 @@ class Reflex:
     """What the reflex remembers."""
 
     on: int  # 0: there is none
-    errand: Errand
+    route: Route
     x: float  # where the robot was when it last got somewhere
     y: float
     held_up: int  # ticks since, of pushing
@@ -97,9 +97,9 @@ def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) 
         return 0
     reflex.left -= period
     if reflex.tries % 2 and not classic:
-        errand, other = reflex.errand, match.robots[opponent]
-        errand.wanted, errand.goal_x, errand.goal_y = 1, other.x, other.y
-        follow(match, seat, errand, period)
+        route, other = reflex.route, match.robots[opponent]
+        route.wanted, route.goal_x, route.goal_y = 1, other.x, other.y
+        follow(match, seat, route, period)
     else:
         set_action(action, reflex.stick, reflex.turn, 0, 0)
     return 1

@@ -37,9 +37,9 @@ DETOUR = 4 * HZ  # ticks of driving towards another slot
 @kernel
 def drive_to(obs: Any, mind: Any, action: Any) -> None:
     """Go to the target; there, turn to it and press fire."""
-    slot, errand = obs.slots[mind.target], mind.senses.errand
-    moved = not errand.wanted or errand.goal_x != slot.x or errand.goal_y != slot.y
-    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
+    slot, route = obs.slots[mind.target], mind.senses.route
+    moved = not route.wanted or route.goal_x != slot.x or route.goal_y != slot.y
+    route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
     if moved:  # the way comes with the next view
         set_action(action, 0.0, 0.0, 0, 0)
         return
@@ -137,7 +137,7 @@ def lose_patience(obs: Any, mind: Any) -> None:
     """
     left = obs.goal_distance
     if not obs.straight:
-        left = CELL * mind.senses.errand.reach[node_at(obs.x, obs.y)]
+        left = CELL * mind.senses.route.reach[node_at(obs.x, obs.y)]
     if mind.near or mind.sought != mind.target:
         mind.sought, mind.least, mind.late = mind.target, 1e9, 0
     if 0.0 < left < mind.least - NEARER:
@@ -154,9 +154,9 @@ def lose_patience(obs: Any, mind: Any) -> None:
 @kernel
 def make_detour(obs: Any, mind: Any, action: Any) -> None:
     """Drive towards another slot for a while, so that the way to the target is another one."""
-    slot, errand = obs.slots[mind.via], mind.senses.errand
-    moved = errand.goal_x != slot.x or errand.goal_y != slot.y
-    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
+    slot, route = obs.slots[mind.via], mind.senses.route
+    moved = route.goal_x != slot.x or route.goal_y != slot.y
+    route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
     mind.detour -= PERIOD
     if moved:
         set_action(action, 0.0, 0.0, 0, 0)

@@ -17,7 +17,7 @@ from pigaming_app.ai.brain.steering import bearing, follow, turn_stick
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.flow_field import Errand
+from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -51,7 +51,7 @@ class ClassicMind:
     """What the machine remembers."""
 
     numbers: ParameterRecord
-    errand: Errand
+    route: Route
     random: int
     state: int
     since: int  # ticks in this state
@@ -86,12 +86,12 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 @kernel
 def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
     """Go behind the nearest wall and wait there; fire at an opponent that shows."""
-    robot, errand = match.robots[seat], mind.errand
-    dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
+    robot, route = match.robots[seat], mind.route
+    dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     if shows(match, robot, other, mind):
         shoot(match, seat, other, mind)
     elif dx * dx + dy * dy > mind.numbers.arrived * mind.numbers.arrived:
-        follow(match, seat, errand, mind.numbers.period)
+        follow(match, seat, route, mind.numbers.period)
     else:
         angle, turn_rate = bearing(robot, other.x, other.y), match.rules.turn_rate
         set_action(match.actions[seat], 0.0, turn_stick(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
@@ -104,7 +104,7 @@ def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
         shoot(match, seat, other, mind)
     else:
         go_to(mind, other.x, other.y)
-        follow(match, seat, mind.errand, mind.numbers.period)
+        follow(match, seat, mind.route, mind.numbers.period)
 
 
 @kernel
@@ -185,8 +185,8 @@ def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 @kernel
 def go_to(mind: Any, x: float, y: float) -> None:
-    """Send the navigator on an errand."""
-    mind.errand.wanted, mind.errand.goal_x, mind.errand.goal_y = 1, x, y
+    """Set the goal of the route."""
+    mind.route.wanted, mind.route.goal_x, mind.route.goal_y = 1, x, y
 
 
 @kernel

@@ -194,9 +194,9 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def go_to(mind: Any, x: float, y: float) -> None:
-    """Send the navigator on an errand; its answer comes with the next view."""
-    errand = mind.senses.errand
-    errand.wanted, errand.goal_x, errand.goal_y = 1, x, y
+    """Set the goal of the route; the way there comes with the next observation."""
+    route = mind.senses.route
+    route.wanted, route.goal_x, route.goal_y = 1, x, y
 
 
 @kernel

@@ -56,11 +56,11 @@ def _doing(obs: Any, mind: Any) -> str:
         return "dodge"
     if mind.target < 0:
         return "idle"
-    other, errand = obs.others[mind.target], mind.senses.errand
+    other, route = obs.others[mind.target], mind.senses.route
     waits = mind.state == fsm.DEFEND and obs.goal_distance <= fsm.ARRIVED
     if mind.seen and (other.distance < fsm.CROWD or waits if mind.state == fsm.DEFEND else other.distance < fsm.REACH):
         return "duel"
-    if obs.prize and (errand.goal_x, errand.goal_y) == (obs.prize_x, obs.prize_y):
+    if obs.prize and (route.goal_x, route.goal_y) == (obs.prize_x, obs.prize_y):
         return "collect"
     if mind.state == fsm.ATTACK:
         return "hunt"
@@ -125,12 +125,12 @@ def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
     if obs.threat < SOON:
         away, angle = obs.threat * match.rules.bullet_speed, obs.heading + obs.threat_bearing
         yield Percept(BULLET, obs.x + away * cos(angle), obs.y + away * sin(angle))
-    errand = mind.senses.errand
-    if doing in ("hunt", "cover", "collect") and errand.wanted:
+    route = mind.senses.route
+    if doing in ("hunt", "cover", "collect") and route.wanted:
         if not obs.straight:
             yield Percept(WAY, obs.way_x, obs.way_y)
         if doing != "hunt":
-            yield Percept(PRIZE if doing == "collect" else GOAL, errand.goal_x, errand.goal_y, bool(obs.straight))
+            yield Percept(PRIZE if doing == "collect" else GOAL, route.goal_x, route.goal_y, bool(obs.straight))
 
 
 def _rose(obs: Any, mind: Any, doing: str) -> list[float]:

@@ -39,7 +39,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import Errand, expand, free_node
+from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, World
 
@@ -171,7 +171,7 @@ def _check_ways(layout: Layout, floor: Floor) -> None:
     """Robots get to every slot, and people to every machine. Raises FieldError."""
     world = World()
     build(world, Arena("", {}, layout.walls, layout.starts, "", floor))
-    field = Errand()
+    field = Route()
     expand(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
     for k, slot in enumerate(floor.slots):

@@ -1,7 +1,7 @@
 """People who walk: a flow field leads them round walls; they stop for robots, and step round whoever stands still.
 
 A walker is any record with x, y, heading, walking (1: on the move), side (on which it goes round somebody: -1, 0 or 1),
-an `errand` (see `navigate`), and `least` and `held_up`, by which it is known whether it gets on. The world has a Motion
+an `route` (see `navigate`), and `least` and `held_up`, by which it is known whether it gets on. The world has a Motion
 for each robot, brought up to date once a tick: people go by how robots move, not by how their motors turn.
 """
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import find_way, free_node
+from pigaming_app.sim.flow_field import free_node, update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
@@ -54,23 +54,23 @@ def track_motion(motion: Any, robot: Any) -> None:
 @kernel
 def send(walker: Any, x: float, y: float) -> None:
     """Send a walker to a place."""
-    errand = walker.errand
-    errand.wanted, errand.goal_x, errand.goal_y = 1, x, y
+    route = walker.route
+    route.wanted, route.goal_x, route.goal_y = 1, x, y
     walker.least, walker.held_up = 1e9, 0
 
 
 @kernel
 def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     """One tick on the way; 1 if the walker is where it was sent, or as near as those who stand there let it."""
-    errand = walker.errand
-    dx, dy = errand.goal_x - walker.x, errand.goal_y - walker.y
+    route = walker.route
+    dx, dy = route.goal_x - walker.x, route.goal_y - walker.y
     left = sqrt(dx * dx + dy * dy)
     walker.walking = 0
     if left < THERE:
         return 1
-    find_way(world, errand, walker.x, walker.y)
+    update_route(world, route, walker.x, walker.y)
     advance(world, walker, left)
-    dx, dy = errand.way_x - walker.x, errand.way_y - walker.y
+    dx, dy = route.way_x - walker.x, route.way_y - walker.y
     gap = sqrt(dx * dx + dy * dy)
     if gap < 1e-6:
         return 0
@@ -90,9 +90,9 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
 @kernel
 def advance(world: Any, walker: Any, left: float) -> None:
     """Count the ticks since a walker last came nearer to its goal, by the way that it has to go."""
-    errand = walker.errand
-    if not errand.straight:
-        left = CELL * errand.reach[free_node(world, walker.x, walker.y)]
+    route = walker.route
+    if not route.straight:
+        left = CELL * route.reach[free_node(world, walker.x, walker.y)]
     if left < walker.least - NEARER:
         walker.least, walker.held_up = left, 0
     else:

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, SHIELD
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.flow_field import Errand, find_way
+from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -26,7 +26,7 @@ class Senses:
     """What shapes the view of one seat, and what it asks of the navigator."""
 
     delay: float  # s by which others are seen late
-    errand: Errand
+    route: Route
 
 
 @record
@@ -75,7 +75,7 @@ class Observation:
     prize_x: float
     prize_y: float
     prize_distance: float
-    way_x: float  # where to drive now to get on with the errand
+    way_x: float  # where to drive now, along the route
     way_y: float
     way_bearing: float
     way_distance: float
@@ -225,15 +225,15 @@ def observe_pickup(match: Any, robot: Any, obs: Any) -> None:
 
 @kernel
 def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
-    """Where to drive now to get on with the errand."""
-    errand = senses.errand
-    if not errand.wanted:
+    """Where to drive now, along the route."""
+    route = senses.route
+    if not route.wanted:
         obs.way_bearing, obs.way_distance, obs.goal_distance, obs.straight = 0.0, 0.0, 0.0, 1
         return
-    find_way(match, errand, robot.x, robot.y)
-    obs.way_x, obs.way_y, obs.straight = errand.way_x, errand.way_y, errand.straight
-    dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
+    update_route(match, route, robot.x, robot.y)
+    obs.way_x, obs.way_y, obs.straight = route.way_x, route.way_y, route.straight
+    dx, dy = route.way_x - robot.x, route.way_y - robot.y
     obs.way_distance = sqrt(dx * dx + dy * dy)
     obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
-    dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
+    dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     obs.goal_distance = sqrt(dx * dx + dy * dy)

@@ -175,7 +175,7 @@ def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_
     seen = {sight.kind: sight for sight in told.sights}
     assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.obs.others[0].x, mind.obs.others[0].y)
     if GOAL in seen:
-        assert (seen[GOAL].x, seen[GOAL].y) == (mind.senses.errand.goal_x, mind.senses.errand.goal_y)
+        assert (seen[GOAL].x, seen[GOAL].y) == (mind.senses.route.goal_x, mind.senses.route.goal_y)
     assert told.names["player"] == 2
 
 
