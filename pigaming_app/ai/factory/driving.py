@@ -1,6 +1,6 @@
 """How a driver of Robot Factory gets to a slot and uses its fork: round walls, robots and people.
 
-`mind` is a ForemanMind; all of it works on the view.
+`mind` is a ForemanMind; all of it works on the observation `obs`.
 """
 
 from math import cos, sin, sqrt
@@ -40,7 +40,7 @@ def drive_to(obs: Any, mind: Any, action: Any) -> None:
     slot, route = obs.slots[mind.target], mind.senses.route
     moved = not route.wanted or route.goal_x != slot.x or route.goal_y != slot.y
     route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
-    if moved:  # the way comes with the next view
+    if moved:  # the way comes with the next observation
         set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.near and obs.goal_distance < STAND_OFF and obs.straight:

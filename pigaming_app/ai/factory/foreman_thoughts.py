@@ -1,7 +1,7 @@
 """What the hand-written driver of Robot Factory has on its mind: which job is worth what to it, and the way there.
 
-Nothing is thought twice: numbers come from its memory and its last view, what jobs cost from its own reckoning, without
-its mistakes and before it shares them out with its mate.
+Numbers come from the driver's memory and its last observation; the costs of jobs are its own, without their noise and
+before it shares the jobs out with its mate.
 """
 
 from collections.abc import Iterator

@@ -1,6 +1,6 @@
 """What the hand-written opponent of PiTanks has on its mind: its state, what pulls it out of it, where it wants to go.
 
-Nothing is thought twice: numbers come from its memory and its last view, rules from the machine itself.
+Nothing is thought twice: numbers come from its memory and its last observation, rules from the machine itself.
 """
 
 from collections.abc import Iterator

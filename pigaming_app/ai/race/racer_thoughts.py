@@ -1,6 +1,6 @@
 """What the hand-written driver of Robot Race has on its mind: its line, whoever is in the way, and how fast it dares.
 
-Nothing is thought twice: numbers come from its memory and its last view, reckonings from the driver itself.
+Nothing is thought twice: numbers come from its memory and its last observation, reckonings from the driver itself.
 """
 
 from collections.abc import Iterator

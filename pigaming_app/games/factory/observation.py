@@ -20,7 +20,7 @@ OTHERS = ROBOTS - 1
 
 @record
 class Senses:
-    """What shapes the view of one seat, and what it asks of the navigator."""
+    """Parameters of the observation of one seat, and its route."""
 
     delay: float  # s by which others are seen late
     route: Route
@@ -108,7 +108,7 @@ class Observation:
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the view of one seat."""
+    """Fill the observation of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
     obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, rules.turn_rate

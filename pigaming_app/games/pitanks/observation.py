@@ -23,7 +23,7 @@ BESIDE = 22.0  # px between a robot in cover and the wall
 
 @record
 class Senses:
-    """What shapes the view of one seat, and what it asks of the navigator."""
+    """Parameters of the observation of one seat, and its route."""
 
     delay: float  # s by which others are seen late
     route: Route
@@ -85,7 +85,7 @@ class Observation:
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the view of one seat."""
+    """Fill the observation of one seat."""
     robot, tank = match.robots[seat], match.tanks[seat]
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
     obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, match.rules.turn_rate

@@ -21,7 +21,7 @@ RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 @record
 class Senses:
-    """What shapes the view of one seat."""
+    """Parameters of the observation of one seat."""
 
     delay: float  # s by which others are seen late
     look: float  # px along the course to what it drives for
@@ -90,7 +90,7 @@ class Observation:
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the view of one seat."""
+    """Fill the observation of one seat."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     course, place = match.course, senses.place
     locate(course, robot.x, robot.y, place)
