@@ -19,11 +19,11 @@ TABLES = [ScoreTable("pitanks", arena, "points", rules="plain", length=2, people
 WRITER = """
 import sys
 from pathlib import Path
-from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.storage.scores import Scores, ScoreTable
 folder, first, count = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 scores, _ = Scores.load(folder)
 for number in range(first, first + count):
-    table = Table("pitanks", "abcdefgh"[number % 8], "points", rules="plain", length=2, people=1)
+    table = ScoreTable("pitanks", "abcdefgh"[number % 8], "points", rules="plain", length=2, people=1)
     scores.add(table, "ABC", number)
     scores.save(folder)
     print(number, flush=True)
