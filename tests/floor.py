@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.pitanks import PITANKS
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.arena import Arena, Start, WallSpec, build
+from pigaming_app.sim.arena import Arena, StartPose, WallSpec, build
 from pigaming_app.sim.world import World
 
 CORNERS = ((110.0, 110.0, 0.0), (1490.0, 790.0, 3.0), (110.0, 790.0, 0.0), (1490.0, 110.0, 3.0))
@@ -17,7 +17,7 @@ def arena(walls: Sequence[Line] = (), poses: Sequence[Pose] = CORNERS, health: i
     """An arena with these walls, each from (ax, ay) to (bx, by); robots beyond `poses` wait in the corners."""
     places = (*poses, *CORNERS[len(poses) :])
     specs = tuple(WallSpec(*line, half, health) for line in walls)
-    return Arena("test", {"en": "Test", "pt": "Teste"}, specs, tuple(Start(*pose) for pose in places), "")
+    return Arena("test", {"en": "Test", "pt": "Teste"}, specs, tuple(StartPose(*pose) for pose in places), "")
 
 
 def floor(walls: Sequence[Line] = (), poses: Sequence[Pose] = CORNERS, health: int = 5, half: float = 15.0) -> World:

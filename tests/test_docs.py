@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai import make
-from pigaming_app.ai.pitanks.classic import Unknown
+from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
@@ -212,7 +212,7 @@ def test_a_cell_is_compared_in_its_units(cell, value, same):
 def quoted():
     """What docs/thesis.md says of this program, as the code has it."""
     tanks, shop, track = (match_of(game).state.rules for game in ("pitanks", "factory", "race"))
-    one, two, unknown = RECIPES[1], RECIPES[2], Unknown()
+    one, two, unknown = RECIPES[1], RECIPES[2], Parameters()
     yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
     yield f"{world.WIDTH:g} × {world.HEIGHT:g} px; nominal mat 2.11 × 1.19 m, so {drivetrain.MM} mm a pixel"
     yield f"{tanks.speed:g} px/s (0.34 m/s) and {tanks.turn_rate} rad/s"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pigaming_app.sim.arena import Arena, Layout
-from pigaming_app.sim.toml_table import Table
+from pigaming_app.sim.toml_table import TomlTable
 
 FREE, ALONE, PAIRS = "free", "alone", "pairs"  # teams: as people wish; none; two teams of at most two robots
 
@@ -80,7 +80,7 @@ class Game:
     teams: tuple[int, int, int, int]  # of the seats, if nobody says otherwise
     columns: tuple[str, ...]  # keys of `stats`, as the table of results shows them
     record_kinds: tuple[RecordKind, ...]
-    read: Callable[[Table], Layout]  # what an arena file of this game holds besides its title; raises Wrong
+    read: Callable[[TomlTable], Layout]  # what an arena file of this game holds besides its title; raises Wrong
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
     judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, ask for speeds
     observe: Callable[[Any, int, Any, Any], None]  # observe(match, seat, senses, observation)

@@ -72,7 +72,7 @@ class Match:
             robot.x, robot.y, robot.heading = sighting.x, sighting.y, sighting.heading
         for seat in range(ROBOTS):
             self.brains[seat].think(state, seat)
-        self.log.note(state.actions)
+        self.log.append(state.actions)
         self.game.judge(state)
         self.plant.drive([(robot.ask_linear, robot.ask_angular) for robot in state.robots], DT)
         for robot, line in zip(state.robots, self.series, strict=True):
@@ -111,7 +111,7 @@ class ActionLog:
     def __init__(self) -> None:
         self.ticks = bytearray()
 
-    def note(self, actions: list[Action]) -> None:
+    def append(self, actions: list[Action]) -> None:
         """Add one tick."""
         for action in actions:
             self.ticks += bytes(

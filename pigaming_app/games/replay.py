@@ -25,10 +25,10 @@ from pigaming_app.sim.toml_table import printable, quote
 from pigaming_app.sim.world import HZ, ROBOTS
 
 FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 has the engine hash of 1.4.0 and before
-BYTES = 3 * ROBOTS  # a tick
+BYTES_PER_TICK = 3 * ROBOTS  # a tick
 MOST_TICKS = 60 * 60 * HZ
 MOST_HEAD = 1_000_000  # bytes; an arena's file has at most 100,000, which JSON escapes
-MOST_BYTES = MOST_HEAD + BYTES * MOST_TICKS  # hardly ever: ticks are packed
+MOST_BYTES = MOST_HEAD + BYTES_PER_TICK * MOST_TICKS  # hardly ever: ticks are packed
 
 
 class ReplayError(ValueError):
@@ -54,14 +54,14 @@ class Replay:
 def encode(match: Match) -> bytes:
     """The file of a match as far as it has been played."""
     ticks = bytes(match.log.ticks)
-    columns = b"".join(ticks[i::BYTES] for i in range(BYTES))
+    columns = b"".join(ticks[i::BYTES_PER_TICK] for i in range(BYTES_PER_TICK))
     packed = zlib.compress(columns, 9)
     head: dict[str, Any] = {
         "format": FORMATS[-1],
         "engine": engine_hash(),
         "setup": asdict(match.setup),
         "arena": match.arena.source,
-        "ticks": len(ticks) // BYTES,
+        "ticks": len(ticks) // BYTES_PER_TICK,
         "digest": digest(match.state),
     }
     head["check"] = _check(head, packed)
@@ -76,7 +76,7 @@ def decode(raw: bytes, name: str) -> Replay:
         raise ReplayError(f"{name}: {error}") from None
 
 
-def play(replay: Replay) -> Match:
+def to_match(replay: Replay) -> Match:
     """The match that a replay holds, before its first tick; its seats do what the file says."""
     match = Match(replay.setup, arena=parse(replay.setup.game, replay.source, replay.setup.arena))
     for seat in range(ROBOTS):
@@ -86,8 +86,8 @@ def play(replay: Replay) -> Match:
 
 def verify(replay: Replay) -> bool:
     """Whether the match plays out as the file says, to the last bit."""
-    match = play(replay)
-    for _ in range(len(replay.ticks) // BYTES):
+    match = to_match(replay)
+    for _ in range(len(replay.ticks) // BYTES_PER_TICK):
         match.tick()
     return digest(match.state) == replay.digest
 
@@ -100,7 +100,7 @@ class ReplayPlayer:
 
     def think(self, state: Any, seat: int) -> None:
         """Set the seat's action for this tick."""
-        at = state.tick * BYTES + 3 * seat
+        at = state.tick * BYTES_PER_TICK + 3 * seat
         linear, angular, buttons = self.ticks[at : at + 3] or (int(STEPS), int(STEPS), 0)
         action = state.actions[seat]
         set_action(action, linear / STEPS - 1.0, angular / STEPS - 1.0, buttons & 1, buttons & 2)
@@ -132,14 +132,14 @@ def _decode(raw: bytes) -> Replay:
         parse(setup.game, source, setup.arena)
         if not 0 <= count <= MOST_TICKS:
             raise ValueError("ticks")
-        columns = zlib.decompressobj().decompress(packed, BYTES * MOST_TICKS)
+        columns = zlib.decompressobj().decompress(packed, BYTES_PER_TICK * MOST_TICKS)
     except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
         raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {printable(str(error))})") from None
-    if len(columns) != count * BYTES:
+    if len(columns) != count * BYTES_PER_TICK:
         raise ReplayError("not a replay that makes sense (the number of ticks)")
     ticks = bytearray(len(columns))
-    for i in range(BYTES):
-        ticks[i::BYTES] = columns[i * count : (i + 1) * count]
+    for i in range(BYTES_PER_TICK):
+        ticks[i::BYTES_PER_TICK] = columns[i * count : (i + 1) * count]
     return Replay(setup, source, bytes(ticks), last, engine)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 from pigaming_app.ai.experiments import league as leagues
-from pigaming_app.ai.experiments.league import Duel, League, Standing
+from pigaming_app.ai.experiments.league import Duel, League, LeagueRow
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs.options import AIS, duel_options, game_option, goal
 from pigaming_app.jobs.refusal import refused
@@ -76,7 +76,7 @@ def table(found: League) -> Iterator[str]:
     yield from NOTES
 
 
-def _row(standing: Standing) -> str:
+def _row(standing: LeagueRow) -> str:
     rating, played = standing.rating, standing.wins + standing.ties + standing.losses
     low, high = (100 * share for share in standing.wilson95)
     around = f"[{round(rating.low):+}, {round(rating.high):+}]"

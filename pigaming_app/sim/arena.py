@@ -25,10 +25,10 @@ from math import pi, radians, sqrt
 from typing import Any
 
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import Errand, free_node, grow
+from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.robot import GAIN, RADIUS
-from pigaming_app.sim.toml_table import FieldError, Table, quote
+from pigaming_app.sim.toml_table import FieldError, TomlTable, quote
 from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
 
 LANGUAGES = ("en", "pt")
@@ -53,7 +53,7 @@ class WallSpec:
 
 
 @dataclass(frozen=True)
-class Start:
+class StartPose:
     """Where a robot begins: px, px, rad."""
 
     x: float
@@ -66,7 +66,7 @@ class Layout:
     """What a game has read from a file: walls, four starts, and a plan of what only this game has."""
 
     walls: tuple[WallSpec, ...]
-    starts: tuple[Start, ...]
+    starts: tuple[StartPose, ...]
     plan: Any = None
 
 
@@ -77,15 +77,15 @@ class Arena:
     name: str
     title: Mapping[str, str]
     walls: tuple[WallSpec, ...]
-    starts: tuple[Start, ...]
+    starts: tuple[StartPose, ...]
     source: str
     plan: Any = None
 
 
-def parse(source: str, file: str, read: Callable[[Table], Layout]) -> Arena:
+def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
     """Check the text of an arena file; `read` is the game's. Raises ArenaError, which names `file`, key and reason."""
     try:
-        table = Table.parse(source)
+        table = TomlTable.parse(source)
         title = _title(table)
         layout = read(table)
         arena = Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan)
@@ -111,7 +111,7 @@ def build(world: World, arena: Arena) -> None:
         robot.gain, robot.turbo = GAIN, 1.0
 
 
-def read_walls(table: Table) -> tuple[WallSpec, ...]:
+def read_walls(table: TomlTable) -> tuple[WallSpec, ...]:
     """The tables [[wall]]. Raises FieldError."""
     walls = tuple(_wall(entry) for entry in table.tables("wall"))
     if len(walls) > WALLS:
@@ -119,7 +119,7 @@ def read_walls(table: Table) -> tuple[WallSpec, ...]:
     return walls
 
 
-def read_starts(table: Table) -> tuple[Start, ...]:
+def read_starts(table: TomlTable) -> tuple[StartPose, ...]:
     """The tables [[start]]. Raises FieldError."""
     starts = tuple(_start(entry) for entry in table.tables("start"))
     if len(starts) != ROBOTS:
@@ -127,7 +127,7 @@ def read_starts(table: Table) -> tuple[Start, ...]:
     return starts
 
 
-def _title(table: Table) -> Mapping[str, str]:
+def _title(table: TomlTable) -> Mapping[str, str]:
     title = table.table("title", "a table with a text for each language is missing")
     title.only(*LANGUAGES)
     for language in LANGUAGES:
@@ -139,7 +139,7 @@ def _title(table: Table) -> Mapping[str, str]:
     return title.entries
 
 
-def _wall(entry: Table) -> WallSpec:
+def _wall(entry: TomlTable) -> WallSpec:
     entry.only("from", "to", "thick", "health", "solid")
     (ax, ay), (bx, by) = entry.point("from"), entry.point("to")
     thick = entry.number("thick", 30, 10, 200, " px")
@@ -154,13 +154,13 @@ def _wall(entry: Table) -> WallSpec:
     return WallSpec(ax, ay, bx, by, thick / 2, SOLID if solid else health)
 
 
-def _start(entry: Table) -> Start:
+def _start(entry: TomlTable) -> StartPose:
     entry.only("at", "heading")
     x, y = entry.point("at")
     heading = radians(entry.number("heading", 0))
     if not 0 <= heading < 2 * pi:
         raise entry.error("heading", "must be from 0 to below 360 degrees")
-    return Start(x, y, heading)
+    return StartPose(x, y, heading)
 
 
 def _check_ways(arena: Arena) -> None:
@@ -176,8 +176,8 @@ def _check_ways(arena: Arena) -> None:
             if sqrt((start.x - other.x) ** 2 + (start.y - other.y) ** 2) < 2 * RADIUS:
                 raise FieldError(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide")
         nodes.append(free_node(world, start.x, start.y))
-    field = Errand()
-    grow(world, field, nodes[0], -1)
+    field = Route()
+    expand(world, field, nodes[0], -1)
     for i, node in enumerate(nodes):
         if not field.reach[node] or not nodes[0]:
             raise FieldError(f"start[{i + 1}]", "there is no way to it from start[1]")

@@ -16,7 +16,7 @@ from typing import Any
 from pigaming_app.sim.grid import ONE_NEAR, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, integrate
-from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
 ROUNDS, MORE_ROUNDS = 6, 24  # of taking overlaps back at most: usually, and in a crush
@@ -116,7 +116,7 @@ def push_out_of_walls(world: Any, robot: Any) -> int:
     for i in range(world.wall_count):
         wall = world.walls[i]
         if wall.left < robot.x < wall.right and wall.top < robot.y < wall.bottom and wall.health:
-            dx, dy = off_wall(wall, robot.x, robot.y)
+            dx, dy = offset_from_wall(wall, robot.x, robot.y)
             reach = wall.half + RADIUS
             gap2 = dx * dx + dy * dy
             if gap2 < reach * reach:
@@ -138,7 +138,7 @@ def in_wall(world: Any, x: float, y: float) -> int:
     for i in range(world.wall_count):
         wall = world.walls[i]
         if wall.left < x < wall.right and wall.top < y < wall.bottom and wall.health:
-            dx, dy = off_wall(wall, x, y)
+            dx, dy = offset_from_wall(wall, x, y)
             reach = wall.half + RADIUS - SLOP
             if dx * dx + dy * dy < reach * reach:
                 return 1

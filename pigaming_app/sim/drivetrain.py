@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from math import copysign
 
 from pigaming_app.sim.robot import LAG
-from pigaming_app.sim.toml_table import FieldError, Table
+from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import ROBOTS
 
 MM = 1.32  # mm in an arena px on the nominal mat
@@ -69,7 +69,7 @@ def twist(drivetrain: Drivetrain, left: float, right: float) -> tuple[float, flo
 def parse(text: str, file: str) -> tuple[Drivetrain, ...]:
     """The robots that a file tells of, at most one for each seat. Raises DrivetrainError."""
     try:
-        table = Table.parse(text)
+        table = TomlTable.parse(text)
         table.only("robot")
         found = tuple(_drivetrain(entry) for entry in table.tables("robot"))
         if not 1 <= len(found) <= ROBOTS:
@@ -99,7 +99,7 @@ def _speed(wheel: Wheel, share: float) -> float:
     return copysign(wheel.speed * over / (1.0 - wheel.deadband), share) if over > 0.0 else 0.0
 
 
-def _drivetrain(entry: Table) -> Drivetrain:
+def _drivetrain(entry: TomlTable) -> Drivetrain:
     entry.only("left", "right", "base", "lag", "dead_time")
     return Drivetrain(
         _wheel(entry, "left"),
@@ -110,7 +110,7 @@ def _drivetrain(entry: Table) -> Drivetrain:
     )
 
 
-def _wheel(entry: Table, key: str) -> Wheel:
+def _wheel(entry: TomlTable, key: str) -> Wheel:
     speed, deadband = entry.numbers(key, 2, 0.0, FASTEST)
     if speed < 1.0 or deadband > 0.9:
         raise entry.error(key, "[px/s at full share, share below which it stands still] is needed")

@@ -10,7 +10,7 @@ from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_KEPT, ROWS
 
 SLACK = 2  # nodes that a goal may move before the field is grown anew
@@ -18,7 +18,7 @@ LOOK = 7  # nodes that a robot looks ahead down the field
 
 
 @record
-class Errand:
+class Route:
     """Where a robot wants to go, and the field that leads there."""
 
     wanted: int  # 0: nowhere
@@ -53,12 +53,12 @@ def free_node(world: Any, x: float, y: float) -> int:
 
 
 @kernel
-def grow(world: Any, errand: Any, root: int, until: int) -> None:
+def expand(world: Any, route: Any, root: int, until: int) -> None:
     """Grow the field from `root`, breadth first, until it has passed the node `until` or filled its room."""
-    reach, queue, grid = errand.reach, errand.queue, world.grid
+    reach, queue, grid = route.reach, route.queue, world.grid
     for node in range(NODES):
         reach[node] = 0
-    errand.root = root
+    route.root = root
     reach[root] = 1
     queue[0] = root
     head, tail = 0, 1
@@ -94,9 +94,9 @@ def grow(world: Any, errand: Any, root: int, until: int) -> None:
 
 
 @kernel
-def downhill(errand: Any, node: int) -> int:
+def descend(route: Any, node: int) -> int:
     """The neighbour nearest to the root; a diagonal one only where both nodes beside it are free too."""
-    reach = errand.reach
+    reach = route.reach
     best, least = node, reach[node]
     east, west, south, north = reach[node + 1], reach[node - 1], reach[node + COLUMNS], reach[node - COLUMNS]
     if east and south and 0 < reach[node + COLUMNS + 1] < least:
@@ -119,12 +119,12 @@ def downhill(errand: Any, node: int) -> int:
 
 
 @kernel
-def find_way(world: Any, errand: Any, x: float, y: float) -> None:
-    """Set the point that a robot at (x, y) should drive to now to get on with its errand."""
-    errand.way_x, errand.way_y, errand.straight = errand.goal_x, errand.goal_y, 1
-    if not errand.wanted or clear(world, x, y, errand.goal_x, errand.goal_y, RADIUS + 1.0):
+def update_route(world: Any, route: Any, x: float, y: float) -> None:
+    """Set the point that a robot at (x, y) should drive to now, along its route."""
+    route.way_x, route.way_y, route.straight = route.goal_x, route.goal_y, 1
+    if not route.wanted or is_clear(world, x, y, route.goal_x, route.goal_y, RADIUS + 1.0):
         return
-    root = free_node(world, errand.goal_x, errand.goal_y)
+    root = free_node(world, route.goal_x, route.goal_y)
     node = free_node(world, x, y)
     if root == 0 or node == 0:
         return
@@ -132,28 +132,28 @@ def find_way(world: Any, errand: Any, x: float, y: float) -> None:
     for i in range(world.wall_count):
         if world.walls[i].health:
             standing += 1
-    if not near_root(errand, root) or errand.walls != standing or errand.reach[node] == 0:
-        errand.walls = standing
-        grow(world, errand, root, node)
-        if errand.reach[node] == 0:  # no way there: stay on the straight line
+    if not near_root(route, root) or route.walls != standing or route.reach[node] == 0:
+        route.walls = standing
+        expand(world, route, root, node)
+        if route.reach[node] == 0:  # no way there: stay on the straight line
             return
-    errand.straight = 0
-    errand.way_x, errand.way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+    route.straight = 0
+    route.way_x, route.way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
     for _ in range(LOOK):
-        node = downhill(errand, node)
+        node = descend(route, node)
         way_x, way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
-        if not clear(world, x, y, way_x, way_y, RADIUS + 1.0):
+        if not is_clear(world, x, y, way_x, way_y, RADIUS + 1.0):
             return
-        errand.way_x, errand.way_y = way_x, way_y
-        if node == errand.root:
+        route.way_x, route.way_y = way_x, way_y
+        if node == route.root:
             return
 
 
 @kernel
-def near_root(errand: Any, root: int) -> int:
+def near_root(route: Any, root: int) -> int:
     """1 if the field still leads near enough to `root`: at most SLACK nodes away."""
-    if errand.root == 0:
+    if route.root == 0:
         return 0
-    rows = errand.root // COLUMNS - root // COLUMNS
-    columns = errand.root % COLUMNS - root % COLUMNS
+    rows = route.root // COLUMNS - root // COLUMNS
+    columns = route.root % COLUMNS - root % COLUMNS
     return 1 if -SLACK <= rows <= SLACK and -SLACK <= columns <= SLACK else 0

@@ -9,7 +9,7 @@ from typing import Any
 
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import CELL, COLUMNS, ROWS
 
 SPARE = 4.0  # px between a robot on a free node and the wall
@@ -42,7 +42,7 @@ def wall_on_grid(world: Any, wall: Any, change: int) -> None:
         if (y < wall.ay - edge and y < wall.by - edge) or (y > wall.ay + edge and y > wall.by + edge):
             continue
         for column in range(COLUMNS):
-            dx, dy = off_wall(wall, column * CELL, y)
+            dx, dy = offset_from_wall(wall, column * CELL, y)
             gap = sqrt(dx * dx + dy * dy) - wall.half
             if gap < NEAR:
                 world.grid[row * COLUMNS + column] += ONE_NEAR * change

@@ -14,7 +14,7 @@ FAR = 2.0
 
 
 @kernel
-def meets_disc(x: float, y: float, dx: float, dy: float, cx: float, cy: float, reach: float) -> float:
+def disc_contact(x: float, y: float, dx: float, dy: float, cx: float, cy: float, reach: float) -> float:
     """When a point going from (x, y) by (dx, dy) comes within `reach` of (cx, cy); 0 if it starts there.
 
     The smaller root of |p + t d - c|^2 = reach^2.
@@ -35,14 +35,14 @@ def meets_disc(x: float, y: float, dx: float, dy: float, cx: float, cy: float, r
 
 
 @kernel
-def meets_wall(x: float, y: float, dx: float, dy: float, wall: Any, radius: float) -> float:
+def wall_contact(x: float, y: float, dx: float, dy: float, wall: Any, radius: float) -> float:
     """When a circle going from (x, y) by (dx, dy) touches a wall: two discs and the strip between them."""
     reach = wall.half + radius
     ex, ey = wall.bx - wall.ax, wall.by - wall.ay
     length2 = ex * ex + ey * ey
     px, py = x - wall.ax, y - wall.ay
     if length2 == 0.0:
-        return meets_disc(x, y, dx, dy, wall.ax, wall.ay, reach)
+        return disc_contact(x, y, dx, dy, wall.ax, wall.ay, reach)
     length = sqrt(length2)
     across = (ex * py - ey * px) / length  # signed distance from the wall's line
     along = (ex * px + ey * py) / length2  # 0 at a, 1 at b
@@ -55,17 +55,17 @@ def meets_wall(x: float, y: float, dx: float, dy: float, wall: Any, radius: floa
         t = ((reach if across > 0.0 else -reach) - across) / down
         if 0.0 <= t <= 1.0 and 0.0 <= along + t * forth <= 1.0:
             first = t
-    t = meets_disc(x, y, dx, dy, wall.ax, wall.ay, reach)
+    t = disc_contact(x, y, dx, dy, wall.ax, wall.ay, reach)
     if t < first:
         first = t
-    t = meets_disc(x, y, dx, dy, wall.bx, wall.by, reach)
+    t = disc_contact(x, y, dx, dy, wall.bx, wall.by, reach)
     if t < first:
         first = t
     return first
 
 
 @kernel
-def off_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
+def offset_from_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
     """The way (dx, dy) to a point from the nearest point of a wall's centre line."""
     ex, ey = wall.bx - wall.ax, wall.by - wall.ay
     px, py = x - wall.ax, y - wall.ay
@@ -81,7 +81,7 @@ def off_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
 
 
 @kernel
-def meets_bounds(x: float, y: float, dx: float, dy: float, width: float, height: float, radius: float) -> float:
+def bounds_contact(x: float, y: float, dx: float, dy: float, width: float, height: float, radius: float) -> float:
     """When a circle that starts inside the outer walls touches one of them; never FAR if its way ends beyond one."""
     first = FAR
     if dx > 0.0 and x + dx >= width - radius:
@@ -101,7 +101,7 @@ def meets_bounds(x: float, y: float, dx: float, dy: float, width: float, height:
 
 
 @kernel
-def clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: float) -> int:
+def is_clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: float) -> int:
     """1 if a circle can go from one point to the other without touching an inner wall; 0 px: whether one sees it."""
     dx, dy = to_x - x, to_y - y
     left, right = (x, to_x) if dx > 0.0 else (to_x, x)
@@ -119,7 +119,7 @@ def clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: floa
             and right >= wall.left
             and top <= wall.bottom
             and bottom >= wall.top
-            and meets_wall(x, y, dx, dy, wall, radius) <= 1.0
+            and wall_contact(x, y, dx, dy, wall, radius) <= 1.0
         ):
             return 0
     return 1

@@ -39,14 +39,14 @@ class FieldError(Exception):
         super().__init__(f"{self.key}: {reason}")
 
 
-class Table:
+class TomlTable:
     """A table of a file; `path`: where it stands, such as `wall[2].`, empty for the whole file."""
 
     def __init__(self, entries: Mapping[str, Any], path: str = "") -> None:
         self.entries, self.path = entries, path
 
     @classmethod
-    def parse(cls, text: str) -> "Table":
+    def parse(cls, text: str) -> "TomlTable":
         """The whole of a TOML text. Raises FieldError with the key `syntax`."""
         if any(part.count(".") > MOST_DOTS for part in re.split(r"[\n=,]", text)):
             raise FieldError("syntax", "nested too deep")
@@ -86,7 +86,7 @@ class Table:
         values = self.entries.get(key)
         if not isinstance(values, list) or len(values) != count:
             raise self.error(key, f"a list of {count} numbers is needed")
-        row = Table({f"[{i + 1}]": value for i, value in enumerate(values)}, self.path + key)
+        row = TomlTable({f"[{i + 1}]": value for i, value in enumerate(values)}, self.path + key)
         return tuple(row.number(name, None, low, high) for name in row.entries)
 
     def point(self, key: str) -> tuple[float, float]:
@@ -94,7 +94,7 @@ class Table:
         point = self.entries.get(key)
         if not isinstance(point, list) or len(point) != 2:
             raise self.error(key, "a point [x, y] is needed")
-        pair = Table({key: point[0]}, self.path), Table({key: point[1]}, self.path)
+        pair = TomlTable({key: point[0]}, self.path), TomlTable({key: point[1]}, self.path)
         x, y = (one.number(key) for one in pair)
         if not (0 <= x <= WIDTH and 0 <= y <= HEIGHT):
             raise self.error(key, f"({x:g}, {y:g}) lies outside the arena, 0..{WIDTH:g} x 0..{HEIGHT:g}")
@@ -107,14 +107,14 @@ class Table:
             raise self.error(key, f"{quote(value)}; possible are {', '.join(known)}")
         return str(value)
 
-    def table(self, key: str, reason: str = "a table is missing") -> "Table":
+    def table(self, key: str, reason: str = "a table is missing") -> "TomlTable":
         """The table [key]. Raises FieldError."""
         entries = self.entries.get(key)
         if not isinstance(entries, dict):
             raise self.error(key, reason)
-        return Table(entries, f"{self.path}{key}.")
+        return TomlTable(entries, f"{self.path}{key}.")
 
-    def tables(self, key: str) -> "list[Table]":
+    def tables(self, key: str) -> "list[TomlTable]":
         """The tables [[key]], in the order of the file; none if there are none. Raises FieldError."""
         entries = self.entries.get(key, [])
         if not isinstance(entries, list):
@@ -122,4 +122,4 @@ class Table:
         for i, entry in enumerate(entries):
             if not isinstance(entry, dict):
                 raise self.error(f"{key}[{i + 1}]", "must be a table")
-        return [Table(entry, f"{self.path}{key}[{i + 1}].") for i, entry in enumerate(entries)]
+        return [TomlTable(entry, f"{self.path}{key}[{i + 1}].") for i, entry in enumerate(entries)]

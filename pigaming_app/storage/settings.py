@@ -73,14 +73,14 @@ class OneOf:
         return None if value in self.words else f"none of {', '.join(self.words)}"
 
 
-class Switch:
+class Boolean:
     """True or false."""
 
     def error(self, value: object) -> str | None:
         return None if isinstance(value, bool) else "neither true nor false"
 
 
-class Name:
+class ShortText:
     """A name of something that may have gone since: who uses it looks whether it is there."""
 
     def error(self, value: object) -> str | None:
@@ -89,7 +89,7 @@ class Name:
 
 
 @dataclass(frozen=True)
-class Numbers:
+class SeatNumbers:
     """Different whole numbers from 1 to 4: any of them, or, if `all_of_them`, all."""
 
     all_of_them: bool = False
@@ -117,9 +117,9 @@ def _setting(default: Any, validator: Validator) -> Any:
 class Choice:
     """What was last chosen in the setup of one game; what is empty or 0 is the game's own."""
 
-    arena: str = _setting("", Name())
+    arena: str = _setting("", ShortText())
     minutes: int = _setting(0, Range(0, 60))
-    variant: str = _setting("", Name())
+    variant: str = _setting("", ShortText())
     goal: int = _setting(0, Range(0, 99))
 
 
@@ -136,9 +136,9 @@ class Settings:
     music: int = _setting(6, Range(0, 10))
     sounds: int = _setting(8, Range(0, 10))
     flashes: str = _setting("full", OneOf(("off", "soft", "full")))
-    shake: bool = _setting(True, Switch())
+    shake: bool = _setting(True, Boolean())
     display: int = _setting(0, Range(0, 15))
-    fullscreen: bool = _setting(True, Switch())
+    fullscreen: bool = _setting(True, Boolean())
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # of nobody pressing anything
     corners: list[int] = field(
         default_factory=list, metadata={"validator": Corners()}
@@ -148,15 +148,15 @@ class Settings:
     arena_mm: float = _setting(2112.0, Range(500.0, 10000.0))  # the arena's width on the mat
     camera_mm: float = _setting(2500.0, Range(0.0, 10000.0))  # the camera's height above it; 0: a robot tells it
     lid_mm: float = _setting(70.0, Range(0.0, 300.0))  # the height of the robots' lids
-    port: str = _setting("", Name())  # of the radio; empty: the first there is
+    port: str = _setting("", ShortText())  # of the radio; empty: the first there is
     baud: int = _setting(57600, Range(1200, 921600))
     radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # how it is set
-    mat: bool = _setting(False, Switch())  # real robots can be chosen
+    mat: bool = _setting(False, Boolean())  # real robots can be chosen
     real: list[int] = field(
-        default_factory=list, metadata={"validator": Numbers()}
+        default_factory=list, metadata={"validator": SeatNumbers()}
     )  # seats with real robots, last chosen
     radios: list[int] = field(
-        default_factory=lambda: [1, 2, 3, 4], metadata={"validator": Numbers(True)}
+        default_factory=lambda: [1, 2, 3, 4], metadata={"validator": SeatNumbers(True)}
     )  # of each marker
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 

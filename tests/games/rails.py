@@ -4,7 +4,7 @@ from math import atan2, tau
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.race.course import spot
+from pigaming_app.games.race.course import point_at
 from pigaming_app.sim.plant import Sighting
 
 
@@ -53,7 +53,7 @@ class Ride:
         """Follow the course from `start` to `end` (px, may be beyond a lap, or backwards), so far aside of it."""
         steps = max(1, int(abs(end - start) / 8.0) + 1)
         for k in range(steps + 1):
-            x, y = spot(self.course, (start + (end - start) * k / steps) % self.course.length, aside)
+            x, y = point_at(self.course, (start + (end - start) * k / steps) % self.course.length, aside)
             self.to(seat, x, y)
 
     def before(self, seat, line, way=60.0):

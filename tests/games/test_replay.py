@@ -12,7 +12,7 @@ from pigaming_app.ai import make
 from pigaming_app.games import replay as replays
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.replay import ReplayError, decode, encode, play, verify
+from pigaming_app.games.replay import ReplayError, decode, encode, to_match, verify
 from pigaming_app.sim.record import digest
 
 OLD = sorted((Path(__file__).parents[1] / "data").rglob("*.replay"))
@@ -72,7 +72,7 @@ def test_what_is_saved_comes_back_and_plays_out_to_the_last_bit(match, path):
     assert replay.setup == match.setup
     assert replay.ticks == bytes(match.log.ticks)
     assert verify(replay)
-    again = play(replay)
+    again = to_match(replay)
     while not again.over:
         again.tick()
     assert digest(again.state) == digest(match.state)
@@ -80,7 +80,7 @@ def test_what_is_saved_comes_back_and_plays_out_to_the_last_bit(match, path):
 
 
 def test_a_replay_of_a_replay_is_the_same_file(path, tmp_path):
-    again = play(read(path))
+    again = to_match(read(path))
     while not again.over:
         again.tick()
     (tmp_path / "again").write_bytes(encode(again))

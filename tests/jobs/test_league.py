@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from pigaming_app.ai.experiments.league import Duel, League, Standing, wilson
+from pigaming_app.ai.experiments.league import Duel, League, LeagueRow, wilson
 from pigaming_app.ai.experiments.ratings import Rating
 from pigaming_app.cli import main
 from pigaming_app.jobs.league import table
@@ -28,10 +28,10 @@ def made_up(brains: list[str], matches: int) -> League:
     def duel(left: str, right: str) -> Duel:
         return Duel("pitanks", left, right, matches, matches, 0, 0, wilson(matches, matches), 3.0, -3.0, 1.0, 1.0)
 
-    def standing(i: int, brain: str) -> Standing:
+    def standing(i: int, brain: str) -> LeagueRow:
         wins = (len(brains) - 1 - i) * matches
         interval = wilson(wins, (len(brains) - 1) * matches)
-        return Standing(brain, Rating(900.4 - i, 100.4, 1800.4), wins, 0, i * matches, interval, -12.25)
+        return LeagueRow(brain, Rating(900.4 - i, 100.4, 1800.4), wins, 0, i * matches, interval, -12.25)
 
     duels = tuple(duel(a, b) for i, a in enumerate(brains) for b in brains[i + 1 :])
     standings = tuple(standing(i, brain) for i, brain in enumerate(brains))

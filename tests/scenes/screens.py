@@ -24,7 +24,7 @@ from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.storage.scores import Table
+from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Act, Device, Press
 from tests.scenes.arcade import KEYS, Arcade
 
@@ -110,7 +110,9 @@ def match(arcade: Arcade) -> MatchScene:
 def best(game: str) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         rules = games()[game]
-        conditions = Table(game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4)
+        conditions = ScoreTable(
+            game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4
+        )
         for board in boards(conditions):
             for score in (999, 599_990, -100):
                 arcade.house.scores.add(board.table, "WWW", score)

@@ -8,17 +8,17 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import drive, in_wall
-from pigaming_app.sim.flow_field import Errand, find_way, free_node
+from pigaming_app.sim.flow_field import Route, free_node, update_route
 from pigaming_app.sim.grid import BLOCKED, wall_on_grid
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, HZ, World
 from tests.floor import floor
 
 U = [(600.0, 250.0, 1000.0, 250.0), (1000.0, 250.0, 1000.0, 650.0), (1000.0, 650.0, 600.0, 650.0)]  # open to the left
 
 
-def errand(x, y):
-    made = Errand()
+def route(x, y):
+    made = Route()
     made.wanted, made.goal_x, made.goal_y = 1, x, y
     return made
 
@@ -26,7 +26,7 @@ def errand(x, y):
 def follow(world, robot, to, seconds):
     """Drive where the way leads; the seconds it took, or None."""
     for tick in range(round(seconds * HZ)):
-        find_way(world, to, robot.x, robot.y)
+        update_route(world, to, robot.x, robot.y)
         bearing = turn_to(atan2(to.way_y - robot.y, to.way_x - robot.x) - robot.heading)
         robot.ask_angular = max(-3.0, min(3.0, 6.0 * bearing))
         robot.ask_linear = 260.0 * max(0.0, cos(bearing)) ** 3
@@ -37,15 +37,15 @@ def follow(world, robot, to, seconds):
 
 
 def test_on_an_empty_floor_the_way_is_the_goal_itself():
-    to = errand(1200.0, 700.0)
-    find_way(floor(), to, 200.0, 200.0)
+    to = route(1200.0, 700.0)
+    update_route(floor(), to, 200.0, 200.0)
     assert (to.way_x, to.way_y, to.straight) == (1200.0, 700.0, 1)
 
 
 def test_the_field_leads_out_of_a_u_and_round_it():
     world = floor(walls=U, poses=[(900.0, 450.0, 0.0)])
-    robot, to = world.robots[0], errand(1200.0, 450.0)
-    find_way(world, to, robot.x, robot.y)
+    robot, to = world.robots[0], route(1200.0, 450.0)
+    update_route(world, to, robot.x, robot.y)
     assert not to.straight
     assert to.way_x < robot.x  # the goal is to the right, the way out to the left
     # out 300 px, over 240, and back 600: at least 1000 px, 4 s at full speed
@@ -62,7 +62,7 @@ def test_a_robot_gets_from_every_corner_to_every_other():
                 other.present = 0
             robot = world.robots[0]
             robot.x, robot.y = start
-            assert follow(world, robot, errand(*goal), 15.0) is not None, (start, goal)
+            assert follow(world, robot, route(*goal), 15.0) is not None, (start, goal)
 
 
 @pytest.mark.parametrize("name", arenas("pitanks"))
@@ -74,26 +74,26 @@ def test_every_start_of_every_arena_leads_to_every_other(name):
             build(world, arena)
             robot = world.robots[0]
             robot.present, robot.x, robot.y, robot.heading = 1, start.x, start.y, start.heading
-            assert follow(world, robot, errand(goal.x, goal.y), 30.0) is not None
+            assert follow(world, robot, route(goal.x, goal.y), 30.0) is not None
 
 
 def test_the_way_is_always_one_that_the_robot_fits_through():
     world = floor(walls=U)
-    to = errand(1200.0, 450.0)
+    to = route(1200.0, 450.0)
     for column in range(1, COLUMNS - 1):
         for row in range(1, 18):
             x, y = column * CELL, row * CELL
             if world.grid[row * COLUMNS + column] & BLOCKED:
                 continue
-            find_way(world, to, x, y)
-            assert clear(world, x, y, to.way_x, to.way_y, 36.0)
+            update_route(world, to, x, y)
+            assert is_clear(world, x, y, to.way_x, to.way_y, 36.0)
             assert not in_wall(world, to.way_x, to.way_y)
 
 
 def test_an_unreachable_goal_is_harmless():
     box = [*U, (600.0, 250.0, 600.0, 650.0)]
     world = floor(walls=box, poses=[(200.0, 450.0, 0.0)])
-    robot, to = world.robots[0], errand(800.0, 450.0)
+    robot, to = world.robots[0], route(800.0, 450.0)
     assert follow(world, robot, to, 5.0) is None
     assert (to.way_x, to.way_y) == (800.0, 450.0)
     assert not in_wall(world, robot.x, robot.y)
@@ -102,18 +102,18 @@ def test_an_unreachable_goal_is_harmless():
 @pytest.mark.parametrize("goal", [(-500.0, 9000.0), (0.0, 0.0), (1600.0, 900.0), (800.0, 250.0)])
 def test_a_goal_outside_or_inside_a_wall_is_harmless(goal):
     world = floor(walls=U, poses=[(900.0, 450.0, 0.0)])
-    follow(world, world.robots[0], errand(*goal), 3.0)
+    follow(world, world.robots[0], route(*goal), 3.0)
     assert not in_wall(world, world.robots[0].x, world.robots[0].y)
 
 
 def test_a_wall_shot_away_opens_the_way():
     world = floor(walls=U)
-    to = errand(1200.0, 450.0)
-    find_way(world, to, 900.0, 450.0)
+    to = route(1200.0, 450.0)
+    update_route(world, to, 900.0, 450.0)
     assert not to.straight
     world.walls[1].health = 0
     wall_on_grid(world, world.walls[1], -1)
-    find_way(world, to, 900.0, 450.0)
+    update_route(world, to, 900.0, 450.0)
     assert to.straight
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from pigaming_app.sim.sweep import FAR, clear, meets_bounds, meets_disc, meets_wall, off_wall
+from pigaming_app.sim.sweep import FAR, bounds_contact, disc_contact, is_clear, offset_from_wall, wall_contact
 from pigaming_app.sim.world import Wall
 from tests.floor import floor
 
@@ -54,7 +54,10 @@ def check(t, gap, reach, way):
 @given(PLACE, PLACE, WAY, WAY, PLACE, PLACE, REACH)
 def test_a_disc_is_met_when_the_stepper_meets_it(x, y, dx, dy, cx, cy, reach):
     check(
-        meets_disc(x, y, dx, dy, cx, cy, reach), lambda t: hypot(x + t * dx - cx, y + t * dy - cy), reach, hypot(dx, dy)
+        disc_contact(x, y, dx, dy, cx, cy, reach),
+        lambda t: hypot(x + t * dx - cx, y + t * dy - cy),
+        reach,
+        hypot(dx, dy),
     )
 
 
@@ -64,7 +67,7 @@ def test_a_wall_is_met_when_the_stepper_meets_it(x, y, dx, dy, ax, ay, bx, by, h
     assume((ax, ay) == (bx, by) or hypot(bx - ax, by - ay) > 1e-3)
     made = wall(ax, ay, bx, by, half)
     check(
-        meets_wall(x, y, dx, dy, made, radius),
+        wall_contact(x, y, dx, dy, made, radius),
         lambda t: from_segment(made, x + t * dx, y + t * dy),
         half + radius,
         hypot(dx, dy),
@@ -74,12 +77,12 @@ def test_a_wall_is_met_when_the_stepper_meets_it(x, y, dx, dy, ax, ay, bx, by, h
 @given(PLACE, PLACE, PLACE, PLACE, PLACE, PLACE)
 def test_the_way_off_a_wall_is_the_shortest(x, y, ax, ay, bx, by):
     made = wall(ax, ay, bx, by)
-    assert hypot(*off_wall(made, x, y)) == pytest.approx(from_segment(made, x, y), abs=1e-5)
+    assert hypot(*offset_from_wall(made, x, y)) == pytest.approx(from_segment(made, x, y), abs=1e-5)
 
 
 @given(st.floats(10.0, 190.0), st.floats(10.0, 90.0), WAY, WAY)
 def test_the_bounds_are_met_where_the_circle_touches_them(x, y, dx, dy):
-    t = meets_bounds(x, y, dx, dy, 200.0, 100.0, 10.0)
+    t = bounds_contact(x, y, dx, dy, 200.0, 100.0, 10.0)
 
     def room(share):
         px, py = x + share * dx, y + share * dy
@@ -93,26 +96,26 @@ def test_the_bounds_are_met_where_the_circle_touches_them(x, y, dx, dy):
 
 
 def test_head_on_at_a_wall_stops_the_centre_a_radius_and_a_half_thickness_before_it():
-    t = meets_wall(0.0, 50.0, 100.0, 0.0, wall(80.0, 0.0, 80.0, 100.0, half=15.0), 6.0)
+    t = wall_contact(0.0, 50.0, 100.0, 0.0, wall(80.0, 0.0, 80.0, 100.0, half=15.0), 6.0)
     assert 100.0 * t == pytest.approx(80.0 - 15.0 - 6.0)
 
 
 def test_an_end_of_a_wall_is_round():
     # aimed 21 * sin 30 beside the end's centre: contact is 21 * cos 30 before it
-    t = meets_wall(0.0, 10.5, 200.0, 0.0, wall(100.0, 0.0, 100.0, -80.0, half=15.0), 6.0)
+    t = wall_contact(0.0, 10.5, 200.0, 0.0, wall(100.0, 0.0, 100.0, -80.0, half=15.0), 6.0)
     assert 200.0 * t == pytest.approx(100.0 - 21.0 * 0.75**0.5)
 
 
 def test_moving_away_from_a_disc_never_meets_it():
-    assert meets_disc(50.0, 0.0, 100.0, 0.0, 0.0, 0.0, 42.0) == FAR
-    assert meets_disc(50.0, 0.0, 0.0, 0.0, 0.0, 0.0, 42.0) == FAR
-    assert meets_disc(41.0, 0.0, 100.0, 0.0, 0.0, 0.0, 42.0) == 0.0
+    assert disc_contact(50.0, 0.0, 100.0, 0.0, 0.0, 0.0, 42.0) == FAR
+    assert disc_contact(50.0, 0.0, 0.0, 0.0, 0.0, 0.0, 42.0) == FAR
+    assert disc_contact(41.0, 0.0, 100.0, 0.0, 0.0, 0.0, 42.0) == 0.0
 
 
 def test_a_wall_hides_what_is_behind_it_until_it_is_gone():
     world = floor(walls=[(800.0, 300.0, 800.0, 600.0)])
-    assert not clear(world, 700.0, 450.0, 900.0, 450.0, 0.0)
-    assert clear(world, 700.0, 250.0, 900.0, 250.0, 0.0)
-    assert not clear(world, 700.0, 250.0, 900.0, 250.0, 36.0)
+    assert not is_clear(world, 700.0, 450.0, 900.0, 450.0, 0.0)
+    assert is_clear(world, 700.0, 250.0, 900.0, 250.0, 0.0)
+    assert not is_clear(world, 700.0, 250.0, 900.0, 250.0, 36.0)
     world.walls[0].health = 0
-    assert clear(world, 700.0, 450.0, 900.0, 450.0, 36.0)
+    assert is_clear(world, 700.0, 450.0, 900.0, 450.0, 36.0)

@@ -1,11 +1,11 @@
-"""How a brain without a view of its own drives to where its errand leads; the frozen machine relies on it as it is."""
+"""How a brain without a view of its own drives along its route; the frozen machine relies on it as it is."""
 
 from math import atan2, pi, sqrt
 from typing import Any
 
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.flow_field import find_way
+from pigaming_app.sim.flow_field import update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import LAG
 from pigaming_app.sim.world import DT
@@ -18,7 +18,7 @@ def bearing(robot: Any, x: float, y: float) -> float:
 
 
 @kernel
-def turning(angle: float, angular: float, turn_rate: float, period: int) -> float:
+def turn_stick(angle: float, angular: float, turn_rate: float, period: int) -> float:
     """The stick that turns by `angle` within `period` ticks, as far as the motors can; they turn by `angular` now."""
     return float(0.75 * (angle - LAG * angular) / (turn_rate * period * DT))
 
@@ -35,13 +35,13 @@ def approach(angle: float, distance: float) -> tuple[float, float]:
 
 
 @kernel
-def follow(match: Any, seat: int, errand: Any, period: int) -> None:
+def follow(match: Any, seat: int, route: Any, period: int) -> None:
     """Drive on along the way for `period` ticks."""
     robot = match.robots[seat]
-    find_way(match, errand, robot.x, robot.y)
-    dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
+    update_route(match, route, robot.x, robot.y)
+    dx, dy = route.way_x - robot.x, route.way_y - robot.y
     gap = sqrt(dx * dx + dy * dy)
-    angle, speed = approach(bearing(robot, errand.way_x, errand.way_y), gap)
-    if errand.straight and gap < 70.0:
+    angle, speed = approach(bearing(robot, route.way_x, route.way_y), gap)
+    if route.straight and gap < 70.0:
         speed *= 0.3 + 0.7 * gap / 70.0
-    set_action(match.actions[seat], speed, turning(angle, robot.angular, match.rules.turn_rate, period), 0, 0)
+    set_action(match.actions[seat], speed, turn_stick(angle, robot.angular, match.rules.turn_rate, period), 0, 0)

@@ -9,14 +9,14 @@ from dataclasses import dataclass, field
 from math import cos, tau
 
 PETALS = 16  # directions of a rose, clockwise from straight ahead
-Move = tuple[int, int, int]  # stick ahead and clockwise, each -1, 0 or 1, and fire, 0 or 1
+MoveKey = tuple[int, int, int]  # stick ahead and clockwise, each -1, 0 or 1, and fire, 0 or 1
 
 OPPONENT, MATE, WALL, BULLET, PRIZE, GOAL, WAY = "opponent", "mate", "wall", "bullet", "prize", "goal", "way"
 PERSON = "person"
 
 
 @dataclass(frozen=True)
-class Sight:
+class Percept:
     """A thing that matters to it, and where it believes that is, arena px. `clear`: nothing stands between."""
 
     kind: str
@@ -33,11 +33,11 @@ class Thoughts:
     because: str = ""
     names: Mapping[str, int | str] = field(default_factory=dict)
     facts: Mapping[str, float] = field(default_factory=dict)  # the state that it goes by, named
-    sights: Sequence[Sight] = ()
+    sights: Sequence[Percept] = ()
     rose: Sequence[float] = (0.0,) * PETALS  # how good each direction seems, -1..1, relative to the own heading
     wishes: Mapping[str, float] = field(default_factory=dict)  # how much it wants each of the things it can do, 0..1
-    moves: Mapping[Move, float] = field(default_factory=dict)  # the same for brains that choose among moves
-    chosen: str | Move = ""  # a key of `wishes` or of `moves`
+    moves: Mapping[MoveKey, float] = field(default_factory=dict)  # the same for brains that choose among moves
+    chosen: str | MoveKey = ""  # a key of `wishes` or of `moves`
 
 
 def clamp(value: float) -> float:

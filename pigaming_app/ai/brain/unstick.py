@@ -13,12 +13,12 @@ from typing import Any
 
 from pigaming_app.ai.brain.steering import follow
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.flow_field import Errand
+from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HZ
 
 SOMEWHERE = 20.0  # px that count as having got somewhere
@@ -68,7 +68,7 @@ class Reflex:
     """What the reflex remembers."""
 
     on: int  # 0: there is none
-    errand: Errand
+    route: Route
     x: float  # where the robot was when it last got somewhere
     y: float
     held_up: int  # ticks since, of pushing
@@ -97,9 +97,9 @@ def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) 
         return 0
     reflex.left -= period
     if reflex.tries % 2 and not classic:
-        errand, other = reflex.errand, match.robots[opponent]
-        errand.wanted, errand.goal_x, errand.goal_y = 1, other.x, other.y
-        follow(match, seat, errand, period)
+        route, other = reflex.route, match.robots[opponent]
+        route.wanted, route.goal_x, route.goal_y = 1, other.x, other.y
+        follow(match, seat, route, period)
     else:
         set_action(action, reflex.stick, reflex.turn, 0, 0)
     return 1
@@ -118,5 +118,5 @@ def update_reflex(match: Any, robot: Any, opponent: int, reflex: Any, action: An
         return
     if action.linear != 0.0:
         reflex.held_up += period
-    elif match.rules.turbo and not clear(match, robot.x, robot.y, other.x, other.y, 0.0):
+    elif match.rules.turbo and not is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
         reflex.waited += period

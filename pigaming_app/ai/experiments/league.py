@@ -44,7 +44,7 @@ class Duel:
 
 
 @dataclass(frozen=True)
-class Standing:
+class LeagueRow:
     """What became of one brain of a league, over all its matches."""
 
     brain: str
@@ -66,7 +66,7 @@ class League:
     variant: str
     matches: int  # of each pair
     seed: int
-    standings: tuple[Standing, ...]
+    standings: tuple[LeagueRow, ...]
     duels: tuple[Duel, ...]
     seconds: float
 
@@ -138,7 +138,7 @@ def check_brains(game: str, brains: Sequence[str]) -> None:
         raise ChoiceError(f"a league needs two brains or more; {game} has {', '.join(BRAINS[game])}")
 
 
-class End(NamedTuple):
+class Ending(NamedTuple):
     """How a match of a duel ended: where each side stands, and its score."""
 
     left: float
@@ -147,7 +147,7 @@ class End(NamedTuple):
     right_score: int
 
 
-def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[End]]:
+def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[Ending]]:
     """Play these matches, every other one with the sides swapped; how each ended, in their order."""
     game, matches = setups[0].game, len(setups)
     brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
@@ -159,7 +159,7 @@ def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> t
     for batch in played:
         batch.play(ticks)
     seconds = perf_counter() - began
-    ends = [End(0.0, 0.0, 0, 0)] * matches
+    ends = [Ending(0.0, 0.0, 0, 0)] * matches
     for side, batch in enumerate(played):
         ends[side::2] = _ends(game, batch, swapped=side == 1)
     wins = sum(end.left > end.right for end in ends)
@@ -209,14 +209,14 @@ def _both_ways(setups: Sequence[Setup], brains: list[str]) -> Iterator[tuple[Seq
             yield some, order
 
 
-def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[End]:
+def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[Ending]:
     """The end of every match, from the side of `left`."""
     rules = games()[game]
     for state in batch.ended():
         one, other = ((rules.ranking_key(state, seat), _score(state, seat)) for seat in (0, 1))
         if swapped:
             one, other = other, one
-        yield End(one[0], other[0], one[1], other[1])
+        yield Ending(one[0], other[0], one[1], other[1])
 
 
 def _score(state: Any, seat: int) -> int:
@@ -234,13 +234,13 @@ def wilson(wins: int, matches: int, z: float = 1.959964) -> tuple[float, float]:
     return max(0.0, (centre - spread) / whole), min(1.0, (centre + spread) / whole)
 
 
-def _points(ends: Sequence[End]) -> tuple[float, float]:
+def _points(ends: Sequence[Ending]) -> tuple[float, float]:
     """What the sides won of these matches: 1 for a win, 1/2 for a tie."""
     won = sum(1.0 if end.left > end.right else 0.5 if end.left == end.right else 0.0 for end in ends)
     return won, len(ends) - won
 
 
-def _standing(brain: str, rating: Rating, duels: Sequence[Duel]) -> Standing:
+def _standing(brain: str, rating: Rating, duels: Sequence[Duel]) -> LeagueRow:
     """The sum of a brain's duels."""
     wins = ties = losses = 0
     score = 0.0
@@ -250,4 +250,4 @@ def _standing(brain: str, rating: Rating, duels: Sequence[Duel]) -> Standing:
             wins, losses = wins + (one.wins if left else one.losses), losses + (one.losses if left else one.wins)
             ties, score = ties + one.ties, score + one.matches * (one.mean_score_left if left else one.mean_score_right)
     played = wins + ties + losses
-    return Standing(brain, rating, wins, ties, losses, wilson(wins, played), score / played)
+    return LeagueRow(brain, rating, wins, ties, losses, wilson(wins, played), score / played)

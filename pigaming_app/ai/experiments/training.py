@@ -12,9 +12,9 @@ from typing import Any
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.qlearning.learner import LearnerMind, Table, learn, learn_last, temperature
+from pigaming_app.ai.qlearning.learner import LearnerMind, QTable, learn, learn_last, temperature
 from pigaming_app.ai.qlearning.player import Learned, player
-from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe
+from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, RecipeRecord
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Seat, Setup
@@ -126,7 +126,7 @@ class Training:
     @recipe.setter
     def recipe(self, recipe: Recipe) -> None:
         self._recipe = recipe
-        for field in fields_of(Knobs):
+        for field in fields_of(RecipeRecord):
             value = field.kind(getattr(recipe, field.name))
             if self.fast:
                 self._tables["knobs"][field.name] = value
@@ -198,9 +198,9 @@ def resumed(kept: Trained, fast: bool | None = None) -> Training:
     return Training(kept.recipe, kept.seed, kept.arena, fast, kept.rows[0], kept.minutes)
 
 
-def fresh_table(seed: int) -> Table:
+def fresh_table(seed: int) -> QTable:
     """A plain table that knows nothing."""
-    table = Table()
+    table = QTable()
     table.random = seeded(seed)
     return table
 
@@ -214,9 +214,9 @@ def as_record(row: Any) -> Any:
     return row.view(np.recarray)[0]
 
 
-def to_plain(table: Any) -> Table:
+def to_plain(table: Any) -> QTable:
     """A plain copy of a table of either body."""
-    return copy(table) if isinstance(table, Table) else unpack(Table, table)
+    return copy(table) if isinstance(table, QTable) else unpack(QTable, table)
 
 
 def training_setup(seed: int, minutes: float = MINUTES, arena: str = ARENA) -> Setup:

@@ -1,12 +1,12 @@
 """How a driver of Robot Factory gets to a slot and uses its fork: round walls, robots and people.
 
-`mind` is a ForemanMind; all of it works on the view.
+`mind` is a ForemanMind; all of it works on the observation `obs`.
 """
 
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.steering import turning
+from pigaming_app.ai.brain.steering import turn_stick
 from pigaming_app.ai.brain.unstick import choose_escape, held_up
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import SLOTS, WORKERS
@@ -37,10 +37,10 @@ DETOUR = 4 * HZ  # ticks of driving towards another slot
 @kernel
 def drive_to(obs: Any, mind: Any, action: Any) -> None:
     """Go to the target; there, turn to it and press fire."""
-    slot, errand = obs.slots[mind.target], mind.senses.errand
-    moved = not errand.wanted or errand.goal_x != slot.x or errand.goal_y != slot.y
-    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
-    if moved:  # the way comes with the next view
+    slot, route = obs.slots[mind.target], mind.senses.route
+    moved = not route.wanted or route.goal_x != slot.x or route.goal_y != slot.y
+    route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
+    if moved:  # the way comes with the next observation
         set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.near and obs.goal_distance < STAND_OFF and obs.straight:
@@ -78,7 +78,7 @@ def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
         speed = (obs.goal_distance - obs.fork) / 40.0
         if speed > 0.0 and room(obs, 0.0, 0.0) < 20.0:
             speed = 0.0
-    set_action(action, speed, turning(obs.goal_bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
+    set_action(action, speed, turn_stick(obs.goal_bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
 
 
 @kernel
@@ -101,7 +101,7 @@ def follow_round(obs: Any, mind: Any, action: Any) -> None:
     if not free and ahead < 80.0:
         speed = 0.0
     dash = mind.dash and obs.goal_distance > 350.0 and obs.turbo > 0.4 and abs(bearing) < 0.25 and ahead > LOOK
-    set_action(action, speed, turning(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
+    set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
 
 
 @kernel
@@ -137,7 +137,7 @@ def lose_patience(obs: Any, mind: Any) -> None:
     """
     left = obs.goal_distance
     if not obs.straight:
-        left = CELL * mind.senses.errand.reach[node_at(obs.x, obs.y)]
+        left = CELL * mind.senses.route.reach[node_at(obs.x, obs.y)]
     if mind.near or mind.sought != mind.target:
         mind.sought, mind.least, mind.late = mind.target, 1e9, 0
     if 0.0 < left < mind.least - NEARER:
@@ -154,9 +154,9 @@ def lose_patience(obs: Any, mind: Any) -> None:
 @kernel
 def make_detour(obs: Any, mind: Any, action: Any) -> None:
     """Drive towards another slot for a while, so that the way to the target is another one."""
-    slot, errand = obs.slots[mind.via], mind.senses.errand
-    moved = errand.goal_x != slot.x or errand.goal_y != slot.y
-    errand.wanted, errand.goal_x, errand.goal_y = 1, slot.x, slot.y
+    slot, route = obs.slots[mind.via], mind.senses.route
+    moved = route.goal_x != slot.x or route.goal_y != slot.y
+    route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
     mind.detour -= PERIOD
     if moved:
         set_action(action, 0.0, 0.0, 0, 0)

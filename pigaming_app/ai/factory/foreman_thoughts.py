@@ -1,14 +1,14 @@
 """What the hand-written driver of Robot Factory has on its mind: which job is worth what to it, and the way there.
 
-Nothing is thought twice: numbers come from its memory and its last view, what jobs cost from its own reckoning, without
-its mistakes and before it shares them out with its mate.
+Numbers come from the driver's memory and its last observation; the costs of jobs are its own, without their noise and
+before it shares the jobs out with its mate.
 """
 
 from collections.abc import Iterator
 from math import pi, tau
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Sight, Thoughts, blend, clamp, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.factory.driving import HELD_UP_TICKS, LOOK, ROBOT_ROOM, room
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, away, cheapest_place, cost_of
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, B
@@ -93,18 +93,18 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Sight]:
+def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
     """People and robots that are close, and the way to the slot."""
     for person in obs.people:
         if person.distance < 2.0 * LOOK:
-            yield Sight(PERSON, person.x, person.y)
+            yield Percept(PERSON, person.x, person.y)
     for other in obs.others:
         if other.present and other.distance < LOOK:
-            yield Sight(OPPONENT, other.x, other.y)
+            yield Percept(OPPONENT, other.x, other.y)
     if doing not in ("frozen", "ponder", "free"):
         if not obs.straight:
-            yield Sight(WAY, obs.way_x, obs.way_y)
-        yield Sight(GOAL, obs.slots[mind.target].x, obs.slots[mind.target].y)
+            yield Percept(WAY, obs.way_x, obs.way_y)
+        yield Percept(GOAL, obs.slots[mind.target].x, obs.slots[mind.target].y)
 
 
 def _rose(obs: Any, mind: Any, doing: str) -> list[float]:

@@ -32,7 +32,7 @@ def choose_job(obs: Any, mind: Any) -> None:
     best = cheapest_place(obs, mind) if obs.carries else share_out(obs, mind)
     if best >= 0:
         mind.target = best
-        if not obs.carries or takes(obs.slots[best], obs.carries - 1):
+        if not obs.carries or may_take(obs.slots[best], obs.carries - 1):
             mind.waiting = 0  # but not on the way back to the shelf
         return
     mind.waiting += 1
@@ -41,7 +41,7 @@ def choose_job(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def taken(obs: Any, s: int) -> bool:
+def is_taken(obs: Any, s: int) -> bool:
     """Whether a mate says that it makes for slot s."""
     said = False
     for i in range(OTHERS):
@@ -86,7 +86,7 @@ def shyness(mind: Any, s: int) -> float:
 
 
 @kernel
-def takes(slot: Any, state: int) -> bool:
+def may_take(slot: Any, state: int) -> bool:
     """Whether a pallet in a state is at its right place in a slot."""
     if slot.kind == INPUT:
         return bool((slot.makes == A and state == RAW) or (slot.makes == B and state == HALF))
@@ -100,9 +100,9 @@ def cheapest_place(obs: Any, mind: Any) -> int:
     best, least = -1, NO
     for s in range(SLOTS):
         slot = obs.slots[s]
-        if not slot.put or taken(obs, s):
+        if not slot.put or is_taken(obs, s):
             continue
-        right = slot.kind == ENTRY if state == DAMAGED else takes(slot, state)
+        right = slot.kind == ENTRY if state == DAMAGED else may_take(slot, state)
         if not right:
             continue
         cost = away(obs, s) + hindrance(slot) + shyness(mind, s)
@@ -124,7 +124,7 @@ def onward(obs: Any, s: int, state: int) -> float:
     least = NO
     for t in range(SLOTS):
         slot = obs.slots[t]
-        if takes(slot, state) and not slot.holds and not taken(obs, t):
+        if may_take(slot, state) and not slot.holds and not is_taken(obs, t):
             cost = between(obs, s, t) + hindrance(slot)
             if cost < least:
                 least = cost
@@ -141,7 +141,7 @@ def cost_of(obs: Any, s: int, queue: float) -> float:
     if state == DAMAGED:
         return NO
     then = onward(obs, s, state)
-    if takes(
+    if may_take(
         slot, state
     ):  # where it should be, unless nobody comes to the machine and it would be better off elsewhere
         return then if slot.kind == INPUT and slot.stalled > STALLED and then < slot.stalled * SPEED else NO
@@ -162,7 +162,7 @@ def share_out(obs: Any, mind: Any) -> int:
     best, least = -1, NO
     for s in range(SLOTS):
         then = cost_of(obs, s, queue)
-        if then >= NO - FREES or (alone and taken(obs, s)):
+        if then >= NO - FREES or (alone and is_taken(obs, s)):
             continue
         cost = away(obs, s) + then + shyness(mind, s) - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
@@ -198,10 +198,10 @@ def waiting_place(obs: Any, mind: Any) -> int:
     for s in range(SLOTS):
         slot = obs.slots[s]
         if obs.carries:
-            good = takes(slot, state) or (state == DAMAGED and slot.kind == ENTRY and slot.mine == 1)
+            good = may_take(slot, state) or (state == DAMAGED and slot.kind == ENTRY and slot.mine == 1)
         else:
             good = slot.mine == 1 or (slot.kind == OUTPUT and slot.ours == 1)
-        if good and not taken(obs, s):
+        if good and not is_taken(obs, s):
             cost = away(obs, s) + slot.wait * SPEED + delay(slot) + shyness(mind, s)
             if slot.mine == 1:
                 cost += HOME

@@ -4,8 +4,8 @@ Winning or level it defends: it goes behind the nearest inner wall, waits there,
 Losing it attacks: it closes in round the walls, aims, fires. It aims at where the opponent is, not at where it will be,
 dodges nothing, picks nothing up and never grows bored. It does not change when `fsm` gets better: that is its use.
 
-What the original's paper does not say about its machine are the numbers of `Unknown`, and only they were chosen so that
-trained robots fare against it as published: see tests/bench/reproduce_table.py.
+The original's paper leaves the numbers of `Parameters` open. Only they were chosen so that trained robots fare against
+it as published: see tests/bench/reproduce_table.py.
 """
 
 from dataclasses import dataclass
@@ -13,17 +13,17 @@ from math import sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.steering import bearing, follow, turning
+from pigaming_app.ai.brain.steering import bearing, follow, turn_stick
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.flow_field import Errand
+from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
@@ -31,7 +31,7 @@ HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px in ticks that are getting n
 
 
 @dataclass(frozen=True)
-class Unknown:
+class Parameters:
     """What the original leaves unknown about its machine."""
 
     engage: float = 200.0  # px from which it aims and fires at an opponent in sight, closing in no further
@@ -42,7 +42,7 @@ class Unknown:
 
 
 @record
-class Numbers(Unknown):
+class ParameterRecord(Parameters):
     """The same as a kernel reads it."""
 
 
@@ -50,8 +50,8 @@ class Numbers(Unknown):
 class ClassicMind:
     """What the machine remembers."""
 
-    numbers: Numbers
-    errand: Errand
+    numbers: ParameterRecord
+    route: Route
     random: int
     state: int
     since: int  # ticks in this state
@@ -86,15 +86,15 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 @kernel
 def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
     """Go behind the nearest wall and wait there; fire at an opponent that shows."""
-    robot, errand = match.robots[seat], mind.errand
-    dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
+    robot, route = match.robots[seat], mind.route
+    dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     if shows(match, robot, other, mind):
         shoot(match, seat, other, mind)
     elif dx * dx + dy * dy > mind.numbers.arrived * mind.numbers.arrived:
-        follow(match, seat, errand, mind.numbers.period)
+        follow(match, seat, route, mind.numbers.period)
     else:
         angle, turn_rate = bearing(robot, other.x, other.y), match.rules.turn_rate
-        set_action(match.actions[seat], 0.0, turning(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
+        set_action(match.actions[seat], 0.0, turn_stick(angle, robot.angular, turn_rate, mind.numbers.period), 0, 0)
 
 
 @kernel
@@ -104,7 +104,7 @@ def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
         shoot(match, seat, other, mind)
     else:
         go_to(mind, other.x, other.y)
-        follow(match, seat, mind.errand, mind.numbers.period)
+        follow(match, seat, mind.route, mind.numbers.period)
 
 
 @kernel
@@ -147,7 +147,7 @@ def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
     dx, dy = other.x - robot.x, other.y - robot.y
     if dx * dx + dy * dy > reach * reach:
         return 0
-    return clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius)
+    return is_clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius)
 
 
 @kernel
@@ -185,8 +185,8 @@ def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 @kernel
 def go_to(mind: Any, x: float, y: float) -> None:
-    """Send the navigator on an errand."""
-    mind.errand.wanted, mind.errand.goal_x, mind.errand.goal_y = 1, x, y
+    """Set the goal of the route."""
+    mind.route.wanted, mind.route.goal_x, mind.route.goal_y = 1, x, y
 
 
 @kernel
@@ -195,11 +195,11 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     robot = match.robots[seat]
     angle = bearing(robot, other.x, other.y)
     fire = 1 if not match.tanks[seat].cooldown and abs(angle) < mind.numbers.tolerance else 0
-    stick = turning(angle, robot.angular, match.rules.turn_rate, mind.numbers.period)
+    stick = turn_stick(angle, robot.angular, match.rules.turn_rate, mind.numbers.period)
     set_action(match.actions[seat], 0.0, stick, fire, 0)
 
 
-def machine(name: str, unknown: Unknown) -> BrainKind:
+def machine(name: str, unknown: Parameters) -> BrainKind:
     """The machine with these numbers."""
 
     def reset(mind: Any, seed: int) -> None:
@@ -210,4 +210,4 @@ def machine(name: str, unknown: Unknown) -> BrainKind:
     return BrainKind(name, ClassicMind, think, reset)
 
 
-CLASSIC = machine("classic", Unknown())
+CLASSIC = machine("classic", Parameters())

@@ -5,18 +5,18 @@ from math import atan2, pi
 from typing import Any
 
 from pigaming_app.ai.brain.steering import bearing
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Sight, Thoughts, clamp, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Percept, Thoughts, clamp, towards
 from pigaming_app.ai.pitanks import classic
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.observation import lead
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """The thoughts of the machine on `seat`."""
     opponent = nearest_opponent(match, seat)
-    if not mind.errand.wanted or opponent < 0:
+    if not mind.route.wanted or opponent < 0:
         return Thoughts("starts")
     robot, other = match.robots[seat], match.robots[opponent]
     aim = abs(bearing(robot, other.x, other.y))
@@ -49,7 +49,7 @@ def _doing(robot: Any, mind: Any, shows: bool, ahead: int) -> tuple[str, str, st
         return "duel", "sees", "fire"
     if mind.state == classic.ATTACK:
         return "hunt", "behind" if ahead < 0 else "no_cover", "attack"
-    there = _away(robot, mind.errand.goal_x, mind.errand.goal_y) <= mind.numbers.arrived
+    there = _away(robot, mind.route.goal_x, mind.route.goal_y) <= mind.numbers.arrived
     return "wait" if there else "cover", "ahead" if ahead > 0 else "level", "cover"
 
 
@@ -58,15 +58,15 @@ def _away(robot: Any, x: float, y: float) -> float:
     return float((dx * dx + dy * dy) ** 0.5)
 
 
-def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterator[Sight]:
-    seen = bool(clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
-    yield Sight(OPPONENT, other.x, other.y, seen)
-    errand = mind.errand
+def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterator[Percept]:
+    seen = bool(is_clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
+    yield Percept(OPPONENT, other.x, other.y, seen)
+    route = mind.route
     if doing in ("hunt", "cover"):
-        if not errand.straight:
-            yield Sight(WAY, errand.way_x, errand.way_y)
+        if not route.straight:
+            yield Percept(WAY, route.way_x, route.way_y)
         if doing == "cover":
-            yield Sight(GOAL, errand.goal_x, errand.goal_y)
+            yield Percept(GOAL, route.goal_x, route.goal_y)
 
 
 def _rose(robot: Any, other: Any, mind: Any, doing: str) -> list[float]:
@@ -75,5 +75,5 @@ def _rose(robot: Any, other: Any, mind: Any, doing: str) -> list[float]:
         return towards(0.0 if mind.escape > 0.0 else pi)
     if doing in ("duel", "wait"):
         return towards(bearing(robot, other.x, other.y))
-    errand = mind.errand
-    return towards(atan2(errand.way_y - robot.y, errand.way_x - robot.x) - robot.heading)
+    route = mind.route
+    return towards(atan2(route.way_y - robot.y, route.way_x - robot.x) - robot.heading)

@@ -11,7 +11,7 @@ from math import pi
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.steering import approach, turning
+from pigaming_app.ai.brain.steering import approach, turn_stick
 from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
 from pigaming_app.games.pitanks.observation import OTHERS, Observation, Senses, observe
 from pigaming_app.sim.action import set_action
@@ -194,9 +194,9 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def go_to(mind: Any, x: float, y: float) -> None:
-    """Send the navigator on an errand; its answer comes with the next view."""
-    errand = mind.senses.errand
-    errand.wanted, errand.goal_x, errand.goal_y = 1, x, y
+    """Set the goal of the route; the way there comes with the next observation."""
+    route = mind.senses.route
+    route.wanted, route.goal_x, route.goal_y = 1, x, y
 
 
 @kernel
@@ -207,14 +207,14 @@ def follow(obs: Any, mind: Any, action: Any) -> None:
     if obs.straight and near < 1.0:
         speed *= 0.3 + 0.7 * near
     dash = 1 if obs.goal_distance > 300.0 and obs.turbo > 0.5 and abs(bearing) < 0.3 else 0
-    set_action(action, speed, turning(bearing, obs.angular, obs.turn_rate, PERIOD), snap_shot(obs, mind), dash)
+    set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), snap_shot(obs, mind), dash)
 
 
 @kernel
 def shoot(obs: Any, mind: Any, action: Any, speed: float) -> None:
     """Turn to the target's aim, and fire when it is on it."""
     aim = obs.others[mind.target].aim + mind.bias
-    set_action(action, speed, turning(aim, obs.angular, obs.turn_rate, PERIOD), snap_shot(obs, mind), 0)
+    set_action(action, speed, turn_stick(aim, obs.angular, obs.turn_rate, PERIOD), snap_shot(obs, mind), 0)
 
 
 @kernel
@@ -249,7 +249,7 @@ def duel(obs: Any, mind: Any, action: Any, other: Any) -> None:
         shoot(obs, mind, action, ahead)
     else:
         aside = other.bearing + SWERVE * mind.weave
-        set_action(action, ahead, turning(aside, obs.angular, obs.turn_rate, PERIOD), 0, 0)
+        set_action(action, ahead, turn_stick(aside, obs.angular, obs.turn_rate, PERIOD), 0, 0)
 
 
 @kernel

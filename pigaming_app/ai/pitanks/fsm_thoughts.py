@@ -1,13 +1,13 @@
 """What the hand-written opponent of PiTanks has on its mind: its state, what pulls it out of it, where it wants to go.
 
-Nothing is thought twice: numbers come from its memory and its last view, rules from the machine itself.
+Nothing is thought twice: numbers come from its memory and its last observation, rules from the machine itself.
 """
 
 from collections.abc import Iterator
 from math import cos, pi, sin
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, Sight, Thoughts, blend, clamp, towards
+from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS, Action
@@ -56,11 +56,11 @@ def _doing(obs: Any, mind: Any) -> str:
         return "dodge"
     if mind.target < 0:
         return "idle"
-    other, errand = obs.others[mind.target], mind.senses.errand
+    other, route = obs.others[mind.target], mind.senses.route
     waits = mind.state == fsm.DEFEND and obs.goal_distance <= fsm.ARRIVED
     if mind.seen and (other.distance < fsm.CROWD or waits if mind.state == fsm.DEFEND else other.distance < fsm.REACH):
         return "duel"
-    if obs.prize and (errand.goal_x, errand.goal_y) == (obs.prize_x, obs.prize_y):
+    if obs.prize and (route.goal_x, route.goal_y) == (obs.prize_x, obs.prize_y):
         return "collect"
     if mind.state == fsm.ATTACK:
         return "hunt"
@@ -117,20 +117,20 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Sight]:
+def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
     """Whom it is after, the bullet that will hit it, what lies about, and where it is going."""
     if mind.target >= 0:
         other = obs.others[mind.target]
-        yield Sight(OPPONENT, other.x, other.y, bool(other.clear))
+        yield Percept(OPPONENT, other.x, other.y, bool(other.clear))
     if obs.threat < SOON:
         away, angle = obs.threat * match.rules.bullet_speed, obs.heading + obs.threat_bearing
-        yield Sight(BULLET, obs.x + away * cos(angle), obs.y + away * sin(angle))
-    errand = mind.senses.errand
-    if doing in ("hunt", "cover", "collect") and errand.wanted:
+        yield Percept(BULLET, obs.x + away * cos(angle), obs.y + away * sin(angle))
+    route = mind.senses.route
+    if doing in ("hunt", "cover", "collect") and route.wanted:
         if not obs.straight:
-            yield Sight(WAY, obs.way_x, obs.way_y)
+            yield Percept(WAY, obs.way_x, obs.way_y)
         if doing != "hunt":
-            yield Sight(PRIZE if doing == "collect" else GOAL, errand.goal_x, errand.goal_y, bool(obs.straight))
+            yield Percept(PRIZE if doing == "collect" else GOAL, route.goal_x, route.goal_y, bool(obs.straight))
 
 
 def _rose(obs: Any, mind: Any, doing: str) -> list[float]:

@@ -10,7 +10,7 @@ from typing import Any
 from pigaming_app.games.pitanks.state import OWN_BULLETS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import ROBOTS
 
 SECTORS = 16
@@ -83,7 +83,7 @@ def wall_sector(match: Any, robot: Any) -> int:
     for i in range(match.wall_count):
         wall = match.walls[i]
         if wall.health:
-            dx, dy = off_wall(wall, robot.x, robot.y)
+            dx, dy = offset_from_wall(wall, robot.x, robot.y)
             gap = sqrt(dx * dx + dy * dy) - wall.half
             if gap < least:
                 least = gap

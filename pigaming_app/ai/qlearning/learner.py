@@ -8,7 +8,7 @@ from typing import Annotated, Any, NamedTuple
 
 from pigaming_app.ai.brain.unstick import Reflex
 from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
-from pigaming_app.ai.qlearning.rewards import Knobs, action_reward, transition_reward
+from pigaming_app.ai.qlearning.rewards import RecipeRecord, action_reward, transition_reward
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -30,7 +30,7 @@ MOVES = tuple(Move(float(k // 6 - 1), float(k // 2 % 3 - 1), k % 2) for k in ran
 
 
 @record
-class Table:
+class QTable:
     """All that is learned, with all that decides how it goes on."""
 
     q: Annotated[list[float], PAIRS]  # of action a in state x at [x * ACTIONS + a]
@@ -40,7 +40,7 @@ class Table:
     states: int  # that were ever seen at a decision
     matches: int  # played to their end
     random: int
-    knobs: Knobs
+    knobs: RecipeRecord
 
 
 @record

@@ -6,7 +6,7 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import act_on_reflex
 from pigaming_app.ai.qlearning.features import nearest_opponent, situation
-from pigaming_app.ai.qlearning.learner import LearnerMind, Table, apply_move, sample_move
+from pigaming_app.ai.qlearning.learner import LearnerMind, QTable, apply_move, sample_move
 from pigaming_app.ai.qlearning.thoughts import explain
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import packed, unpack
@@ -41,14 +41,14 @@ class Learned:
 
     def __init__(self, table: Any) -> None:
         """`table`: a plain record, or a row of one NumPy record."""
-        plain = isinstance(table, Table)
+        plain = isinstance(table, QTable)
         self.bodies: dict[bool, Any] = {not plain: [table] if plain else table}
 
     def __call__(self, fast: bool) -> Any:
         """A row of one table, as a NumPy record (`fast`) or a plain one."""
         if fast not in self.bodies:
             weights = self.bodies[not fast]
-            self.bodies[fast] = packed(weights) if fast else [unpack(Table, weights[0])]
+            self.bodies[fast] = packed(weights) if fast else [unpack(QTable, weights[0])]
         return self.bodies[fast]
 
 

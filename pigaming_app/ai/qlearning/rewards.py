@@ -10,7 +10,7 @@ from typing import Any
 from pigaming_app.ai.qlearning.features import opponent_of, wall_of
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.toml_table import quote
 
 AHEAD = 0  # the sector in which a robot looks
@@ -67,7 +67,7 @@ class Recipe:
 
 
 @record
-class Knobs(Recipe):
+class RecipeRecord(Recipe):
     """The recipe as a kernel reads it."""
 
 
@@ -84,7 +84,7 @@ def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any,
             worth += knobs.miss
         elif wall_of(state) != ahead:
             robot, other = match.robots[seat], match.robots[opponent]
-            if not knobs.in_sight or clear(match, robot.x, robot.y, other.x, other.y, 0.0):
+            if not knobs.in_sight or is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
                 worth += knobs.hit
     speed = match.robots[seat].linear
     if (-CREEP < speed < CREEP) if knobs.moving else action.linear == 0.0:

@@ -17,7 +17,7 @@ from typing import Any
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.qlearning.features import STATES
-from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, Table
+from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES
@@ -36,7 +36,7 @@ class TableError(ValueError):
 
 @dataclass(frozen=True)
 class Trained:
-    """A table with what it was trained for. `rows`: one NumPy record of `Table`."""
+    """A table with what it was trained for. `rows`: one NumPy record of `QTable`."""
 
     name: str
     reward: int  # 1 or 2 as published; 0: a recipe of one's own
@@ -140,7 +140,7 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
     if not np.isfinite(q).all() or (n < 0).any() or any(head.get(key) != count for key, count in counts.items()):
         raise TableError("the table contradicts itself")
     recipe = _recipe(head.get("recipe"))
-    rows = np.zeros(1, dtype(Table))
+    rows = np.zeros(1, dtype(QTable))
     rows["q"], rows["n"] = q, n
     try:
         for key in COUNTS:

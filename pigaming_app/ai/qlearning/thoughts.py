@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from math import copysign, cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import BULLET, OPPONENT, WALL, Move, Sight, Thoughts
+from pigaming_app.ai.brain.thoughts import BULLET, OPPONENT, WALL, MoveKey, Percept, Thoughts
 from pigaming_app.ai.qlearning.features import (
     NONE,
     SECTORS,
@@ -55,7 +55,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     )
 
 
-def _plain(k: int) -> Move:
+def _plain(k: int) -> MoveKey:
     linear, angular, fire = MOVES[k]
     return int(linear), int(angular), int(fire)
 
@@ -66,11 +66,11 @@ def _scaled(values: list[float]) -> list[float]:
     return [copysign(sqrt(abs(value) / most), value) if most else 0.0 for value in values]
 
 
-def _sights(match: Any, seat: int, opponent: int, here: int) -> Iterator[Sight]:
+def _sights(match: Any, seat: int, opponent: int, here: int) -> Iterator[Percept]:
     """The opponent, and the directions in which it knows the wall and the bullet."""
     robot, other = match.robots[seat], match.robots[opponent]
-    yield Sight(OPPONENT, other.x, other.y)
+    yield Percept(OPPONENT, other.x, other.y)
     for kind, sector in ((WALL, wall_of(here)), (BULLET, bullet_of(here))):
         if sector != NONE:
             angle = robot.heading + sector * WIDE
-            yield Sight(kind, robot.x + SIGHT * cos(angle), robot.y + SIGHT * sin(angle))
+            yield Percept(kind, robot.x + SIGHT * cos(angle), robot.y + SIGHT * sin(angle))

@@ -1,13 +1,13 @@
 """What the hand-written driver of Robot Race has on its mind: its line, whoever is in the way, and how fast it dares.
 
-Nothing is thought twice: numbers come from its memory and its last view, reckonings from the driver itself.
+Nothing is thought twice: numbers come from its memory and its last observation, reckonings from the driver itself.
 """
 
 from collections.abc import Iterator
 from math import atan2, pi
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Sight, Thoughts, blend, clamp, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.race import racer
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, blocked, held_to
 from pigaming_app.games.race.observation import OTHERS
@@ -118,10 +118,10 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _sights(obs: Any, first: int, x: float, y: float) -> Iterator[Sight]:
+def _sights(obs: Any, first: int, x: float, y: float) -> Iterator[Percept]:
     if first >= 0:
-        yield Sight(OPPONENT, obs.others[first].x, obs.others[first].y)
-    yield Sight(GOAL, x, y)
+        yield Percept(OPPONENT, obs.others[first].x, obs.others[first].y)
+    yield Percept(GOAL, x, y)
 
 
 def _rose(obs: Any, mind: Any, x: float, y: float) -> list[float]:

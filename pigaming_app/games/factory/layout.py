@@ -39,8 +39,8 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import Errand, free_node, grow
-from pigaming_app.sim.toml_table import FieldError, Table
+from pigaming_app.sim.flow_field import Route, expand, free_node
+from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, World
 
 WAYS = {"right": (1, 0), "left": (-1, 0), "down": (0, 1), "up": (0, -1)}
@@ -85,7 +85,7 @@ class Floor:
     aisle: tuple[float, float, float, float]
 
 
-def read(table: Table) -> Layout:
+def read(table: TomlTable) -> Layout:
     """A floor is warehouses, machines, an aisle and people. Raises FieldError."""
     table.only("title", "start", "aisle", "warehouse", "machine", "worker")
     starts = read_starts(table)
@@ -102,7 +102,7 @@ def read(table: Table) -> Layout:
     return layout
 
 
-def _machine(entry: Table) -> MachineSpec:
+def _machine(entry: TomlTable) -> MachineSpec:
     entry.only("kind", "at", "flow", "worker")
     kind = A if entry.word("kind", ("A", "B")) == "A" else B
     x, y = entry.point("at")
@@ -114,12 +114,12 @@ def _machine(entry: Table) -> MachineSpec:
     return MachineSpec(kind, x, y, x + SPOT_AT * side[0], y + SPOT_AT * side[1], flow)
 
 
-def _home(entry: Table) -> tuple[float, float]:
+def _home(entry: TomlTable) -> tuple[float, float]:
     entry.only("at")
     return entry.point("at")
 
 
-def _aisle(entry: Table) -> tuple[float, float, float, float]:
+def _aisle(entry: TomlTable) -> tuple[float, float, float, float]:
     entry.only("at", "size")
     x, y = entry.point("at")
     w, h = entry.numbers("size", 2, 50.0, WIDTH)
@@ -128,7 +128,7 @@ def _aisle(entry: Table) -> tuple[float, float, float, float]:
     return x, y, w, h
 
 
-def _shelves(table: Table) -> tuple[SlotSpec, ...]:
+def _shelves(table: TomlTable) -> tuple[SlotSpec, ...]:
     """The slots of all warehouses, in the order of `Factory.slots`. Raises FieldError."""
     there: dict[tuple[int, int], tuple[float, float]] = {}
     for entry in table.tables("warehouse"):
@@ -171,8 +171,8 @@ def _check_ways(layout: Layout, floor: Floor) -> None:
     """Robots get to every slot, and people to every machine. Raises FieldError."""
     world = World()
     build(world, Arena("", {}, layout.walls, layout.starts, "", floor))
-    field = Errand()
-    grow(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
+    field = Route()
+    expand(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
     for k, slot in enumerate(floor.slots):
         if not any(FORK - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < FORK + REACH for x, y in free):

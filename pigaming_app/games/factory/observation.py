@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from pigaming_app.games.factory.rules import may_lift, may_set_down
 from pigaming_app.games.factory.state import INPUT, SLOTS, WORKERS
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.flow_field import Errand, find_way
+from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import ROBOTS
@@ -20,10 +20,10 @@ OTHERS = ROBOTS - 1
 
 @record
 class Senses:
-    """What shapes the view of one seat, and what it asks of the navigator."""
+    """Parameters of the observation of one seat, and its route."""
 
     delay: float  # s by which others are seen late
-    errand: Errand
+    route: Route
 
 
 @record
@@ -97,7 +97,7 @@ class Observation:
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
     slots: Annotated[list[SlotView], SLOTS]
-    way_x: float  # where to drive now to get on with the errand
+    way_x: float  # where to drive now, along the route
     way_y: float
     way_bearing: float
     way_distance: float
@@ -108,7 +108,7 @@ class Observation:
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the view of one seat."""
+    """Fill the observation of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
     obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, rules.turn_rate
@@ -152,7 +152,7 @@ def observe_person(match: Any, robot: Any, w: int, person: Any) -> None:
     dx, dy = worker.x - robot.x, worker.y - robot.y
     person.distance = sqrt(dx * dx + dy * dy)
     person.bearing = turn_to(atan2(dy, dx) - robot.heading)
-    person.goal_x, person.goal_y = worker.errand.goal_x, worker.errand.goal_y
+    person.goal_x, person.goal_y = worker.route.goal_x, worker.route.goal_y
 
 
 @kernel
@@ -178,17 +178,17 @@ def observe_slot(match: Any, seat: int, s: int, place: Any) -> None:
 
 @kernel
 def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
-    """Where to drive now to get on with the errand."""
-    errand = senses.errand
-    if not errand.wanted:
+    """Where to drive now, along the route."""
+    route = senses.route
+    if not route.wanted:
         obs.way_x, obs.way_y, obs.way_bearing, obs.way_distance = robot.x, robot.y, 0.0, 0.0
         obs.goal_bearing, obs.goal_distance, obs.straight = 0.0, 0.0, 1
         return
-    find_way(match, errand, robot.x, robot.y)
-    obs.way_x, obs.way_y, obs.straight = errand.way_x, errand.way_y, errand.straight
-    dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
+    update_route(match, route, robot.x, robot.y)
+    obs.way_x, obs.way_y, obs.straight = route.way_x, route.way_y, route.straight
+    dx, dy = route.way_x - robot.x, route.way_y - robot.y
     obs.way_distance = sqrt(dx * dx + dy * dy)
     obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
-    dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
+    dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     obs.goal_distance = sqrt(dx * dx + dy * dy)
     obs.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)

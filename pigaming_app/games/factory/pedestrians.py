@@ -1,7 +1,7 @@
 """People who walk: a flow field leads them round walls; they stop for robots, and step round whoever stands still.
 
 A walker is any record with x, y, heading, walking (1: on the move), side (on which it goes round somebody: -1, 0 or 1),
-an `errand` (see `navigate`), and `least` and `held_up`, by which it is known whether it gets on. The world has a Motion
+an `route` (see `navigate`), and `least` and `held_up`, by which it is known whether it gets on. The world has a Motion
 for each robot, brought up to date once a tick: people go by how robots move, not by how their motors turn.
 """
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import find_way, free_node
+from pigaming_app.sim.flow_field import free_node, update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
@@ -54,23 +54,23 @@ def track_motion(motion: Any, robot: Any) -> None:
 @kernel
 def send(walker: Any, x: float, y: float) -> None:
     """Send a walker to a place."""
-    errand = walker.errand
-    errand.wanted, errand.goal_x, errand.goal_y = 1, x, y
+    route = walker.route
+    route.wanted, route.goal_x, route.goal_y = 1, x, y
     walker.least, walker.held_up = 1e9, 0
 
 
 @kernel
 def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     """One tick on the way; 1 if the walker is where it was sent, or as near as those who stand there let it."""
-    errand = walker.errand
-    dx, dy = errand.goal_x - walker.x, errand.goal_y - walker.y
+    route = walker.route
+    dx, dy = route.goal_x - walker.x, route.goal_y - walker.y
     left = sqrt(dx * dx + dy * dy)
     walker.walking = 0
     if left < THERE:
         return 1
-    find_way(world, errand, walker.x, walker.y)
-    get_on(world, walker, left)
-    dx, dy = errand.way_x - walker.x, errand.way_y - walker.y
+    update_route(world, route, walker.x, walker.y)
+    advance(world, walker, left)
+    dx, dy = route.way_x - walker.x, route.way_y - walker.y
     gap = sqrt(dx * dx + dy * dy)
     if gap < 1e-6:
         return 0
@@ -81,18 +81,18 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
         if in_the_way(world, walker, walker.x + ux, walker.y + uy, radius + PAST) < 0:
             walker.side = 0
         return 0
-    if block >= 0 and left < NEARLY and not drives(world.motions[block]):
+    if block >= 0 and left < NEARLY and not is_driving(world.motions[block]):
         return 1
     go_round(world, walker, block, ux, uy, radius)
     return 0
 
 
 @kernel
-def get_on(world: Any, walker: Any, left: float) -> None:
+def advance(world: Any, walker: Any, left: float) -> None:
     """Count the ticks since a walker last came nearer to its goal, by the way that it has to go."""
-    errand = walker.errand
-    if not errand.straight:
-        left = CELL * errand.reach[free_node(world, walker.x, walker.y)]
+    route = walker.route
+    if not route.straight:
+        left = CELL * route.reach[free_node(world, walker.x, walker.y)]
     if left < walker.least - NEARER:
         walker.least, walker.held_up = left, 0
     else:
@@ -139,7 +139,7 @@ def turn_towards(walker: Any, vx: float, vy: float) -> None:
 
 
 @kernel
-def drives(motion: Any) -> bool:
+def is_driving(motion: Any) -> bool:
     """Whether a robot is on the move."""
     return motion.vx * motion.vx + motion.vy * motion.vy > DRIVING * DRIVING  # type: ignore[no-any-return]
 
@@ -155,7 +155,7 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
         if not (-SIGHT < dx < SIGHT and -SIGHT < dy < SIGHT):
             continue
         motion = world.motions[k]
-        looks, reach = (3, RADIUS + radius + ROOM) if drives(motion) else (1, RADIUS + radius + CLOSE)
+        looks, reach = (3, RADIUS + radius + ROOM) if is_driving(motion) else (1, RADIUS + radius + CLOSE)
         for half in range(looks):
             ahead = 0.5 * half * AHEAD
             rx, ry = robot.x + ahead * motion.vx, robot.y + ahead * motion.vy
@@ -163,13 +163,13 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
             gap = dx * dx + dy * dy
             if gap < reach * reach:
                 ox, oy = walker.x - rx, walker.y - ry
-                if gap < ox * ox + oy * oy and gets_there(world, robot, motion, half):
+                if gap < ox * ox + oy * oy and arrives(world, robot, motion, half):
                     return k
     return -1
 
 
 @kernel
-def gets_there(world: Any, robot: Any, motion: Any, half: int) -> bool:
+def arrives(world: Any, robot: Any, motion: Any, half: int) -> bool:
     """Whether no wall stops a robot in so many halves of AHEAD."""
     for part in range(1, half + 1):
         ahead = 0.5 * part * AHEAD

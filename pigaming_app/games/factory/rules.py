@@ -30,7 +30,7 @@ from pigaming_app.games.factory.state import (
     WAITING,
     WORKERS,
 )
-from pigaming_app.games.factory.workers import fits, run_crew
+from pigaming_app.games.factory.workers import fits, run_machines_and_workers
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
 from pigaming_app.sim.world import ROBOTS
@@ -47,14 +47,14 @@ def judge(match: Any) -> None:
     for k in range(ROBOTS):
         if match.robots[k].present:
             track_motion(match.motions[k], match.robots[k])
-            grip(match, k)
-    age(match)
+            use_fork(match, k)
+    age_pallets(match)
     for team in range(TEAMS):
         stock_up(match, team)
-    run_crew(match)
+    run_machines_and_workers(match)
     for k in range(ROBOTS):
         if match.robots[k].present:
-            mind_people(match, k)
+            check_people(match, k)
             steer(match, k)
     match.tick += 1
     for team in range(TEAMS):
@@ -65,7 +65,7 @@ def judge(match: Any) -> None:
 
 
 @kernel
-def grip(match: Any, k: int) -> None:
+def use_fork(match: Any, k: int) -> None:
     """Each press of fire lifts a pallet or sets one down; none does anything while the robot is frozen."""
     load, fire = match.loads[k], match.actions[k].fire
     pressed = fire and not load.pressed
@@ -146,7 +146,7 @@ def set_down(match: Any, k: int, s: int) -> None:
 
 
 @kernel
-def age(match: Any) -> None:
+def age_pallets(match: Any) -> None:
     """Pallets that wait grow older; when its time has come a damaged one is replaced by a raw one."""
     for p in range(PALLETS):
         pallet = match.pallets[p]
@@ -155,13 +155,13 @@ def age(match: Any) -> None:
         if pallet.state == DAMAGED:
             pallet.waited += 1
             if pallet.waited >= match.rules.replace:
-                renew(match, p)
+                replace_damaged(match, p)
         elif pallet.place == IN_SLOT and (pallet.at >= MACHINE_SLOTS or pallet.state == DELIVERED):
             pallet.waited += 1
 
 
 @kernel
-def renew(match: Any, p: int) -> None:
+def replace_damaged(match: Any, p: int) -> None:
     """A raw pallet comes in the place of a damaged one."""
     pallet = match.pallets[p]
     pallet.state, pallet.steps = RAW, 0
@@ -173,7 +173,7 @@ def renew(match: Any, p: int) -> None:
 
 
 @kernel
-def mind_people(match: Any, k: int) -> None:
+def check_people(match: Any, k: int) -> None:
     """Freeze robot k when it drives over somebody: once for each time that they touch."""
     robot, load, rules = match.robots[k], match.loads[k], match.rules
     if load.frozen:

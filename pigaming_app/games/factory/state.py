@@ -7,7 +7,7 @@ A pallet is one thing from the beginning to the end of a match, and its `place` 
 from typing import Annotated
 
 from pigaming_app.games.factory.pedestrians import Motion
-from pigaming_app.sim.flow_field import Errand
+from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, ROBOTS, World
 
@@ -111,8 +111,8 @@ class Worker:
     machine: int  # which it goes to, works at or fetches from; -1: none
     pallet: int  # 1 + what it carries; 0: nothing
     shelf: int  # the slot it carries that to
-    errand: Errand
-    least: float  # px, the shortest way that was left on this errand
+    route: Route
+    least: float  # px, the shortest way that was left on this route
     held_up: int  # ticks since that was reached
     home_x: float  # where it rests
     home_y: float

@@ -41,7 +41,7 @@ def fits(kind: int, state: int) -> bool:
 
 
 @kernel
-def run_crew(match: Any) -> None:
+def run_machines_and_workers(match: Any) -> None:
     """One tick of all machines and people."""
     for m in range(MACHINES):
         run_machine(match, m)
@@ -82,7 +82,7 @@ def has_work(match: Any, m: int) -> bool:
 
 
 @kernel
-def is_late(match: Any, m: int) -> bool:
+def is_overdue(match: Any, m: int) -> bool:
     """Whether a finished pallet has waited too long in a machine's output."""
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
     return bool(p and match.pallets[p - 1].waited >= match.rules.collect)
@@ -94,7 +94,7 @@ def call_worker(match: Any) -> None:
     m, longest = -1, -1
     for i in range(MACHINES):
         machine = match.machines[i]
-        if not machine.worker and (has_work(match, i) or is_late(match, i)):
+        if not machine.worker and (has_work(match, i) or is_overdue(match, i)):
             lies = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
             waited = match.pallets[match.slots[lies].pallet - 1].waited
             if machine.refused:
@@ -112,7 +112,7 @@ def call_worker(match: Any) -> None:
         send(worker, machine.spot_x, machine.spot_y)
     else:
         worker.task = FETCHING
-        stand_at(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
+        send_beside(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
 
 
 @kernel
@@ -129,7 +129,7 @@ def nearest_resting(match: Any, machine: Any) -> int:
 
 
 @kernel
-def stand_at(worker: Any, slot: Any, machine: Any) -> None:
+def send_beside(worker: Any, slot: Any, machine: Any) -> None:
     """Send a worker to the side of a machine's slot on which its own place is."""
     dx, dy = machine.spot_x - machine.x, machine.spot_y - machine.y
     side = BESIDE / 114.0
@@ -192,7 +192,7 @@ def fetch(match: Any, w: int, there: int) -> None:
     """Take a pallet that waits too long out of the output, unless its owner came after all."""
     worker = match.workers[w]
     m = worker.machine
-    if not is_late(match, m):
+    if not is_overdue(match, m):
         go_home(match, worker)
         return
     if not there:

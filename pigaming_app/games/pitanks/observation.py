@@ -1,7 +1,7 @@
 """What a brain sees of a match of PiTanks: named numbers, as from the robot's own seat.
 
 Bearings are relative to the own heading, in (-pi, pi], clockwise positive. Others are seen as they were `delay` seconds
-ago, by their speed; the own pose is never delayed. `clear` says that nothing stands between.
+ago, by their speed; the own pose is never delayed. `is_clear` says that nothing stands between.
 """
 
 from math import atan2, cos, sin, sqrt
@@ -9,12 +9,12 @@ from typing import Annotated, Any
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, SHIELD
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.flow_field import Errand, find_way
+from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
 OTHERS = ROBOTS - 1
@@ -23,10 +23,10 @@ BESIDE = 22.0  # px between a robot in cover and the wall
 
 @record
 class Senses:
-    """What shapes the view of one seat, and what it asks of the navigator."""
+    """Parameters of the observation of one seat, and its route."""
 
     delay: float  # s by which others are seen late
-    errand: Errand
+    route: Route
 
 
 @record
@@ -75,7 +75,7 @@ class Observation:
     prize_x: float
     prize_y: float
     prize_distance: float
-    way_x: float  # where to drive now to get on with the errand
+    way_x: float  # where to drive now, along the route
     way_y: float
     way_bearing: float
     way_distance: float
@@ -85,7 +85,7 @@ class Observation:
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the view of one seat."""
+    """Fill the observation of one seat."""
     robot, tank = match.robots[seat], match.tanks[seat]
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
     obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
@@ -127,7 +127,7 @@ def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> N
     soon = other.distance / match.rules.bullet_speed + delay
     other.aim = turn_to(atan2(dy + soon * vy, dx + soon * vx) - robot.heading)
     other.facing = turn_to(seen.heading - delay * seen.angular - way - 3.141592653589793)
-    other.clear = clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
+    other.clear = is_clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
     other.protected = match.tanks[j].protected
     other.score = seen.score
 
@@ -225,15 +225,15 @@ def observe_pickup(match: Any, robot: Any, obs: Any) -> None:
 
 @kernel
 def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
-    """Where to drive now to get on with the errand."""
-    errand = senses.errand
-    if not errand.wanted:
+    """Where to drive now, along the route."""
+    route = senses.route
+    if not route.wanted:
         obs.way_bearing, obs.way_distance, obs.goal_distance, obs.straight = 0.0, 0.0, 0.0, 1
         return
-    find_way(match, errand, robot.x, robot.y)
-    obs.way_x, obs.way_y, obs.straight = errand.way_x, errand.way_y, errand.straight
-    dx, dy = errand.way_x - robot.x, errand.way_y - robot.y
+    update_route(match, route, robot.x, robot.y)
+    obs.way_x, obs.way_y, obs.straight = route.way_x, route.way_y, route.straight
+    dx, dy = route.way_x - robot.x, route.way_y - robot.y
     obs.way_distance = sqrt(dx * dx + dy * dy)
     obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
-    dx, dy = errand.goal_x - robot.x, errand.goal_y - robot.y
+    dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     obs.goal_distance = sqrt(dx * dx + dy * dy)

@@ -15,7 +15,7 @@ from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, R
 from pigaming_app.sim.grid import ONE_NEAR, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop_all, use_turbo
-from pigaming_app.sim.sweep import meets_bounds, meets_disc, meets_wall, off_wall
+from pigaming_app.sim.sweep import bounds_contact, disc_contact, offset_from_wall, wall_contact
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
 ALL_POWERS = len(POWERS)
@@ -31,9 +31,9 @@ def judge(match: Any) -> None:
     for k in range(ROBOTS):
         if match.robots[k].present:
             wear_off(match.tanks[k])
-            shoot(match, k)
-    if fly(match):
-        strike(match)
+            use_gun(match, k)
+    if move_bullets(match):
+        resolve_hits(match)
     if match.rules.pickups:
         update_mines(match)
         update_pickups(match)
@@ -76,7 +76,7 @@ def steer(match: Any, k: int) -> None:
 
 
 @kernel
-def shoot(match: Any, k: int) -> None:
+def use_gun(match: Any, k: int) -> None:
     """Fire, or lay a mine, if robot k's button is down and its gun is ready."""
     rules, tank = match.rules, match.tanks[k]
     if not match.actions[k].fire or tank.cooldown:
@@ -87,16 +87,16 @@ def shoot(match: Any, k: int) -> None:
         return
     most = rules.boosted_alive if tank.powers[RAPID] or tank.powers[TRIPLE] else rules.bullets_alive
     heading, bounces = match.robots[k].heading, rules.bounces if tank.powers[RICOCHET] else 0
-    if not load(match, k, most, heading, bounces):
+    if not fire_bullet(match, k, most, heading, bounces):
         return
     if tank.powers[TRIPLE]:
-        load(match, k, most, heading - rules.triple_spread, bounces)
-        load(match, k, most, heading + rules.triple_spread, bounces)
+        fire_bullet(match, k, most, heading - rules.triple_spread, bounces)
+        fire_bullet(match, k, most, heading + rules.triple_spread, bounces)
     tank.cooldown = rules.rapid_cooldown if tank.powers[RAPID] else rules.cooldown
 
 
 @kernel
-def load(match: Any, k: int, most: int, heading: float, bounces: int) -> int:
+def fire_bullet(match: Any, k: int, most: int, heading: float, bounces: int) -> int:
     """Put a bullet of robot k into the barrel, unless `most` are alive; 1 if it did."""
     free, alive = -1, 0
     for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
@@ -115,7 +115,7 @@ def load(match: Any, k: int, most: int, heading: float, bounces: int) -> int:
 
 
 @kernel
-def fly(match: Any) -> int:
+def move_bullets(match: Any) -> int:
     """Move every bullet to where its tick ends, and note what it struck; nothing is damaged yet. How many struck.
 
     All bullets see robots and walls as the tick began, so that their order does not matter.
@@ -128,18 +128,18 @@ def fly(match: Any) -> int:
         for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
             bullet = match.bullets[i]
             if bullet.alive:
-                sweep(match, k, bullet, DT + muzzle if bullet.fresh else DT)
+                move_bullet(match, k, bullet, DT + muzzle if bullet.fresh else DT)
                 if bullet.struck:
                     strikes += 1
     return strikes
 
 
 @kernel
-def sweep(match: Any, k: int, bullet: Any, seconds: float) -> None:
+def move_bullet(match: Any, k: int, bullet: Any, seconds: float) -> None:
     """Move one bullet of robot k to its first contact, or to the end of its way."""
     x, y, radius = bullet.x, bullet.y, match.rules.bullet_radius
     dx, dy = bullet.vx * seconds, bullet.vy * seconds
-    first = meets_bounds(x, y, dx, dy, WIDTH, HEIGHT, radius)
+    first = bounds_contact(x, y, dx, dy, WIDTH, HEIGHT, radius)
     struck = OUTER if first <= 1.0 else 0
     left, right = (x, x + dx) if dx > 0.0 else (x + dx, x)
     top, bottom = (y, y + dy) if dy > 0.0 else (y + dy, y)
@@ -147,8 +147,8 @@ def sweep(match: Any, k: int, bullet: Any, seconds: float) -> None:
         for i in range(match.wall_count):
             wall = match.walls[i]
             if left < wall.right and right > wall.left and top < wall.bottom and bottom > wall.top and wall.health:
-                t = meets_wall(x, y, dx, dy, wall, radius)
-                if t < first and (t > 0.0 or into(wall, x, y, dx, dy)):
+                t = wall_contact(x, y, dx, dy, wall, radius)
+                if t < first and (t > 0.0 or moves_into(wall, x, y, dx, dy)):
                     first, struck = t, -1 - i
     reach = RADIUS + radius
     for j in range(ROBOTS):
@@ -159,32 +159,32 @@ def sweep(match: Any, k: int, bullet: Any, seconds: float) -> None:
             and top - reach < robot.y < bottom + reach
             and robot.team != match.robots[k].team
         ):
-            t = meets_disc(x, y, dx, dy, robot.x, robot.y, reach)
+            t = disc_contact(x, y, dx, dy, robot.x, robot.y, reach)
             if t < first:
                 first, struck = t, 1 + j
     if struck:
-        bullet.x = within(x + first * dx, radius, WIDTH - radius)
-        bullet.y = within(y + first * dy, radius, HEIGHT - radius)
+        bullet.x = clamp(x + first * dx, radius, WIDTH - radius)
+        bullet.y = clamp(y + first * dy, radius, HEIGHT - radius)
     else:
         bullet.x, bullet.y = x + dx, y + dy
     bullet.struck, bullet.when, bullet.fresh = struck, first, 0
 
 
 @kernel
-def into(wall: Any, x: float, y: float, dx: float, dy: float) -> bool:
+def moves_into(wall: Any, x: float, y: float, dx: float, dy: float) -> bool:
     """Whether a bullet that touches a wall at (x, y) moves into it: one that has just bounced off moves away."""
-    nx, ny = off_wall(wall, x, y)
+    nx, ny = offset_from_wall(wall, x, y)
     return bool(dx * nx + dy * ny < 0.0 or (nx == 0.0 and ny == 0.0))
 
 
 @kernel
-def within(value: float, low: float, high: float) -> float:
+def clamp(value: float, low: float, high: float) -> float:
     """The nearest number in [low, high]."""
     return low if value < low else high if value > high else value
 
 
 @kernel
-def strike(match: Any) -> None:
+def resolve_hits(match: Any) -> None:
     """What the bullets of this tick do to what they struck."""
     for k in range(ROBOTS):
         if not match.robots[k].present:
@@ -226,7 +226,7 @@ def bounce(match: Any, bullet: Any) -> None:
         if (bullet.y <= edge and bullet.vy < 0.0) or (bullet.y >= HEIGHT - edge and bullet.vy > 0.0):
             bullet.vy = -bullet.vy
         return
-    nx, ny = off_wall(match.walls[-1 - bullet.struck], bullet.x, bullet.y)
+    nx, ny = offset_from_wall(match.walls[-1 - bullet.struck], bullet.x, bullet.y)
     n2 = nx * nx + ny * ny
     into_it = bullet.vx * nx + bullet.vy * ny
     if n2 > 0.0 and into_it < 0.0:

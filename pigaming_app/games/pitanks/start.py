@@ -6,13 +6,13 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.pitanks.state import PiTanks, Rules
 from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
 from pigaming_app.sim.rng import seeded
-from pigaming_app.sim.toml_table import Table
+from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HZ
 
 VARIANTS = ("pickups", "plain", "classic")
 
 
-def read(table: Table) -> Layout:
+def read(table: TomlTable) -> Layout:
     """An arena is walls and starts. Raises Wrong."""
     table.only("title", "start", "wall")
     return Layout(read_walls(table), read_starts(table))

@@ -10,7 +10,7 @@ from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt, tan
 from typing import NamedTuple
 
 from pigaming_app.games.race.course import POINTS, Course
-from pigaming_app.sim.toml_table import FieldError, Table
+from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH
 
 WIDEST, NARROWEST = 400.0, 150.0  # px; two robots side by side are 144
@@ -40,7 +40,7 @@ class Bend(NamedTuple):
     cut: float  # px from the corner to where the arc begins
 
 
-def read_course(table: Table) -> Course:
+def read_course(table: TomlTable) -> Course:
     """The course of the tables [[corner]]; it is shared, copy it before you change it. Raises FieldError."""
     corners = tuple(_corner(entry) for entry in table.tables("corner"))
     if len(corners) < 3:
@@ -62,7 +62,7 @@ def course_of(corners: tuple[Corner, ...]) -> Course:
     return course
 
 
-def _corner(entry: Table) -> Corner:
+def _corner(entry: TomlTable) -> Corner:
     entry.only("at", "radius", "width")
     x, y = entry.point("at")
     return Corner(

@@ -46,12 +46,12 @@ class CoursePosition:
 def locate(course: Any, x: float, y: float, place: Any) -> None:
     """Find the place of (x, y): on the stretch it is on, else on the one whose edge is nearest."""
     node = node_at(x, y)
-    k, share, gap = foot(course, x, y, climb(course, x, y, course.near[node]))
-    half = half_at(course, k, share)
+    k, share, gap = project(course, x, y, nearest_point(course, x, y, course.near[node]))
+    half = half_width_at(course, k, share)
     second = course.other[node]
     if second >= 0:
-        k2, share2, gap2 = foot(course, x, y, climb(course, x, y, second))
-        half2 = half_at(course, k2, share2)
+        k2, share2, gap2 = project(course, x, y, nearest_point(course, x, y, second))
+        half2 = half_width_at(course, k2, share2)
         if gap2 - half2 < gap - half:
             k, share, gap, half = k2, share2, gap2, half2
     after = k + 1 if k + 1 < course.count else 0
@@ -68,7 +68,7 @@ def locate(course: Any, x: float, y: float, place: Any) -> None:
 
 
 @kernel
-def climb(course: Any, x: float, y: float, k: int) -> int:
+def nearest_point(course: Any, x: float, y: float, k: int) -> int:
     """From point k on to the nearest to (x, y) that is reached by coming nearer with every step."""
     last = course.count - 1
     dx, dy = course.xs[k] - x, course.ys[k] - y
@@ -92,19 +92,19 @@ def climb(course: Any, x: float, y: float, k: int) -> int:
 
 
 @kernel
-def foot(course: Any, x: float, y: float, k: int) -> tuple[int, float, float]:
+def project(course: Any, x: float, y: float, k: int) -> tuple[int, float, float]:
     """The nearest point on the two legs that meet at point k: the leg, the share of it, and the distance in px."""
     last = course.count - 1
     before, after = k - 1 if k > 0 else last, k + 1 if k < last else 0
-    share, gap = on_leg(course, x, y, k, after)
-    share2, gap2 = on_leg(course, x, y, before, k)
+    share, gap = project_on_segment(course, x, y, k, after)
+    share2, gap2 = project_on_segment(course, x, y, before, k)
     if gap2 < gap:
         return before, share2, sqrt(gap2)
     return k, share, sqrt(gap)
 
 
 @kernel
-def on_leg(course: Any, x: float, y: float, a: int, b: int) -> tuple[float, float]:
+def project_on_segment(course: Any, x: float, y: float, a: int, b: int) -> tuple[float, float]:
     """The share of the leg from point a to b that is nearest to (x, y), and the square of the distance."""
     ax, ay = course.xs[a], course.ys[a]
     ex, ey = course.xs[b] - ax, course.ys[b] - ay
@@ -120,7 +120,7 @@ def on_leg(course: Any, x: float, y: float, a: int, b: int) -> tuple[float, floa
 
 
 @kernel
-def half_at(course: Any, k: int, share: float) -> float:
+def half_width_at(course: Any, k: int, share: float) -> float:
     """Half the width at a share of the leg from point k."""
     after = k + 1 if k + 1 < course.count else 0
     half: float = course.half[k] + share * (course.half[after] - course.half[k])
@@ -128,7 +128,7 @@ def half_at(course: Any, k: int, share: float) -> float:
 
 
 @kernel
-def leg(course: Any, along: float) -> tuple[int, float]:
+def segment_at(course: Any, along: float) -> tuple[int, float]:
     """The leg on which a place lies, by its first point, and the share of it; `along` in px, at most a lap out."""
     if along < 0.0:
         along += course.length
@@ -142,9 +142,9 @@ def leg(course: Any, along: float) -> tuple[int, float]:
 
 
 @kernel
-def spot(course: Any, along: float, aside: float) -> tuple[float, float]:
+def point_at(course: Any, along: float, aside: float) -> tuple[float, float]:
     """The point so many px along the course, and so many to the right of its line."""
-    k, share = leg(course, along)
+    k, share = segment_at(course, along)
     after = k + 1 if k + 1 < course.count else 0
     ax, ay = course.xs[k], course.ys[k]
     ex, ey = course.xs[after] - ax, course.ys[after] - ay
@@ -153,7 +153,7 @@ def spot(course: Any, along: float, aside: float) -> tuple[float, float]:
 
 
 @kernel
-def way_round(course: Any, start: float, end: float) -> float:
+def distance_ahead(course: Any, start: float, end: float) -> float:
     """The px from one place along the course to another, forwards, in [0, length)."""
     way = end - start
     if way < 0.0:

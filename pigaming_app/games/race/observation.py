@@ -7,7 +7,7 @@ positive. Others are seen as they were `delay` seconds ago, by their speed; the 
 from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
-from pigaming_app.games.race.course import CoursePosition, leg, locate, spot, way_round
+from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate, point_at, segment_at
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -21,7 +21,7 @@ RUN_UP = 70.0  # px before a line from which it can be crossed well
 
 @record
 class Senses:
-    """What shapes the view of one seat."""
+    """Parameters of the observation of one seat."""
 
     delay: float  # s by which others are seen late
     look: float  # px along the course to what it drives for
@@ -29,7 +29,7 @@ class Senses:
 
 
 @record
-class Mark:
+class TrackPoint:
     """A point of the fastest line."""
 
     x: float
@@ -84,13 +84,13 @@ class Observation:
     return_y: float
     rank: int
     finished: int
-    ahead: Mark  # as far ahead as the eyes look
+    ahead: TrackPoint  # as far ahead as the eyes look
     others: Annotated[list[Other], OTHERS]
 
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the view of one seat."""
+    """Fill the observation of one seat."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     course, place = match.course, senses.place
     locate(course, robot.x, robot.y, place)
@@ -115,7 +115,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 def observe_way(match: Any, place: Any, look: float, obs: Any) -> None:
     """The fastest line from here on, and how the course turns."""
     course = match.course
-    k, _ = leg(course, place.along)
+    k, _ = segment_at(course, place.along)
     obs.ideal, obs.pace = match.ideal[k], match.pace[k]
     for i in range(k + 1, k + 1 + int(PACE / course.step)):
         pace = match.pace[i % course.count]
@@ -137,7 +137,7 @@ def leg_way(course: Any, k: int) -> tuple[float, float]:
 def observe_mark(match: Any, along: float, mark: Any) -> None:
     """A point of the fastest line."""
     course = match.course
-    k, share = leg(course, along)
+    k, share = segment_at(course, along)
     after = k + 1 if k + 1 < course.count else 0
     ax, ay = course.xs[k], course.ys[k]
     ex, ey = course.xs[after] - ax, course.ys[after] - ay
@@ -156,14 +156,14 @@ def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
     behind = racer.passed - 1 - racer.back
     here = match.lines[(seat + behind) % ROBOTS].along
     ahead = match.lines[(seat + behind + 1) % ROBOTS].along
-    gap, way = way_round(course, here, ahead), way_round(course, here, along)
+    gap, way = distance_ahead(course, here, ahead), distance_ahead(course, here, along)
     obs.past = way - gap
     if way > gap and not racer.missed and way - gap > course.length - way:  # not yet at the last one
         obs.past = way - course.length - gap
     if racer.finished:
         obs.past = -course.length
     back = obs.past + RUN_UP if obs.past > 0.0 else RUN_UP
-    obs.return_x, obs.return_y = spot(course, along - (back if back < BACK else BACK), 0.0)
+    obs.return_x, obs.return_y = point_at(course, along - (back if back < BACK else BACK), 0.0)
 
 
 @kernel
@@ -179,7 +179,7 @@ def observe_other(match: Any, robot: Any, j: int, along: float, senses: Any, oth
     other.distance = sqrt(dx * dx + dy * dy)
     other.bearing = turn_to(atan2(dy, dx) - robot.heading)
     locate(match.course, other.x, other.y, place)
-    ahead = way_round(match.course, along, place.along)
+    ahead = distance_ahead(match.course, along, place.along)
     other.ahead = ahead - match.course.length if ahead > 0.5 * match.course.length else ahead
     other.aside = place.aside
     other.speed = vx * place.tangent_x + vy * place.tangent_y

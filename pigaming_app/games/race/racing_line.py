@@ -26,11 +26,11 @@ EASE = 2  # points over which a slower pace begins and ends
 
 
 @lru_cache(maxsize=32)
-def fastest(course: Course, speed: float, turn_rate: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def fastest_line(course: Course, speed: float, turn_rate: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """For each point of the course how many px aside of it the line lies, and the share of full speed there."""
     band: list[float] = []
     for every, breadths, heights, rounds in LEVELS:
-        rope = Rope(course, every, speed, turn_rate)
+        rope = ElasticBand(course, every, speed, turn_rate)
         rope.begin(band)
         for _ in range(rounds):
             if sum(rope.push(breadth, height) for breadth in breadths for height in heights) < ENOUGH:
@@ -39,7 +39,7 @@ def fastest(course: Course, speed: float, turn_rate: float) -> tuple[tuple[float
     return tuple(band), _pace(rope, speed, turn_rate)
 
 
-class Rope:
+class ElasticBand:
     """A line round the course, held at every so manieth of its points."""
 
     def __init__(self, course: Course, every: int, speed: float, turn_rate: float) -> None:
@@ -125,7 +125,7 @@ def _between(band: Sequence[float], i: int, share: float) -> float:
     return b + 0.5 * share * (c - a + share * cubic)
 
 
-def _pace(rope: Rope, speed: float, turn_rate: float) -> tuple[float, ...]:
+def _pace(rope: ElasticBand, speed: float, turn_rate: float) -> tuple[float, ...]:
     """The share of full speed at which the line can be turned along, eased so that the motors can follow."""
     turns = []
     for i in range(rope.count):

@@ -10,7 +10,7 @@ not is ranked by how far they came.
 from math import cos, floor, sin
 from typing import Any
 
-from pigaming_app.games.race.course import locate, way_round
+from pigaming_app.games.race.course import distance_ahead, locate
 from pigaming_app.games.race.state import LINES
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import stop, stop_all, use_turbo
@@ -27,7 +27,7 @@ def judge(match: Any) -> None:
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
-            follow(match, k)
+            track_progress(match, k)
     for k in range(ROBOTS):
         if match.robots[k].present:
             match.racers[k].rank = rank(match, k)
@@ -38,7 +38,7 @@ def judge(match: Any) -> None:
 
 
 @kernel
-def follow(match: Any, k: int) -> None:
+def track_progress(match: Any, k: int) -> None:
     """See where robot k is, and what it has crossed on its way there."""
     robot, racer = match.robots[k], match.racers[k]
     locate(match.course, robot.x, robot.y, racer.place)
@@ -48,9 +48,9 @@ def follow(match: Any, k: int) -> None:
             for i in range(LINES):
                 share = crossing(match.lines[i], racer.last_x, racer.last_y, robot.x, robot.y)
                 if share > 0.0:
-                    forward(match, k, i, match.tick - 1 + share)
+                    cross_forward(match, k, i, match.tick - 1 + share)
                 elif share < 0.0:
-                    backward(racer, k, i)
+                    cross_backward(racer, k, i)
     racer.last_x, racer.last_y = robot.x, robot.y
     racer.progress = progress(match, k)
     if racer.place.on:
@@ -81,7 +81,7 @@ def crossing(line: Any, x: float, y: float, to_x: float, to_y: float) -> float:
 
 
 @kernel
-def forward(match: Any, k: int, i: int, when: float) -> None:
+def cross_forward(match: Any, k: int, i: int, when: float) -> None:
     """Robot k has crossed line i in the right direction: the next one, one it had gone back over, or a wrong one.
 
     The line crossed last, again, is a wrong one too: the robot has come round without the others.
@@ -99,7 +99,7 @@ def forward(match: Any, k: int, i: int, when: float) -> None:
 
 
 @kernel
-def backward(racer: Any, k: int, i: int) -> None:
+def cross_backward(racer: Any, k: int, i: int) -> None:
     """Robot k has crossed line i in the wrong direction: nothing is undone, but the way back is remembered."""
     if i == (k + racer.passed - 1 - racer.back) % LINES:
         racer.back += 1
@@ -158,12 +158,12 @@ def progress(match: Any, k: int) -> float:
         return float(match.rules.laps * length)
     behind = racer.passed - 1 - racer.back
     here, ahead = match.lines[(k + behind) % LINES].along, match.lines[(k + behind + 1) % LINES].along
-    gap = way_round(match.course, here, ahead)
-    way = way_round(match.course, here, racer.place.along)
+    gap = distance_ahead(match.course, here, ahead)
+    way = distance_ahead(match.course, here, racer.place.along)
     if way > gap:
         way = gap if racer.missed or way - gap < length - way else 0.0
     laps = behind // LINES
-    came: float = laps * length + way_round(match.course, own, here) + way
+    came: float = laps * length + distance_ahead(match.course, own, here) + way
     return floor(came * 64.0 + 0.5) / 64.0
 
 

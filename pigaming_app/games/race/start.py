@@ -17,13 +17,13 @@ from math import atan2, tau
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.race.circuit import read_course
-from pigaming_app.games.race.course import POINTS, Course, half_at, leg, locate, spot
-from pigaming_app.games.race.racing_line import fastest
-from pigaming_app.games.race.state import LINES, MOST_LAPS, Line, Race, Rules
-from pigaming_app.sim.arena import Arena, Layout, Start, build
+from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
+from pigaming_app.games.race.racing_line import fastest_line
+from pigaming_app.games.race.state import LINES, MOST_LAPS, Race, Rules, TimingLine
+from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded
-from pigaming_app.sim.toml_table import Table
+from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import DT, HZ
 
 LAPS = Rules().laps  # if nobody says otherwise
@@ -33,23 +33,23 @@ APART = 300.0  # px that must lie between two lines
 
 
 @dataclass(frozen=True)
-class Track:
+class TrackPlan:
     """What a track is besides its title: its course, and its lines in px along it."""
 
     course: Course
     lines: tuple[float, ...]
 
 
-def read(table: Table) -> Layout:
+def read(table: TomlTable) -> Layout:
     """A track is a course and four lines. Raises Wrong."""
     table.only("title", "track", "corner")
     course = read_course(table)
     lines = _lines(table.table("track"), course)
     starts = tuple(_start(course, along) for along in lines)
-    return Layout((), starts, Track(course, lines))
+    return Layout((), starts, TrackPlan(course, lines))
 
 
-def _lines(table: Table, course: Course) -> tuple[float, ...]:
+def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
     """Where along the course the lines lie, in px. Raises Wrong."""
     table.only("lines")
     shares = table.numbers("lines", LINES, 0.0, 1.0)
@@ -65,22 +65,22 @@ def _lines(table: Table, course: Course) -> tuple[float, ...]:
     return tuple(share * course.length for share in shares)
 
 
-def _start(course: Course, line: float) -> Start:
+def _start(course: Course, line: float) -> StartPose:
     """Where the robot of a line begins: behind it, heading along the course."""
-    k, _ = leg(course, line - BEHIND)
-    x, y = spot(course, line - BEHIND, 0.0)
+    k, _ = segment_at(course, line - BEHIND)
+    x, y = point_at(course, line - BEHIND, 0.0)
     after = (k + 1) % POINTS
-    return Start(x, y, atan2(course.ys[after] - course.ys[k], course.xs[after] - course.xs[k]) % tau)
+    return StartPose(x, y, atan2(course.ys[after] - course.ys[k], course.xs[after] - course.xs[k]) % tau)
 
 
 def start(match: Race, arena: Arena, setup: Setup) -> None:
     """Fill a fresh match: course, lines, robots on their starts, rules, chance."""
     build(match, arena)
-    track: Track = arena.plan
+    track: TrackPlan = arena.plan
     match.course = copy(track.course)
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
-    match.ideal[:], match.pace[:] = fastest(track.course, match.rules.speed, match.rules.turn_rate)
+    match.ideal[:], match.pace[:] = fastest_line(track.course, match.rules.speed, match.rules.turn_rate)
     for line, along in zip(match.lines, track.lines, strict=True):
         _draw(line, match.course, along)
     for i, (robot, racer, seat) in enumerate(zip(match.robots, match.racers, setup.seats, strict=True)):
@@ -90,12 +90,12 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
         locate(match.course, robot.x, robot.y, racer.place)
 
 
-def _draw(line: Line, course: Course, along: float) -> None:
+def _draw(line: TimingLine, course: Course, along: float) -> None:
     """A line across the course, from edge to edge."""
-    half = half_at(course, *leg(course, along))
+    half = half_width_at(course, *segment_at(course, along))
     line.along = along
-    line.ax, line.ay = spot(course, along, -half)
-    line.bx, line.by = spot(course, along, half)
+    line.ax, line.ay = point_at(course, along, -half)
+    line.bx, line.by = point_at(course, along, half)
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:

@@ -28,7 +28,7 @@ class Rules:
 
 
 @record
-class Line:
+class TimingLine:
     """A line across the course, of the seat with the same number: its start and finish, the others' checkpoint."""
 
     along: float  # px along the course
@@ -70,7 +70,7 @@ class Race(World):
 
     rules: Rules
     course: Course
-    lines: Annotated[list[Line], LINES]
+    lines: Annotated[list[TimingLine], LINES]
     racers: Annotated[list[Racer], ROBOTS]
     first: int  # the tick on which the first finished; 0: nobody has
     ideal: Annotated[list[float], POINTS]  # px that the fastest line lies aside of each point of the course

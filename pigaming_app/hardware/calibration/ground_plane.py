@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker, Fix
-from pigaming_app.sim.toml_table import FieldError, Table
+from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
@@ -128,7 +128,7 @@ def read(text: str, display: str | None = None, camera: tuple[int, int] | None =
     if check != _check(entries):
         raise CalibrationError(OperatorMessage("changed"))
     try:
-        ground = _ground(Table(entries))
+        ground = _ground(TomlTable(entries))
     except (FieldError, np.linalg.LinAlgError) as wrong:
         raise CalibrationError(OperatorMessage("damaged", detail=wrong)) from wrong
     if display is not None and ground.display != display:
@@ -155,7 +155,7 @@ def _plain(value: object) -> object:
     return [_plain(inner) for inner in value] if isinstance(value, list | tuple) else value
 
 
-def _ground(table: Table) -> GroundPlane:
+def _ground(table: TomlTable) -> GroundPlane:
     lens = table.table("lens")
     width, height = lens.numbers("size", 2, 16, 16384)
     plane = table.numbers("plane", 9, -1e6, 1e6)

@@ -13,7 +13,7 @@ from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.sim.contact import ROUNDS, SLOP, limit_step, push_out_of_walls, separate
 from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import RADIUS, integrate
-from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH, World
 
 BERTH = 7.0  # px by which a real robot that takes over keeps clear of walls
@@ -78,7 +78,7 @@ def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:
         y = min(max(y, RADIUS + BERTH), HEIGHT - RADIUS - BERTH)
         for i in range(world.wall_count):
             wall = world.walls[i]
-            dx, dy = off_wall(wall, x, y)
+            dx, dy = offset_from_wall(wall, x, y)
             off, room = hypot(dx, dy), wall.half + RADIUS + BERTH
             if wall.health and 0.0 < off < room:
                 x, y = x + dx * (room / off - 1.0), y + dy * (room / off - 1.0)

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from math import sqrt
 from typing import Any
 
-from pigaming_app.sim.flow_field import Errand, find_way, free_node, grow
+from pigaming_app.sim.flow_field import Route, expand, free_node, update_route
 from pigaming_app.sim.grid import BLOCKED, block_rim, wall_on_grid
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import clear
+from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall, World
 
 MOST_POINTS = 40  # of a way
@@ -48,32 +48,32 @@ def among(floor: Any, lines: Iterable[Sequence[Point]], half: float) -> Any:
 def way_to(floor: Any, start: Point, goal: Point) -> list[Point]:
     """The points to drive to, the last of them the goal; empty where there is no way."""
     x, y = min(max(start[0], RADIUS), WIDTH - RADIUS), min(max(start[1], RADIUS), HEIGHT - RADIUS)
-    errand: Any = Errand()
-    errand.wanted, errand.goal_x, errand.goal_y = 1, goal[0], goal[1]
+    route: Any = Route()
+    route.wanted, route.goal_x, route.goal_y = 1, goal[0], goal[1]
     way: list[Point] = []
     for _ in range(MOST_POINTS):
-        find_way(floor, errand, x, y)
-        if errand.straight:
-            return [*way, goal] if clear(floor, x, y, *goal, RADIUS + 1.0) else _last_bit(floor, way, (x, y), goal)
-        if way and (errand.way_x, errand.way_y) == way[-1]:
+        update_route(floor, route, x, y)
+        if route.straight:
+            return [*way, goal] if is_clear(floor, x, y, *goal, RADIUS + 1.0) else _last_bit(floor, way, (x, y), goal)
+        if way and (route.way_x, route.way_y) == way[-1]:
             return []
-        x, y = errand.way_x, errand.way_y
+        x, y = route.way_x, route.way_y
         way.append((x, y))
     return []
 
 
 def _last_bit(floor: Any, way: list[Point], at: Point, goal: Point) -> list[Point]:
     """A place beside a wall: from the node next to it straight there."""
-    return [*way, goal] if apart(at, goal) < CELL and clear(floor, *at, *goal, RADIUS - 2.0) else []
+    return [*way, goal] if apart(at, goal) < CELL and is_clear(floor, *at, *goal, RADIUS - 2.0) else []
 
 
 def spots(floor: Any, start: Point) -> list[Point]:
     """The free nodes that can be reached from there, nearest first."""
-    field: Any = Errand()
+    field: Any = Route()
     root = free_node(floor, *start)
     if root == 0:
         return []
-    grow(floor, field, root, -1)
+    expand(floor, field, root, -1)
     nodes = [node for node in range(NODES) if field.reach[node] > 1 and not floor.grid[node] & BLOCKED]
     nodes.sort(key=lambda node: int(field.reach[node]))
     return [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in nodes]

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import LAG, RADIUS
-from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 GAMMA = 4.0  # per s: speed for a gap, with a pose that is predicted (HARDWARE.md)
@@ -51,7 +51,7 @@ def limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]]
         wall = world.walls[i]
         if not wall.health:
             continue
-        dx, dy = off_wall(wall, x, y)
+        dx, dy = offset_from_wall(wall, x, y)
         gap = sqrt(dx * dx + dy * dy)
         if gap < 1e-6:  # on the middle line of a wall: across it is the way out, whichever side
             continue

@@ -14,7 +14,7 @@ from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, World
 
 SPEED = 350.0  # mm/s
@@ -173,5 +173,5 @@ def entered(world: Any, x: float, y: float) -> float:
     for i in range(world.wall_count):
         wall = world.walls[i]
         if wall.health:
-            depths.append(wall.half + RADIUS - hypot(*off_wall(wall, x, y)))
+            depths.append(wall.half + RADIUS - hypot(*offset_from_wall(wall, x, y)))
     return max(depths)

@@ -10,11 +10,23 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PETALS, PRIZE, WALL, WAY, Sight, petal
+from pigaming_app.ai.brain.thoughts import (
+    BULLET,
+    GOAL,
+    MATE,
+    OPPONENT,
+    PERSON,
+    PETALS,
+    PRIZE,
+    WALL,
+    WAY,
+    Percept,
+    petal,
+)
 from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Pose
-from pigaming_app.sim.sweep import meets_wall
+from pigaming_app.sim.sweep import wall_contact
 from pigaming_app.ui.draw import ALARM, FOCUS, LINE, THIN, Color, Ink, Points, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, master, painted, put, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
@@ -55,7 +67,7 @@ class Marks:
         self.others, self.color, self.clock = others, color, clock
         self.light: Batch = []
 
-    def rose(self, rose: Sequence[float], sights: Sequence[Sight]) -> None:
+    def rose(self, rose: Sequence[float], sights: Sequence[Percept]) -> None:
         """Sixteen petals that turn with the robot; where something is, the petal's edge has its colour."""
         for k, value in enumerate(rose):
             self._turned(leaf, round(LEVELS * value), k)
@@ -64,7 +76,7 @@ class Marks:
                 bearing = math.atan2(TOP + sight.y - self.y, LEFT + sight.x - self.x) - self.heading
                 self._turned(lamp, COLORS[sight.kind], petal(bearing))
 
-    def sights(self, state: Any, sights: Sequence[Sight]) -> None:
+    def sights(self, state: Any, sights: Sequence[Percept]) -> None:
         """Lines to what it sees, a cross where a wall is between. Its way, and two rings where it leads."""
         here = self.x, self.y
         begin, at = BEGIN, here
@@ -115,7 +127,7 @@ class Marks:
 def blocked(state: Any, x: float, y: float, to_x: float, to_y: float) -> float:
     """The share of the way to a point, arena px, after which the first wall that still stands is met; 1: none is."""
     walls = [wall for wall in state.walls[: state.wall_count] if wall.health]
-    return min((meets_wall(x, y, to_x - x, to_y - y, wall, 0.0) for wall in walls), default=1.0)
+    return min((wall_contact(x, y, to_x - x, to_y - y, wall, 0.0) for wall in walls), default=1.0)
 
 
 # ---- sprites

@@ -10,7 +10,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.ai.brain.kind import BrainPlayer
-from pigaming_app.ai.brain.thoughts import PETALS, Move, Thoughts
+from pigaming_app.ai.brain.thoughts import PETALS, MoveKey, Thoughts
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.floor_marks import Marks
@@ -106,7 +106,7 @@ class BrainOverlay:
             cards.draw_held(screen, right + w, seat, held(state.actions[seat]), buttons)
 
 
-def held(action: Any) -> Move:
+def held(action: Any) -> MoveKey:
     """How the stick is held, in three steps each way, and fire."""
     linear, angular = (int(value > TILTED) - int(value < -TILTED) for value in (action.linear, action.angular))
     return linear, angular, int(action.fire)

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import pygame
 
-from pigaming_app.ai.brain.thoughts import Move
+from pigaming_app.ai.brain.thoughts import MoveKey
 from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.sprites.factory import state_icon
 from pigaming_app.ui.draw import (
@@ -78,7 +78,7 @@ def draw_wishes(screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mappi
     screen.fblits(light, pygame.BLEND_RGB_ADD)
 
 
-def draw_held(screen: pygame.Surface, right: int, seat: int, held: Move, buttons: Sequence[tuple[str, int]]) -> None:
+def draw_held(screen: pygame.Surface, right: int, seat: int, held: MoveKey, buttons: Sequence[tuple[str, int]]) -> None:
     """At the right end of that box, whose x is given: how it holds its stick and its buttons."""
     light: Batch = []
     stick(light, right - 128, Y + H / 2, {}, held, PLAYERS[seat])
@@ -89,7 +89,13 @@ def draw_held(screen: pygame.Surface, right: int, seat: int, held: Move, buttons
 
 
 def draw_moves(
-    screen: pygame.Surface, x: int, w: int, seat: int, moves: Mapping[Move, float], chosen: object, sure: Sequence[str]
+    screen: pygame.Surface,
+    x: int,
+    w: int,
+    seat: int,
+    moves: Mapping[MoveKey, float],
+    chosen: object,
+    sure: Sequence[str],
 ) -> None:
     """The right box of a brain that chooses among moves: how good each is, without and with fire, and how `sure`."""
     put_on(screen, box(seat, w, False), x, Y)
@@ -116,7 +122,7 @@ def lines(screen: pygame.Surface, x: float, room: float, title: str, text: str) 
 
 
 def stick(
-    light: Batch, x: float, y: float, values: Mapping[tuple[int, int], float], held: Move | None, color: Color
+    light: Batch, x: float, y: float, values: Mapping[tuple[int, int], float], held: MoveKey | None, color: Color
 ) -> None:
     """Nine cells round (x, y), ahead is up. `values`: how good each is, -1..1; the one held has a white edge."""
     for linear in (1, 0, -1):

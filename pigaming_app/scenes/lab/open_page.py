@@ -91,9 +91,10 @@ class Shelf:
     def _open(self, name: str) -> Turn:
         words, workshop = self.house.words, self.lab.workshop
         try:
-            workshop.take(fetch(name, workshop.fast))
+            training, other_engine = fetch(name, workshop.fast)
+            workshop.take(training)
             self.lab.name = name
-            self.lab.say(words("lab.opened", name=name))
+            self.lab.say(words("lab.opened_other" if other_engine else "lab.opened", name=name))
         except NotKept as trouble:
             self.lab.say(words(str(trouble), name=name), wrong=True)
         return Pop()

@@ -64,13 +64,11 @@ def keep(training: Training, name: str) -> None:
         raise NotKept("lab.disk_full" if full else "lab.no_writing") from trouble
 
 
-def fetch(name: str, fast: bool) -> Training:
-    """A robot as it was saved. Raises NotKept."""
+def fetch(name: str, fast: bool) -> tuple[Training, bool]:
+    """A robot as it was saved, and whether it was trained with another version of the engine. Raises NotKept."""
     try:
         trained = table_files.load(file_of(name))
-        if trained.other_engine:
-            log.warning("%s was trained with another version of the engine", file_of(name))
-        return resumed(trained, fast)
+        return resumed(trained, fast), trained.other_engine
     except (TableError, ArenaError) as trouble:
         log.warning("%s", trouble)
         raise NotKept("lab.broken") from trouble

@@ -19,7 +19,7 @@ from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, Turn
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, Seats
-from pigaming_app.scenes.results.high_score_tables import contest, table_of, told
+from pigaming_app.scenes.results.high_score_tables import contest, format_score, table_of
 from pigaming_app.scenes.results.scene import After
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.sprites import effects
@@ -202,7 +202,7 @@ class SetupPage:
             best = self.house.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.house.words(f"setup.best_{feat.name}")
-                lines.append((name, self.house.words.decimal(told(best[0].score, feat)), best[0].initials))
+                lines.append((name, self.house.words.decimal(format_score(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 

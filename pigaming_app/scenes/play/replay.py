@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.games.replay import BYTES, Replay, play
+from pigaming_app.games.replay import BYTES_PER_TICK, Replay, to_match
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.play.runner import Stage
@@ -24,9 +24,9 @@ class ReplayScene:
 
     def __init__(self, house: House, replay: Replay) -> None:
         self.house, self.replay = house, replay
-        self.length = len(replay.ticks) // BYTES * DT
+        self.length = len(replay.ticks) // BYTES_PER_TICK * DT
         self.speed, self.shown, self.playing = 0, SHOWN, True
-        self.stage, self.warm = Stage(house, play(replay)), False
+        self.stage, self.warm = Stage(house, to_match(replay)), False
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -104,4 +104,4 @@ class ReplayScene:
         return match.over or match.seconds >= self.length
 
     def _begin(self) -> None:
-        self.stage, self.warm, self.playing = Stage(self.house, play(self.replay)), False, True
+        self.stage, self.warm, self.playing = Stage(self.house, to_match(self.replay)), False, True

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from pigaming_app.games.game import RecordKind, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.storage.scores import Scores, ScoreTable
 
 NONE = "–"
 STRONG = frozenset({"normal", "hard", "fsm", "q1", "q2"})
@@ -21,7 +21,7 @@ class Board:
     """A table as it is shown. `heading`: key of its text; `days`: of so many last days; None: of all time."""
 
     heading: str
-    table: Table
+    table: ScoreTable
     days: int | None = None
 
 
@@ -32,22 +32,22 @@ def counts(setup: Setup, seat: int) -> bool:
     return bool(opponents) and all(brain == "human" or brain in STRONG for brain in opponents)
 
 
-def contest(setup: Setup, seat: int | None = None) -> Table:
+def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
     """The conditions of a match for a seat, or for the first person's: a table without a feat."""
     people = [i for i, one in enumerate(setup.seats) if one.brain == "human"]
     own = setup.seats[seat if seat is not None else people[0] if people else 0]
     mates = [one for one in setup.seats if one.brain != "off" and one.team == own.team]
     side = sum(one.brain == "human" for one in mates) if len(mates) > 1 else 0
     length = setup.goal if games()[setup.game].goals else setup.minutes
-    return Table(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
+    return ScoreTable(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
 
 
-def table_of(contest: Table, feat: RecordKind) -> Table:
+def table_of(contest: ScoreTable, feat: RecordKind) -> ScoreTable:
     """The table of a feat under the conditions of a contest."""
     return replace(contest, feat=feat.name, timed=feat.timed)
 
 
-def boards(contest: Table) -> list[Board]:
+def boards(contest: ScoreTable) -> list[Board]:
     """The two tables shown side by side: of each feat, or of the only one today's and that of all time."""
     feats = games()[contest.game].record_kinds
     tables = [table_of(contest, feat) for feat in feats]
@@ -56,20 +56,20 @@ def boards(contest: Table) -> list[Board]:
     return [Board("results.today", tables[0], 1), Board("results.ever", tables[0])]
 
 
-def older_boards(contest: Table, scores: Scores) -> list[Board]:
+def older_boards(contest: ScoreTable, scores: Scores) -> list[Board]:
     """The tables of all time that have rows, of a contest of version 1.3.0."""
     tables = [table_of(contest, feat) for feat in games()[contest.game].record_kinds]
     return [Board(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
 
 
-def contests(scores: Scores) -> list[Table]:
+def contests(scores: Scores) -> list[ScoreTable]:
     """The contests of which something can be shown, by game and arena, older ones last in each arena."""
     found = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
     names = list(games())
     return sorted(found, key=lambda one: (names.index(one.game), one.arena != "classic", one.arena, one.older, one))
 
 
-def told(value: int, feat: RecordKind | Table) -> str:
+def format_score(value: int, feat: RecordKind | ScoreTable) -> str:
     """Points, or milliseconds as minutes and seconds."""
     return clock(value / 1000.0) if feat.timed else str(value).replace("-", "−")
 
@@ -83,7 +83,7 @@ def clock(seconds: float) -> str:
     return f"{minutes}:{rest // 100:02}.{rest % 100:02}" if minutes else f"{rest // 100}.{rest % 100:02}"
 
 
-def _is_known(table: Table) -> bool:
+def _is_known(table: ScoreTable) -> bool:
     """Whether there is such a game, with such a feat and such rules; a file may hold anything."""
     game = games().get(table.game)
     if not game or not any((feat.name, feat.timed) == (table.feat, table.timed) for feat in game.record_kinds):

@@ -12,8 +12,8 @@ from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.match_choice import load_kept, playable, title
 from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, older_boards, told
-from pigaming_app.storage.scores import Score, Table
+from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, format_score, older_boards
+from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
 from pigaming_app.ui.draw.layers import RIGHT, Lit, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
@@ -36,7 +36,7 @@ STEPS = {Act.LEFT: -1, Act.RIGHT: 1, Act.UP: -1, Act.DOWN: 1}
 class Best:
     """The tables of a contest; if they are empty, of the first one that has rows. `fresh`: rows shown in yellow."""
 
-    def __init__(self, house: House, contest: Table, fresh: Sequence[Score] = ()) -> None:
+    def __init__(self, house: House, contest: ScoreTable, fresh: Sequence[Score] = ()) -> None:
         self.house, self.fresh = house, list(fresh)
         self.shelf = [one for one in contests(house.scores) if one.arena in playable(one.game)]
         self._show(nearest(contest, self.shelf))
@@ -99,7 +99,7 @@ class Best:
             self._show(ring[(ring.index(self.contest) + STEPS[act]) % len(ring)])
             self.house.sounds.play("move")
 
-    def _show(self, contest: Table) -> None:
+    def _show(self, contest: ScoreTable) -> None:
         """Show the tables of a contest, and arrows wherever there are others."""
         self.contest, self.turned = contest, 0.0
         where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
@@ -112,12 +112,12 @@ class Best:
             self.arrows[Act.LEFT] = 960 - line - 60, LINE_Y
             self.arrows[Act.RIGHT] = 960 + line + 60, LINE_Y
 
-    def _ring(self, act: Act) -> list[Table]:
+    def _ring(self, act: Act) -> list[ScoreTable]:
         """The contests left and right of the one shown, or above and below: one in each arena."""
         here = place_of(self.contest)
         if act in (Act.LEFT, Act.RIGHT):
             return [one for one in self.shelf if place_of(one) == here]
-        firsts: dict[tuple[str, str], Table] = {}
+        firsts: dict[tuple[str, str], ScoreTable] = {}
         for one in self.shelf:
             firsts.setdefault(place_of(one), self.contest if place_of(one) == here else one)
         return list(firsts.values())
@@ -152,14 +152,14 @@ class Best:
         screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
-        value = self.house.words.decimal(told(row.score, board.table))
+        value = self.house.words.decimal(format_score(row.score, board.table))
         text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
         if row in self.fresh:
             sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
         screen.set_clip(before)
 
 
-def nearest(contest: Table, shelf: Sequence[Table]) -> Table:
+def nearest(contest: ScoreTable, shelf: Sequence[ScoreTable]) -> ScoreTable:
     """The contest itself if it has rows or nothing has; else one of its arena, of its game, or any other."""
     near = [one for one in shelf if place_of(one) == place_of(contest)] or [
         one for one in shelf if one.game == contest.game
@@ -172,12 +172,12 @@ def hit(arrow: tuple[float, float], at: tuple[float, float]) -> bool:
     return abs(at[0] - arrow[0]) <= 48 and abs(at[1] - arrow[1]) <= ARROW + 4
 
 
-def place_of(contest: Table) -> tuple[str, str]:
+def place_of(contest: ScoreTable) -> tuple[str, str]:
     """Game and arena."""
     return contest.game, contest.arena
 
 
-def conditions(words: Words, contest: Table) -> str:
+def conditions(words: Words, contest: ScoreTable) -> str:
     """The rules, the length and the people of a contest in one line."""
     game = games()[contest.game]
     parts = [words("best.older")] if contest.older else []

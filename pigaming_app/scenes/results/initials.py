@@ -15,11 +15,11 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.results import initials_view as page
-from pigaming_app.scenes.results.high_score_tables import contest, counts, table_of, told
+from pigaming_app.scenes.results.high_score_tables import contest, counts, format_score, table_of
 from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.scores import Score, Table
+from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, LABEL
 from pigaming_app.ui.draw.frame_budget import Ahead
@@ -35,7 +35,7 @@ SPANS = {"results.today": 1, "results.ever": None}  # headings, and of how many 
 _log = logging.getLogger(__name__)
 
 
-Feats = tuple[tuple[Table, int], ...]
+Feats = tuple[tuple[ScoreTable, int], ...]
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,9 @@ def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, 
     return done
 
 
-def places(house: House, table: Table, value: int, rivals: Sequence[tuple[Table, int]]) -> tuple[tuple[str, int], ...]:
+def places(
+    house: House, table: ScoreTable, value: int, rivals: Sequence[tuple[ScoreTable, int]]
+) -> tuple[tuple[str, int], ...]:
     """The places of a value among today's best and the best ever, by heading, as far as they are in the top eight.
 
     `rivals`: what the other people of the match did; those who did better stand ahead.
@@ -177,7 +179,7 @@ class Initials:
         lines = []
         for (table, value), found in zip(claim.feats, claim.places, strict=True):
             shown = found if len(claim.feats) == 1 else found[-1:]
-            lines.append((words(f"setup.best_{table.feat}"), words.decimal(told(value, table))))
+            lines.append((words(f"setup.best_{table.feat}"), words.decimal(format_score(value, table))))
             lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
         return tuple(lines)
 

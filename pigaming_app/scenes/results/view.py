@@ -13,7 +13,7 @@ from pigaming_app.scenes.flow.context import House
 from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.results.celebration import Finale
 from pigaming_app.scenes.results.headline import headline, winning_color
-from pigaming_app.scenes.results.high_score_tables import boards, clock, contest, told
+from pigaming_app.scenes.results.high_score_tables import boards, clock, contest, format_score
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.ui.draw import (
     BODY,
@@ -275,7 +275,7 @@ class ResultsPage:
             pane.page.body(heading, left + 64, y - 32, MIST, "l", fitted(heading, BODY, 330, "body"))
             if rows:
                 pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
-                best = words.decimal(told(rows[0].score, board.table))
+                best = words.decimal(format_score(rows[0].score, board.table))
                 pane.page.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
         return pane.done()
 

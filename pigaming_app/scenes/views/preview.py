@@ -9,7 +9,7 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.games.factory.layout import Floor
-from pigaming_app.games.race.start import Track
+from pigaming_app.games.race.start import TrackPlan
 from pigaming_app.scenes.views.factory.background import draw_floor
 from pigaming_app.scenes.views.race.background import GLOW, earth
 from pigaming_app.scenes.views.race.track import draw_track
@@ -84,4 +84,4 @@ def fitted(w: int, h: int) -> tuple[float, float, float]:
 
 
 # by what the plan of an arena is
-PREVIEWS: dict[type, Callable[[Arena, int, int], Steps[pygame.Surface]]] = {Track: track, Floor: floor}
+PREVIEWS: dict[type, Callable[[Arena, int, int], Steps[pygame.Surface]]] = {TrackPlan: track, Floor: floor}

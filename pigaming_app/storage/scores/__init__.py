@@ -1,6 +1,6 @@
 """High scores: the tables, their file, and the rows carried over from the file of version 1.3.0."""
 
 from pigaming_app.storage.scores.book import FILE, Scores, migrations
-from pigaming_app.storage.scores.table import DAYS, LENGTH, LETTERS, Score, Table
+from pigaming_app.storage.scores.table import DAYS, LENGTH, LETTERS, Score, ScoreTable
 
-__all__ = ["DAYS", "FILE", "LENGTH", "LETTERS", "Score", "Scores", "Table", "migrations"]
+__all__ = ["DAYS", "FILE", "LENGTH", "LETTERS", "Score", "ScoreTable", "Scores", "migrations"]

@@ -13,9 +13,9 @@ from pathlib import Path
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.parsing import read_text
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
-from pigaming_app.storage.scores.file_format import Content, Faults, Migrated, parse, to_text
+from pigaming_app.storage.scores.file_format import Content, Migrated, Problems, parse, to_text
 from pigaming_app.storage.scores.migration import back_up, migrate, pending
-from pigaming_app.storage.scores.table import LENGTH, Score, Table, are_initials, day, local, worth_keeping
+from pigaming_app.storage.scores.table import LENGTH, Score, ScoreTable, are_initials, day, local, worth_keeping
 
 FILE = "scores2.toml"  # version 1.3.0 has no use for it and leaves it alone
 LARGEST = 16_000_000  # bytes
@@ -30,7 +30,7 @@ class Scores:
         self._content = Content()  # with the own changes
         self._seen = Content()  # the file as it was read or written last
         self._stamp: Stamp | None = None  # of that file
-        self._added: list[tuple[Table, Score]] = []
+        self._added: list[tuple[ScoreTable, Score]] = []
         self._cleared = False
 
     @classmethod
@@ -68,11 +68,11 @@ class Scores:
                     log.warning("%s", sentence)
             self._write(folder)
 
-    def tables(self) -> list[Table]:
+    def tables(self) -> list[ScoreTable]:
         """The tables that have rows, in order."""
         return sorted(table for table, rows in self._content.tables.items() if rows)
 
-    def add(self, table: Table, initials: str, score: int, when: datetime | None = None) -> Score:
+    def add(self, table: ScoreTable, initials: str, score: int, when: datetime | None = None) -> Score:
         """Note a score; `when`: now, if not given. Raises ValueError unless the initials are three of A to Z."""
         if not are_initials(initials):
             raise ValueError(f"initials are three of A to Z, not {initials!r}")
@@ -81,7 +81,7 @@ class Scores:
         self._enter([(table, row)])
         return row
 
-    def best(self, table: Table, days: int | None = None, now: datetime | None = None) -> list[Score]:
+    def best(self, table: ScoreTable, days: int | None = None, now: datetime | None = None) -> list[Score]:
         """The table, best first, at most LENGTH rows: of all time, or of the last `days` (1: today; at most DAYS)."""
         rows = self._content.tables.get(table, [])
         if days is not None:
@@ -90,7 +90,7 @@ class Scores:
             rows = [row for row in rows if first <= day(row) <= today]
         return rows[:LENGTH]
 
-    def place(self, table: Table, score: int, days: int | None = None, now: datetime | None = None) -> int | None:
+    def place(self, table: ScoreTable, score: int, days: int | None = None, now: datetime | None = None) -> int | None:
         """The place of a new score in that table, from 1; None: not in it. It stands behind its equals."""
         ahead = sum(table.at_least(row.score, score) for row in self.best(table, days, now))
         return ahead + 1 if ahead < LENGTH else None
@@ -108,7 +108,7 @@ class Scores:
         path = folder / FILE
         self._stamp = _stamp(path)  # before it is read: if it is replaced meanwhile, it is read again
         found, said = read_or_restore(path, parse, LARGEST)
-        self._seen, faults = found or (Content(), Faults())
+        self._seen, faults = found or (Content(), Problems())
         said += faults.sentences(path)
         self._content = self._seen.copy()
         said += migrate(folder, self._content)
@@ -130,7 +130,7 @@ class Scores:
         self._cleared = False
         self._seen, self._stamp = self._content.copy(), _stamp(folder / FILE)
 
-    def _enter(self, rows: Iterable[tuple[Table, Score]]) -> None:
+    def _enter(self, rows: Iterable[tuple[ScoreTable, Score]]) -> None:
         """Put rows in their places."""
         today = local(None).date()
         for table, row in rows:

@@ -29,7 +29,7 @@ from datetime import date, datetime
 from typing import Any
 
 from pigaming_app.storage.parsing import QUOTE_LENGTH, one_line, parse_toml
-from pigaming_app.storage.scores.table import LONGEST, Score, Table, is_score, local, worth_keeping
+from pigaming_app.storage.scores.table import LONGEST, Score, ScoreTable, is_score, local, worth_keeping
 
 FORMAT = 2
 MOST_RESETS = 10**9
@@ -52,7 +52,7 @@ class Migrated:
 class Content:
     """The content of a scores file."""
 
-    tables: dict[Table, list[Score]] = field(default_factory=dict)
+    tables: dict[ScoreTable, list[Score]] = field(default_factory=dict)
     resets: int = 0
     migrated: list[Migrated] = field(default_factory=list)
 
@@ -68,13 +68,13 @@ class Content:
         """Sort every table, and drop the rows that no table shows."""
         self.tables = {table: worth_keeping(table, rows, today) for table, rows in self.tables.items() if rows}
 
-    def rows(self) -> Counter[tuple[Table, Score]]:
+    def rows(self) -> Counter[tuple[ScoreTable, Score]]:
         """How often each row is there."""
         return Counter((table, row) for table, rows in self.tables.items() for row in rows)
 
 
 @dataclass
-class Faults:
+class Problems:
     """Entries that were ignored: how many, and where the first one was."""
 
     count: int = 0
@@ -93,12 +93,12 @@ class Faults:
         return [f"{path}: {entries} ({'' if self.count == 1 else 'first '}in {self.first}); ignored."]
 
 
-def parse(text: str) -> tuple[Content, Faults]:
+def parse(text: str) -> tuple[Content, Problems]:
     """The content of a file and what had to be ignored in it. Raises ValueError for a file that is no scores file."""
     found = parse_toml(text)
     if type(found.get("format")) is not int or found["format"] != FORMAT:
         raise ValueError(f"its format is not {FORMAT}")
-    content, faults = Content(resets=_resets(found.get("resets"))), Faults()
+    content, faults = Content(resets=_resets(found.get("resets"))), Problems()
     for i, entry in enumerate(_list(found.get("table", []), "table", faults), 1):
         table = _table(entry)
         if table is None:
@@ -127,7 +127,7 @@ def to_text(content: Content) -> str:
     return tomli_w.dumps({"format": FORMAT, "resets": content.resets, "migrated": migrated, "table": tables})
 
 
-def read_rows(table: Table, entries: object, where: str, faults: Faults) -> list[Score]:
+def read_rows(table: ScoreTable, entries: object, where: str, faults: Problems) -> list[Score]:
     """The valid rows of a list; the others are added to `faults`."""
     rows = []
     for entry in _list(entries, where, faults):
@@ -138,7 +138,7 @@ def read_rows(table: Table, entries: object, where: str, faults: Faults) -> list
     return rows
 
 
-def row_of(table: Table, entry: object) -> Score | None:
+def row_of(table: ScoreTable, entry: object) -> Score | None:
     """The row of an entry, None if it is not one of this table."""
     match entry:
         case {"initials": str(initials), "when": datetime() as when, **rest}:
@@ -155,14 +155,14 @@ def row_of(table: Table, entry: object) -> Score | None:
     return row if is_score(table, row) else None
 
 
-def _list(found: object, where: str, faults: Faults) -> Iterable[Any]:
+def _list(found: object, where: str, faults: Problems) -> Iterable[Any]:
     if isinstance(found, list):
         return found
     faults.add(where)
     return []
 
 
-def _table(entry: object) -> Table | None:
+def _table(entry: object) -> ScoreTable | None:
     match entry:
         case {
             "game": str(game),
@@ -182,7 +182,7 @@ def _table(entry: object) -> Table | None:
     short = max(map(len, (game, arena, feat, rules))) <= LONGEST
     counted = all(type(one) is int and 0 <= one <= MOST_PEOPLE for one in (people, side))
     measured = not isinstance(length, bool) and 0 <= length <= MOST_LENGTH
-    return Table(game, arena, feat, timed, rules, length, people, side) if short and counted and measured else None
+    return ScoreTable(game, arena, feat, timed, rules, length, people, side) if short and counted and measured else None
 
 
 def _migrated(entry: object) -> Migrated | None:
@@ -214,5 +214,5 @@ def _resets(found: object) -> int:
     return found if type(found) is int and 0 <= found <= MOST_RESETS else 0
 
 
-def _entry(table: Table, row: Score) -> Mapping[str, Any]:
+def _entry(table: ScoreTable, row: Score) -> Mapping[str, Any]:
     return {"initials": row.initials, "ms" if table.timed else "score": row.score, "when": row.when}

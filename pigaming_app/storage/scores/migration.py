@@ -16,14 +16,14 @@ from pathlib import Path
 
 from pigaming_app.storage.parsing import QUOTE_LENGTH, describe_error, one_line, parse_toml, read, read_text
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_atomic
-from pigaming_app.storage.scores.file_format import Content, Faults, Migrated, row_of
-from pigaming_app.storage.scores.table import LONGEST, Score, Table, local
+from pigaming_app.storage.scores.file_format import Content, Migrated, Problems, row_of
+from pigaming_app.storage.scores.table import LONGEST, Score, ScoreTable, local
 
 FILE = "scores.toml"
 LARGEST = 16_000_000  # bytes
 _TIMED = re.compile(r"(?P<arena>.+) (?P<feat>[a-z]+)(?: (?P<goal>\d{1,2}))?", re.DOTALL)
 
-Rows = Counter[tuple[Table, Score]]
+Rows = Counter[tuple[ScoreTable, Score]]
 
 
 def migrate(folder: Path, content: Content) -> list[str]:
@@ -62,9 +62,9 @@ def pending(folder: Path, content: Content) -> bool:
     return os.path.lexists(path) and _digest(path) not in {one.digest for one in content.migrated}
 
 
-def parse(text: str) -> tuple[Rows, Faults]:
+def parse(text: str) -> tuple[Rows, Problems]:
     """The rows of a file of version 1.3.0, and what is wrong in it. Raises ParseError."""
-    rows, faults = Rows(), Faults()
+    rows, faults = Rows(), Problems()
     for game, arena, entries in _tables(parse_toml(text)):
         where = one_line(f"{game}.{arena}", QUOTE_LENGTH)
         if not isinstance(entries, list) or max(len(game), len(arena)) > LONGEST:
@@ -87,12 +87,12 @@ def _tables(found: dict[str, object]) -> Iterator[tuple[str, str, object]]:
             yield game, "", None
 
 
-def _table(game: str, arena: str, entry: object) -> Table | None:
+def _table(game: str, arena: str, entry: object) -> ScoreTable | None:
     """The table of a row: its name tells arena, feat and goal of a time, the arena alone of points."""
     if not isinstance(entry, dict) or "ms" not in entry:
-        return Table(game, arena, "points")
+        return ScoreTable(game, arena, "points")
     told = _TIMED.fullmatch(arena)
-    return Table(game, told["arena"], told["feat"], True, length=int(told["goal"] or 0)) if told else None
+    return ScoreTable(game, told["arena"], told["feat"], True, length=int(told["goal"] or 0)) if told else None
 
 
 def _digest(path: Path) -> str:

@@ -13,7 +13,7 @@ LONGEST = 200  # characters of a name
 
 
 @dataclass(frozen=True, order=True)
-class Table:
+class ScoreTable:
     """Under which conditions the rows of a table were scored. `people` 0: unknown, a table of version 1.3.0."""
 
     game: str
@@ -44,7 +44,7 @@ class Score:
     when: datetime
 
 
-def is_score(table: Table, row: Score) -> bool:
+def is_score(table: ScoreTable, row: Score) -> bool:
     """Whether a row can stand in a table: initials, a plausible value, a plausible year."""
     plausible = 0 < row.score <= MOST_MS if table.timed else abs(row.score) <= MOST_POINTS
     return plausible and are_initials(row.initials) and row.when.year in YEARS
@@ -73,7 +73,7 @@ def day(row: Score) -> date:
     return row.when.date()
 
 
-def worth_keeping(table: Table, rows: Iterable[Score], today: date) -> list[Score]:
+def worth_keeping(table: ScoreTable, rows: Iterable[Score], today: date) -> list[Score]:
     """The rows that the table of all time or of a day shows, best first; of equals the earlier one."""
     sign = 1 if table.timed else -1
     ordered = sorted(rows, key=lambda row: (sign * row.score, row.when))

@@ -10,7 +10,7 @@ from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL,
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Table
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.race import racer
@@ -28,7 +28,7 @@ KEPT = 0.9  # of a table's best move, for the second best
 
 def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> BrainPlayer:
     """A player who knows of every state that one move is worth most, and the next one nearly as much."""
-    table = Table()
+    table = QTable()
     for name, value in vars(Recipe()).items():
         setattr(table.knobs, name, value)
     for k in range(0, len(table.q), ACTIONS):
@@ -175,7 +175,7 @@ def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_
     seen = {sight.kind: sight for sight in told.sights}
     assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.obs.others[0].x, mind.obs.others[0].y)
     if GOAL in seen:
-        assert (seen[GOAL].x, seen[GOAL].y) == (mind.senses.errand.goal_x, mind.senses.errand.goal_y)
+        assert (seen[GOAL].x, seen[GOAL].y) == (mind.senses.route.goal_x, mind.senses.route.goal_y)
     assert told.names["player"] == 2
 
 

@@ -156,6 +156,16 @@ def test_a_file_says_what_it_was_trained_for_and_on(kept):
     assert kept.stat().st_size < 100_000
 
 
+@pytest.mark.parametrize("version", ["1.3.0", "1.4.0"])
+def test_a_table_of_an_older_version_is_read_and_learns_on(version):
+    trained = read(Path(__file__).parents[2] / "data" / version / "ROBI.npz")
+    assert (trained.name, trained.recipe, trained.matches, trained.other_engine) == ("ROBI", RECIPES[2], 2, True)
+    again = training.resumed(trained, fast=False)
+    again.run(300)
+    assert again.matches == 3
+    assert again.experiences > int(trained.rows["experiences"][0])
+
+
 def rewritten(path, **parts):
     """The file with some of its parts replaced by what functions make of them; the zip itself is whole."""
     with np.load(path) as file:
@@ -292,6 +302,16 @@ def test_the_job_goes_on_from_a_file(tmp_path, capsys):
     assert train(tmp_path / "part.npz", "--resume") == 0
     whole, part = (read(tmp_path / f"{name}.npz") for name in ("whole", "part"))
     assert digest(whole.rows[0]) == digest(part.rows[0])
+
+
+def test_the_job_goes_on_from_a_table_of_another_engine_with_a_warning(tmp_path, capsys):
+    out = tmp_path / "a.npz"
+    assert train(out, "--matches", "1") == 0
+    out.write_bytes(tables.encode(replace(read(out), engine="0" * 64)))
+    capsys.readouterr()
+    assert train(out, "--resume") == 0
+    assert "a.npz: trained with another version of the engine" in capsys.readouterr().err
+    assert not read(out).other_engine
 
 
 def test_what_cannot_be_gone_on_with_is_said_in_one_line(tmp_path, capsys):

@@ -23,7 +23,7 @@ from pigaming_app.ai.qlearning.learner import (
     MOVES,
     PAIRS,
     LearnerMind,
-    Table,
+    QTable,
     learn,
     learn_last,
     move_probabilities,
@@ -32,7 +32,7 @@ from pigaming_app.ai.qlearning.learner import (
     update,
 )
 from pigaming_app.ai.qlearning.player import reset, think
-from pigaming_app.ai.qlearning.rewards import RECIPES, Knobs, Recipe, action_reward, transition_reward
+from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, RecipeRecord, action_reward, transition_reward
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action
@@ -205,7 +205,7 @@ def test_a_recipe_nothing_can_be_learned_with_is_refused(wrong):
 
 
 def test_a_kernel_reads_the_same_numbers_as_a_recipe_has():
-    assert [field.name for field in Knobs()._fields] == list(vars(Recipe()))
+    assert [field.name for field in RecipeRecord()._fields] == list(vars(Recipe()))
 
 
 # ------------------------------------------------------------------------------------------ how it learns
@@ -314,5 +314,5 @@ def test_a_player_draws_at_the_last_temperature_and_changes_nothing_but_its_acti
 
 
 def test_a_table_is_a_record():
-    assert isinstance(fresh_table(3), Table)
+    assert isinstance(fresh_table(3), QTable)
     assert fresh_table(3).random != fresh_table(4).random

@@ -3,7 +3,7 @@
 import pytest
 
 from pigaming_app.ai.qlearning.features import NONE, state
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, Table
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.policy_summary import DEEDS, direction
 from pigaming_app.sim.record import packed
 
@@ -12,9 +12,9 @@ SHOOT = next(k for k, move in enumerate(MOVES) if move == (0.0, 0.0, 1))
 LEFT = next(k for k, move in enumerate(MOVES) if move == (0.0, -1.0, 0))
 
 
-def filled(*entries: tuple[int, int, int, int, float]) -> Table:
+def filled(*entries: tuple[int, int, int, int, float]) -> QTable:
     """A table of entries (opponent's sector, wall's sector, move, how often, Q)."""
-    table = Table()
+    table = QTable()
     for opponent, wall, move, often, q in entries:
         k = state(opponent, wall, NONE) * ACTIONS + move
         table.n[k], table.q[k] = often, q

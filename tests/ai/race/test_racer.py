@@ -11,7 +11,7 @@ from pigaming_app.ai.experiments.league import duel
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.race.course import spot
+from pigaming_app.games.race.course import point_at
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HZ
 from tests.bench.reference_lap import MIXTURES, STUCK, STUCK_PX, TARGETS
@@ -188,7 +188,9 @@ def test_it_goes_back_to_a_line_that_it_has_been_carried_over(track, past):
     state = match.state
     while state.racers[0].passed < 1:
         match.tick()
-    state.robots[0].x, state.robots[0].y = spot(state.course, (state.lines[1].along + past) % state.course.length, 0.0)
+    state.robots[0].x, state.robots[0].y = point_at(
+        state.course, (state.lines[1].along + past) % state.course.length, 0.0
+    )
     while not match.over and match.seconds < 60.0:
         match.tick()
     assert state.racers[0].finished

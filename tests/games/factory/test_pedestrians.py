@@ -11,7 +11,7 @@ from pigaming_app.games.factory.pedestrians import CLOSE, NEARLY, THERE, TURN, M
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import Errand
+from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.record import digest, record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, World
@@ -31,7 +31,7 @@ class Walker:
     heading: float
     walking: int
     side: int
-    errand: Errand
+    route: Route
     least: float
     held_up: int
 
@@ -92,7 +92,7 @@ def go(world, who, seconds):
 
 
 def far_off(who):
-    return hypot(who.errand.goal_x - who.x, who.errand.goal_y - who.y)
+    return hypot(who.route.goal_x - who.x, who.route.goal_y - who.y)
 
 
 # ----------------------------------------------------------------------------------------------------------- the floor

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.pitanks.rules import fly, judge, shoot
+from pigaming_app.games.pitanks.rules import judge, move_bullets, use_gun
 from pigaming_app.games.pitanks.state import OUTER, OWN_BULLETS, RICOCHET, TRIPLE
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.robot import RADIUS
@@ -75,13 +75,13 @@ class Shots:
     def play(self, match):
         """Fire and fly one tick, and note every bullet's way, what could stop it, and what did."""
         for k in range(4):
-            shoot(match, k)
+            use_gun(match, k)
         ways = []
         for i, bullet in enumerate(match.bullets):
             if bullet.alive:
                 seconds = DT + (MUZZLE / SPEED if bullet.fresh else 0.0)
                 ways.append((i, (bullet.x, bullet.y, bullet.vx * seconds, bullet.vy * seconds)))
-        fly(match)
+        move_bullets(match)
         for i, way in ways:
             bullet = match.bullets[i]
             self.ways.append(way)

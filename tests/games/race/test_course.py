@@ -8,7 +8,7 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.race.circuit import Corner, course_of
-from pigaming_app.games.race.course import POINTS, CoursePosition, locate, spot, way_round
+from pigaming_app.games.race.course import POINTS, CoursePosition, distance_ahead, locate, point_at
 from pigaming_app.sim.arena import ArenaError
 
 TRACKS = arenas("race")
@@ -79,9 +79,9 @@ def test_a_place_on_a_straight_and_in_a_bend():
 
 def test_the_way_round_wraps():
     course = course_of(RING)
-    assert way_round(course, 100.0, 50.0) == pytest.approx(course.length - 50)
-    assert spot(course, course.length + 10.0, 0.0) == pytest.approx(spot(course, 10.0, 0.0))
-    assert spot(course, -10.0, 5.0) == pytest.approx(spot(course, course.length - 10.0, 5.0))
+    assert distance_ahead(course, 100.0, 50.0) == pytest.approx(course.length - 50)
+    assert point_at(course, course.length + 10.0, 0.0) == pytest.approx(point_at(course, 10.0, 0.0))
+    assert point_at(course, -10.0, 5.0) == pytest.approx(point_at(course, course.length - 10.0, 5.0))
 
 
 @pytest.mark.parametrize("track", TRACKS)
@@ -98,7 +98,7 @@ def test_places_are_those_that_looking_everywhere_finds(track):
         if inside > 0.05:
             on += 1
             assert place.half - abs(place.aside) == pytest.approx(inside, abs=0.05)
-            away = min(way_round(course, along, place.along), way_round(course, place.along, along))
+            away = min(distance_ahead(course, along, place.along), distance_ahead(course, place.along, along))
             assert away < 0.02 * POINTS * course.step / 50, "the same place, or one as near"
     assert on > 50
 
@@ -108,12 +108,12 @@ def test_a_spot_of_the_course_is_found_again(track):
     course, place, random = load("race", track).plan.course, CoursePosition(), Random(track)
     for _ in range(500):
         along, aside = random.uniform(0, course.length - 1e-6), random.uniform(-70, 70)
-        x, y = spot(course, along, aside)
+        x, y = point_at(course, along, aside)
         locate(course, x, y, place)
         assert place.on
-        away = min(way_round(course, along, place.along), way_round(course, place.along, along))
+        away = min(distance_ahead(course, along, place.along), distance_ahead(course, place.along, along))
         assert away < course.step, "within the leg, or where two legs meet"
-        assert hypot(*(a - b for a, b in zip(spot(course, place.along, place.aside), (x, y), strict=True))) < 6.0
+        assert hypot(*(a - b for a, b in zip(point_at(course, place.along, place.aside), (x, y), strict=True))) < 6.0
 
 
 @pytest.mark.parametrize("track", TRACKS)
@@ -122,9 +122,9 @@ def test_places_change_smoothly_all_the_way_round(track):
     for aside in (-60.0, 0.0, 60.0):
         last = None
         for i in range(2000):
-            locate(course, *spot(course, i * course.length / 2000, aside), place)
+            locate(course, *point_at(course, i * course.length / 2000, aside), place)
             if last is not None:
-                moved = min(way_round(course, last, place.along), way_round(course, place.along, last))
+                moved = min(distance_ahead(course, last, place.along), distance_ahead(course, place.along, last))
                 assert moved < 2 * course.step
             last = place.along
 
@@ -230,6 +230,6 @@ def test_lines_go_from_edge_to_edge_and_robots_wait_55_px_behind_them(track):
     course, place = arena.plan.course, CoursePosition()
     for line, start in zip(arena.plan.lines, arena.starts, strict=True):
         locate(course, start.x, start.y, place)
-        assert way_round(course, place.along, line) == pytest.approx(55, abs=0.1)
+        assert distance_ahead(course, place.along, line) == pytest.approx(55, abs=0.1)
         assert place.aside == pytest.approx(0, abs=0.1)
         assert (cos(start.heading), sin(start.heading)) == pytest.approx((place.tangent_x, place.tangent_y), abs=1e-6)

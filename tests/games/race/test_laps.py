@@ -14,7 +14,7 @@ from pigaming_app.ai import make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.race.course import spot
+from pigaming_app.games.race.course import point_at
 from tests.cases import one_in
 from tests.games.rails import Ride
 
@@ -284,7 +284,7 @@ def round_the_end(ride, seat, side):
 
 def carry(ride, seat, along):
     """Lift a robot and put it down elsewhere on the course."""
-    ride.put(seat, *spot(ride.course, along % ride.course.length, 0.0))
+    ride.put(seat, *point_at(ride.course, along % ride.course.length, 0.0))
     ride.match.tick()
 
 

@@ -8,7 +8,7 @@ from pigaming_app.ai import make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.race.course import spot
+from pigaming_app.games.race.course import point_at
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT, HZ
 from tests.games.rails import Ride
@@ -134,7 +134,7 @@ def test_a_robot_that_is_carried_over_a_line_has_not_crossed_it():
     own = ride.lines[0].along
     ride.along(0, own - 60.0, own - 25.0)
     for step, passed in ((50.0, 0), (-50.0, 0)):
-        ride.put(0, *spot(ride.course, own + step / 2, 0.0))
+        ride.put(0, *point_at(ride.course, own + step / 2, 0.0))
         ride.match.tick()
         assert ride.racers[0].passed == passed
     ride.along(0, own - 25.0, own + 25.0)
@@ -146,7 +146,7 @@ def test_a_robot_that_is_carried_over_a_line_has_not_crossed_it():
 
 def tick_at(ride, seat, along):
     """One tick that ends there."""
-    ride.put(seat, *spot(ride.course, along, 0.0))
+    ride.put(seat, *point_at(ride.course, along, 0.0))
     ride.match.tick()
 
 
@@ -296,7 +296,7 @@ def test_who_goes_back_to_a_missed_line_is_not_told_off():
     ride.along(0, one - 30.0, one + 60.0)
     ride.along(0, two + 60.0, three + 60.0)
     ride.state.robots[0].linear = 300.0
-    x, y = spot(ride.course, three, 0.0)
+    x, y = point_at(ride.course, three, 0.0)
     tangent = ride.rails.poses[0][2]
     for _ in range(30):
         ride.put(0, x, y, (tangent + pi) % (2 * pi))

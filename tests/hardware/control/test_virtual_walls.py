@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.hardware.control.virtual_walls import GAMMA, SHARED, SPARE, clipped, coasting, limits
 from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import off_wall
+from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.floor import floor
 
@@ -110,7 +110,7 @@ def test_a_minute_of_mashing_enters_no_wall_however_lazy_the_motors(lag):
         travelled += 0.02 * abs(linear)
         gaps = [x, WIDTH - x, y, HEIGHT - y]
         for i in range(world.wall_count):
-            dx, dy = off_wall(world.walls[i], x, y)
+            dx, dy = offset_from_wall(world.walls[i], x, y)
             gaps.append((dx * dx + dy * dy) ** 0.5 - world.walls[i].half)
         deepest = min(deepest, *(gap - RADIUS for gap in gaps))
     assert deepest * MM > -1.0

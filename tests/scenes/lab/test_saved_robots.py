@@ -16,6 +16,8 @@ from pigaming_app.ui.input.events import Act
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
+OLD = Path(__file__).parents[2] / "data" / "1.3.0"
+
 
 @pytest.fixture
 def arcade(controls: Controls, home: Path) -> Arcade:
@@ -71,7 +73,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
     assert here.name == "B9"
     assert here.sentence == arcade.house.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
-    kept = robots.fetch("B9", fast=False)
+    kept, _ = robots.fetch("B9", fast=False)
     assert kept.experiences > 0
     here.begin()
     menu(arcade, "open")
@@ -162,6 +164,18 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     here = lab(arcade)
     assert (here.wrong, here.sentence) == (True, arcade.house.words("lab.broken"))
     assert here.workshop.training is before
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_a_robot_of_an_older_version_is_opened_and_that_is_said(arcade: Arcade, language: str) -> None:
+    arcade.house.words.switch(language)
+    robots.folder().mkdir(parents=True)
+    robots.file_of("ROBI").write_bytes((OLD / "ROBI.npz").read_bytes())
+    menu(arcade, "open")
+    arcade.press(Act.FIRE)
+    here = lab(arcade)
+    assert (here.wrong, here.sentence) == (False, arcade.house.words("lab.opened_other", name="ROBI"))
+    assert here.workshop.training.matches >= 2
 
 
 def test_an_empty_shelf_leads_back(arcade: Arcade) -> None:

@@ -10,7 +10,7 @@ import pytest
 from pigaming_app.scenes.options.controls_test import PadTest
 from pigaming_app.scenes.options.page import CLEAR, OptionsPage
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
@@ -19,7 +19,7 @@ from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
-TABLE = Table("pitanks", "classic", "points", rules="plain", length=2, people=1)
+TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, people=1)
 
 
 @pytest.fixture

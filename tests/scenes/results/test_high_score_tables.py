@@ -7,8 +7,16 @@ import pytest
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.results.high_score_tables import STRONG, boards, contest, contests, counts, older_boards, told
-from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.scenes.results.high_score_tables import (
+    STRONG,
+    boards,
+    contest,
+    contests,
+    counts,
+    format_score,
+    older_boards,
+)
+from pigaming_app.storage.scores import Scores, ScoreTable
 
 FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 
@@ -84,7 +92,7 @@ def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
         ("lap", True, None),
         ("race", True, None),
     ]
-    assert told(61_230, first.table) == "1:01.23"
+    assert format_score(61_230, first.table) == "1:01.23"
 
 
 def test_what_a_file_holds_of_games_and_rules_that_are_not_there_is_not_shown():
@@ -105,9 +113,9 @@ def test_what_a_file_holds_of_games_and_rules_that_are_not_there_is_not_shown():
 
 def test_older_tables_come_last_and_show_only_what_they_have():
     scores = Scores()
-    older = Table("race", "classic", "race", True, length=3)
+    older = ScoreTable("race", "classic", "race", True, length=3)
     scores.add(older, "OLD", 9000)
-    scores.add(Table("race", "classic", "lap", True, "standard", 3, 1), "NEW", 9000)
+    scores.add(ScoreTable("race", "classic", "lap", True, "standard", 3, 1), "NEW", 9000)
     new, old = contests(scores)
     assert not new.older
     assert old.older

@@ -8,18 +8,18 @@ import pytest
 
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import DEAF, STAY, Best, conditions
-from pigaming_app.storage.scores import Table
+from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
 from tests.scenes.arcade import Arcade
 
-ALONE = Table("pitanks", "classic", "points", rules="pickups", length=2, people=1)
+ALONE = ScoreTable("pitanks", "classic", "points", rules="pickups", length=2, people=1)
 PAIR = replace(ALONE, people=2)
 ISLANDS = replace(ALONE, arena="islands")
-LAP = Table("race", "classic", "lap", True, "standard", 3, 1)
-OLDER = Table("pitanks", "classic", "points")
+LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
+OLDER = ScoreTable("pitanks", "classic", "points")
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     return Arcade(controls)
 
 
-def opened(arcade: Arcade, at: Table, *filled: Table) -> Best:
+def opened(arcade: Arcade, at: ScoreTable, *filled: ScoreTable) -> Best:
     for table in filled:
         arcade.house.scores.add(table, "ABC", 9_000)
     best = Best(arcade.house, replace(at, feat="", timed=False))
@@ -37,7 +37,7 @@ def opened(arcade: Arcade, at: Table, *filled: Table) -> Best:
     return best
 
 
-def shown(best: Best, *tables: Table) -> bool:
+def shown(best: Best, *tables: ScoreTable) -> bool:
     return best.contest in {replace(table, feat="", timed=False) for table in tables}
 
 
@@ -50,7 +50,7 @@ def test_it_opens_at_the_table_of_the_match_that_was_played(arcade: Arcade) -> N
     [((), PAIR), ((LAP,), LAP), ((LAP, ISLANDS), ISLANDS), ((LAP, ISLANDS, ALONE), ALONE), ((LAP, OLDER), OLDER)],
 )
 def test_an_empty_table_gives_way_to_the_nearest_one_with_rows(
-    arcade: Arcade, filled: tuple[Table], found: Table
+    arcade: Arcade, filled: tuple[ScoreTable], found: ScoreTable
 ) -> None:
     assert shown(opened(arcade, PAIR, *filled), found)
 
@@ -123,7 +123,7 @@ def test_every_heading_fits_and_nothing_runs_over_the_edge(controls: Controls, l
         for people in range(1, 5)
         for side in range(people + 1)
     ]
-    for table in [*tables, OLDER, Table("race", "classic", "race", True, length=9)]:
+    for table in [*tables, OLDER, ScoreTable("race", "classic", "race", True, length=9)]:
         assert text_width(conditions(words, table), 52, "head") < 1500, "between the arrows"
     arcade = Arcade(controls, language)
     best = opened(arcade, tables[0], *tables)

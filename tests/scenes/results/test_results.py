@@ -16,15 +16,15 @@ from pigaming_app.scenes.results.initials import SECONDS, Initials
 from pigaming_app.scenes.results.plot import Curve, LapPlot, moments, scale, spread, team_curve
 from pigaming_app.scenes.results.rematch_vote import PATIENCE
 from pigaming_app.scenes.results.scene import IDLE, Results
-from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.word_filter import HARMLESS, rude
 from tests.scenes.arcade import KEYS, Arcade, setup
 
-ALONE = Table("pitanks", "classic", "points", rules="plain", length=1, people=1)
-LAP = Table("race", "classic", "lap", True, "standard", 3, 1)
+ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, people=1)
+LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
 RACE = replace(LAP, feat="race")
 LONG = 4.0  # seconds after which everything is there and may be pressed
 

@@ -13,7 +13,7 @@ from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.results.high_score_tables import boards
 from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.scenes.title.attract import Attract, Demonstration, Page
-from pigaming_app.storage.scores import Table
+from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from tests.cases import one_in
@@ -80,6 +80,6 @@ def named(show: object) -> tuple[str, str]:
 def scores_of(house: House, game: str) -> None:
     """Somebody has scored in a game's first arena."""
     rules = games()[game]
-    contest = Table(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
+    contest = ScoreTable(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
     for board in boards(contest):
         house.scores.add(board.table, "ABC", 9)

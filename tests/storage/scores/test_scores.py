@@ -7,12 +7,12 @@ from datetime import UTC, datetime, timedelta
 import pytest
 
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.scores import DAYS, FILE, LENGTH, Scores, Table
+from pigaming_app.storage.scores import DAYS, FILE, LENGTH, Scores, ScoreTable
 
 NOON = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
 DAY = timedelta(days=1)
-TANKS = Table("pitanks", "classic", "points", rules="pickups", length=2, people=1)
-LAP = Table("race", "classic", "lap", True, "standard", 3, 2)
+TANKS = ScoreTable("pitanks", "classic", "points", rules="pickups", length=2, people=1)
+LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 2)
 
 
 def points(scores, days=None, now=NOON):

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pigaming_app.scenes.results.high_score_tables import contests
-from pigaming_app.storage.scores import FILE, Scores, Table
+from pigaming_app.storage.scores import FILE, Scores, ScoreTable
 
 GOOD = '{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }'
-TABLE = Table("pitanks", "classic", "points", rules="plain", length=2, people=1)
-OLDER = Table("pitanks", "classic", "points")
+TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, people=1)
+OLDER = ScoreTable("pitanks", "classic", "points")
 HEAD = 'format = 2\n[[table]]\ngame = "pitanks"\narena = "{arena}"\nfeat = "points"\ntimed = false\nrules = "plain"\n'
 ROWS = [
     '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00Z }',

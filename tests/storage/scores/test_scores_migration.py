@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 import pytest
 
 from pigaming_app.storage import safe_files as keeping
-from pigaming_app.storage.scores import FILE, Scores, Table, migrations
+from pigaming_app.storage.scores import FILE, Scores, ScoreTable, migrations
 
 OLD = """
 [pitanks]
@@ -25,13 +25,13 @@ classic = [
 MORE = OLD.replace(
     "[pitanks]\nclassic = [", '[pitanks]\nclassic = [{ initials = "NEW", score = 5, when = 2026-11-21T12:00:00Z },'
 )
-POINTS = Table("pitanks", "classic", "points")
+POINTS = ScoreTable("pitanks", "classic", "points")
 FOUND = {
     POINTS: [("ANA", 9), ("BEN", -3)],
-    Table("race", "classic", "lap", True): [("CEM", 9870)],
-    Table("race", "classic", "race", True, length=3): [("DEA", 30120)],
-    Table("race", "two words", "race", True, length=5): [("EVA", 50120)],
-    Table("factory", "hall", "time", True, length=4): [("FIN", 90120)],
+    ScoreTable("race", "classic", "lap", True): [("CEM", 9870)],
+    ScoreTable("race", "classic", "race", True, length=3): [("DEA", 30120)],
+    ScoreTable("race", "two words", "race", True, length=5): [("EVA", 50120)],
+    ScoreTable("factory", "hall", "time", True, length=4): [("FIN", 90120)],
 }
 
 

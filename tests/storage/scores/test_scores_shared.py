@@ -12,18 +12,18 @@ from hypothesis import strategies as st
 
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.scores import FILE, Scores, Table
+from pigaming_app.storage.scores import FILE, Scores, ScoreTable
 
 ROOT = Path(__file__).parents[3]
-TABLES = [Table("pitanks", arena, "points", rules="plain", length=2, people=1) for arena in "abcdefgh"]
+TABLES = [ScoreTable("pitanks", arena, "points", rules="plain", length=2, people=1) for arena in "abcdefgh"]
 WRITER = """
 import sys
 from pathlib import Path
-from pigaming_app.storage.scores import Scores, Table
+from pigaming_app.storage.scores import Scores, ScoreTable
 folder, first, count = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 scores, _ = Scores.load(folder)
 for number in range(first, first + count):
-    table = Table("pitanks", "abcdefgh"[number % 8], "points", rules="plain", length=2, people=1)
+    table = ScoreTable("pitanks", "abcdefgh"[number % 8], "points", rules="plain", length=2, people=1)
     scores.add(table, "ABC", number)
     scores.save(folder)
     print(number, flush=True)

@@ -7,7 +7,7 @@ import math
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.race.course import locate, spot
+from pigaming_app.games.race.course import locate, point_at
 from pigaming_app.games.race.start import start
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.sim.arena import Arena
@@ -44,7 +44,7 @@ class Busy:
         before = robot.x, robot.y
         racer.progress = t / LAP * PACES[seat] * course.length * (1 + 0.05 * math.sin(t * 1.3 + seat * 2))
         along = (state.lines[seat].along + racer.progress) % course.length
-        robot.x, robot.y = spot(course, along, SWAY[seat] * math.sin(t * 0.9 + seat))
+        robot.x, robot.y = point_at(course, along, SWAY[seat] * math.sin(t * 0.9 + seat))
         robot.heading = math.atan2(robot.y - before[1], robot.x - before[0])
         robot.linear = 300.0
         robot.turbo, robot.boosting = 0.5 + 0.5 * math.sin(t + seat), int(math.sin(t + seat) > 0.3)

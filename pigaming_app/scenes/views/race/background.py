@@ -4,7 +4,7 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.games.race.start import Track
+from pigaming_app.games.race.start import TrackPlan
 from pigaming_app.scenes.views.background import LEFT, TOP, Ground
 from pigaming_app.scenes.views.race.track import BADGE, draw_track, edges, sign_post
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -19,13 +19,13 @@ CORNER = 44  # px: the marks in the corners of the arena
 class Raceway(Ground):
     """The ground of one race."""
 
-    def __init__(self, track: Track) -> None:
+    def __init__(self, track: TrackPlan) -> None:
         super().__init__(partial(bare, track))
 
 
 @cached
 @sliced
-def bare(track: Track) -> Steps[pygame.Surface]:
+def bare(track: TrackPlan) -> Steps[pygame.Surface]:
     """The whole canvas without HUD."""
     below = earth(track)
     hot, cold = Ink(1920, 1080).to(LEFT, TOP), Ink(1920, 1080).to(LEFT, TOP)
@@ -43,7 +43,7 @@ def bare(track: Track) -> Steps[pygame.Surface]:
 
 @cached
 @sliced
-def earth(track: Track) -> Steps[pygame.Surface]:
+def earth(track: TrackPlan) -> Steps[pygame.Surface]:
     """The arena of 1600 x 900: mud, and in it the black of the road and of where badges stand."""
     from pigaming_app.scenes.views.race.mud import mud  # with numpy, for which the title does not wait
 

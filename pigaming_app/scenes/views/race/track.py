@@ -8,8 +8,8 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from pigaming_app.games.race.course import Course, CoursePosition, half_at, leg, locate, spot
-from pigaming_app.games.race.start import BEHIND, Track
+from pigaming_app.games.race.course import Course, CoursePosition, half_width_at, locate, point_at, segment_at
+from pigaming_app.games.race.start import BEHIND, TrackPlan
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
 from pigaming_app.ui.draw.frame_budget import Steps
@@ -64,7 +64,7 @@ def edges(course: Course) -> tuple[list[Point], list[Point]]:
     return [beside(rib, -1) for rib in ribs(course)], [beside(rib, 1) for rib in ribs(course)]
 
 
-def draw_track(hot: Ink, cold: Ink, track: Track) -> Steps[None]:
+def draw_track(hot: Ink, cold: Ink, track: TrackPlan) -> Steps[None]:
     """All of it: what glows on one sheet, what is only painted on the other. The road itself is black."""
     course = track.course
     cold.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
@@ -113,7 +113,7 @@ def _part(near: list[Point], far: list[Point], start: float, end: float) -> list
     return [between(a, b, start), between(a, b, end), between(c, d, end), between(c, d, start)]
 
 
-def draw_arrows(ink: Ink, track: Track) -> None:
+def draw_arrows(ink: Ink, track: TrackPlan) -> None:
     """Two pairs of arrowheads between any two lines: the way to drive."""
     course = track.course
     for i, along in enumerate(track.lines):
@@ -121,8 +121,8 @@ def draw_arrows(ink: Ink, track: Track) -> None:
         for share in (0.36, 0.72):
             for back in (0.0, 26.0):
                 here = along + share * gap - back
-                k, _ = leg(course, here % course.length)
-                x, y = spot(course, here % course.length, 0.0)
+                k, _ = segment_at(course, here % course.length)
+                x, y = point_at(course, here % course.length, 0.0)
                 c, s = math.cos(ribs(course)[k].heading), math.sin(ribs(course)[k].heading)
                 head = [(-12.0, -17.0), (0.0, 0.0), (-12.0, 17.0)]
                 ink.line([(x + a * c - b * s, y + a * s + b * c) for a, b in head], ARROWS, 6)
@@ -144,8 +144,8 @@ class Frame(NamedTuple):
 
 def frame(course: Course, along: float) -> Frame:
     """The frame of a line across the course."""
-    (ax, ay), (bx, by) = spot(course, along, -1.0), spot(course, along, 1.0)
-    half = half_at(course, *leg(course, along))
+    (ax, ay), (bx, by) = point_at(course, along, -1.0), point_at(course, along, 1.0)
+    half = half_width_at(course, *segment_at(course, along))
     return Frame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
 
 
