@@ -8,7 +8,7 @@ pytest.importorskip("cv2")
 
 from pigaming_app.cli import main
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.proof.testbed import Testbed
+from pigaming_app.hardware.proof import testbed
 from pigaming_app.jobs.bench import robots as bench_robots
 from pigaming_app.jobs.bench.robots import TARGETS, Job, jobs, on_mat, reached
 
@@ -16,7 +16,7 @@ from pigaming_app.jobs.bench.robots import TARGETS, Job, jobs, on_mat, reached
 @pytest.fixture(scope="module")
 def ground():
     """A calibration of the emulated arena."""
-    return Testbed(5, 30.0).ground
+    return testbed.Testbed(5, 30.0).ground
 
 
 @pytest.mark.parametrize("game", games())

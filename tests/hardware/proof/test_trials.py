@@ -4,8 +4,8 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app.hardware.proof import testbed
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, hang, leave, settle, stop
-from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.hardware.proof.trials import FigureEight, entered, follow
 from pigaming_app.jobs.bench.robots import TARGETS
 from pigaming_app.sim.world import World
@@ -14,7 +14,7 @@ from pigaming_app.sim.world import World
 @pytest.fixture(scope="module")
 def trail():
     """Robots that drive on a calibrated mat; whatever happens to them leaves it as it was."""
-    return FigureEight(Testbed(5, 30.0))
+    return FigureEight(testbed.Testbed(5, 30.0))
 
 
 def test_robots_are_followed_to_three_millimetres(trail):
