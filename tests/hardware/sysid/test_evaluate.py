@@ -77,6 +77,7 @@ def test_wheels_lag_and_dead_time_are_found_within_one_hundredth():
     assert found.dead_time == pytest.approx(TRUE.dead_time, abs=0.003)  # the mat's, whatever the drivetrain says
 
 
+@pytest.mark.long
 def test_what_was_identified_foresees_much_better_what_was_held_out(run):
     for verdict in measure(Recording(run.mm, {i: run.courses[i] for i in (1, 3)})):
         for before, after in zip(verdict.before.mm, verdict.after.mm, strict=True):

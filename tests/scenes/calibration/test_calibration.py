@@ -98,6 +98,7 @@ def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
     assert not np.array_equal(shown[1044:], plain[1044:]), "the progress is in the margin below"
 
 
+@pytest.mark.long
 def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operated) -> None:
     arcade.go("by")
     arcade.press(Act.RIGHT)

@@ -520,6 +520,7 @@ def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) ->
                 assert after[other] == before[other], f"{act} of {device} changed the seat of {other}"
 
 
+@pytest.mark.long
 def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> None:
     chance = random.Random(4)
     arcade.stack.scenes[1:] = []

@@ -63,7 +63,8 @@ def test_a_fault_present_from_the_start_is_named_within_three_seconds(
     assert mat.arena.clock() - max(mat.arena.ran) > 1.5
 
 
-@pytest.mark.parametrize("fault", one_in(2, ["motors_reversed", "pinned"]))
+@pytest.mark.long
+@pytest.mark.parametrize("fault", ["motors_reversed", "pinned"])
 def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
     arcade: Arcade, mat: EmulatedSession, fault: str
 ) -> None:

@@ -85,6 +85,7 @@ def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSessio
     assert page.focus.name == "pair", "the row is where it is shown"
 
 
+@pytest.mark.long
 def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedSession) -> None:
     page = arcade.shown(RobotsPage)
     rig = page.check.rig

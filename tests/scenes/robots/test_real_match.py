@@ -203,6 +203,7 @@ def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade
     assert match.match.state.robots[1].x != x
 
 
+@pytest.mark.long
 def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(arcade: Arcade) -> None:
     match = begun(arcade, real=(0,))
     arcade.press(Act.START)
@@ -236,6 +237,7 @@ def test_a_battery_that_runs_low_is_only_said(
     assert "The battery of robot 2 will soon be empty." in caplog.text
 
 
+@pytest.mark.long
 def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
     arcade: Arcade, mat: EmulatedSession, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -310,7 +312,7 @@ def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedSess
     assert mat.trouble is None
 
 
-@pytest.mark.parametrize("again", [False, True])
+@pytest.mark.parametrize("again", one_in(2, [False, True]))
 def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedSession, again: bool) -> None:
     """Nor is one begun again, where the radio was changed meanwhile."""
     if again:
