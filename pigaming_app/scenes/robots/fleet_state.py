@@ -13,7 +13,6 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import Settings
 
 SEEN = 0.5  # s within which a robot has been seen if it is seen
-ALIVE = 1.5  # s within which it has been heard if it is there
 LOOKS = 3.0  # s for which robots that are heard are looked for before they move, at most
 RATE = 1.0  # s over which pictures are counted
 

@@ -1,6 +1,7 @@
 """How a match begins: with simulated robots, with real ones, or with one sentence about why not with real ones."""
 
 from collections.abc import Collection, Sequence
+from functools import partial
 
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.session.real import NoMat
@@ -29,9 +30,7 @@ def match_of(
     from pigaming_app.scenes.robots.match_scene import RealMatch
     from pigaming_app.scenes.robots.unavailable import Refused
 
-    def again(setup: Setup, devices: Sequence[Device | None], real: Collection[int]) -> Scene:
-        return match_of(house, setup, devices, real, game_choice=game_choice)
-
+    again = partial(match_of, house, game_choice=game_choice)
     try:
         return RealMatch(house, setup, devices, real, house.mat, again, game_choice)
     except NoMat as trouble:

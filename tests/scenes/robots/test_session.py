@@ -4,6 +4,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import cast
 
@@ -178,7 +179,9 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
         houses.append(house)
         assert isinstance(house.mat, EmulatedMat)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
-        return Failing(house, Setup("pitanks", "classic", seats, 0.1, 3, "plain"), [], (0, 1), house.mat)
+        return Failing(
+            house, Setup("pitanks", "classic", seats, 0.1, 3, "plain"), [], (0, 1), house.mat, partial(match_of, house)
+        )
 
     code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
     assert code == int(alone)
