@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Collection, Sequence
+from functools import partial
 
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
@@ -33,9 +34,7 @@ def match_of(
     from pigaming_app.scenes.robots.match_scene import RealMatch
     from pigaming_app.scenes.robots.unavailable import Refused
 
-    def again(setup: Setup, devices: Sequence[Device | None], real: Collection[int]) -> Scene:
-        return match_of(house, setup, devices, real, game_choice=game_choice)
-
+    again = partial(match_of, house, game_choice=game_choice)
     try:
         return RealMatch(house, setup, devices, real, house.session, again, game_choice)
     except RobotsUnavailable as trouble:

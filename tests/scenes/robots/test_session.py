@@ -1,5 +1,6 @@
 """Matches with real robots open what they need, close it when they end, and go on without what is missing."""
 
+from functools import partial
 from pathlib import Path
 from typing import cast
 
@@ -69,7 +70,14 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
         houses.append(house)
         assert isinstance(house.session, EmulatedSession)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
-        return Failing(house, Setup("pitanks", "classic", seats, 0.1, 3, "plain"), [], (0, 1), house.session)
+        return Failing(
+            house,
+            Setup("pitanks", "classic", seats, 0.1, 3, "plain"),
+            [],
+            (0, 1),
+            house.session,
+            partial(match_of, house),
+        )
 
     code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
     assert code == int(alone)
