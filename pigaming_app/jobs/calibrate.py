@@ -36,7 +36,7 @@ def run(arguments: Namespace) -> int:
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 
-    first = lambda house: CalibrationPage(house, camera=arguments.camera)  # noqa: E731
+    first = lambda context: CalibrationPage(context, camera=arguments.camera)  # noqa: E731
     return show(Options(first=first, alone=True, display=display(arguments), emulate=arguments.emulate))
 
 

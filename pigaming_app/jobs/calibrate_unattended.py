@@ -14,14 +14,14 @@ from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.scenes.calibration.result_page import ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.i18n import Words, english
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 
@@ -37,32 +37,32 @@ class Operator:
         self.site, self.robot = EmulatedCalibrationSite(seed), robot
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         canvas.watchers.append(lambda window: self.site.see(pixels_of(window)))
-        self.house = House(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
-        self.page = CalibrationPage(self.house, self.site)
+        self.context = Context(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
+        self.page = CalibrationPage(self.context, self.site)
         self.stack = Stack(self.page)
 
-    def press(self, act: Act) -> None:
+    def press(self, button: Button) -> None:
         """Press a button."""
-        self.stack.turn(self.stack.top.on(Press(act, Device("keys", 0))))
+        self.stack.turn(self.stack.top.on(InputEvent(button, Device("keys", 0))))
 
     def frame(self) -> None:
         """One frame."""
         self.stack.turn(self.stack.top.update(FRAME))
-        self.stack.top.draw(self.house.canvas.screen)
-        self.house.canvas.flip()
+        self.stack.top.draw(self.context.canvas.screen)
+        self.context.canvas.flip()
 
     def go(self, row: str) -> None:
         """Focus a row of the first page."""
         while self.page.focus.name != row:
-            self.press(Act.DOWN)
+            self.press(Button.DOWN)
 
     def work(self) -> ResultPage | None:
         """Calibrate; the result, or None after TIMEOUT."""
         if self.robot:
             self.go("by")
-            self.press(Act.RIGHT)
+            self.press(Button.RIGHT)
         self.go("begin")
-        self.press(Act.FIRE)
+        self.press(Button.FIRE)
         for _ in range(round(TIMEOUT / FRAME)):
             self.frame()
             if isinstance(self.stack.top, ResultPage):
@@ -73,7 +73,7 @@ class Operator:
         """Close all pages, the arena and the window."""
         self.stack.clear()
         self.site.close()
-        self.house.canvas.close()
+        self.context.canvas.close()
 
 
 def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
@@ -86,7 +86,7 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
         finding, reason = page.finding, page.finding.trouble
         trouble = reason and english().explained(reason)
         if finding.good:
-            operator.press(Act.FIRE)
+            operator.press(Button.FIRE)
             trouble = page.navigation.sentence or None
         saved = finding.good and operator.stack.top is operator.page
         told: dict[str, Any] = {

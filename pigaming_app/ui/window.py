@@ -26,7 +26,7 @@ class NoDisplay(Exception):
     """There is no display to open a window on; the text is one plain sentence."""
 
 
-class Wishes(Protocol):
+class WindowSettings(Protocol):
     """What the settings say about the window."""
 
     display: int
@@ -74,7 +74,11 @@ class Canvas:
 
     @classmethod
     def open(
-        cls, settings: Wishes, display: int | None = None, fullscreen: bool | None = None, headless: bool = False
+        cls,
+        settings: WindowSettings,
+        display: int | None = None,
+        fullscreen: bool | None = None,
+        headless: bool = False,
     ) -> "Canvas":
         """Open the window as the settings or the arguments (which win) say. Raises NoDisplay.
 

@@ -6,13 +6,13 @@ from typing import TypeVar, cast
 import pygame
 
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Stack, Turn
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 
@@ -37,7 +37,7 @@ class Floor:
     def entered(self) -> None:
         pass
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -55,7 +55,7 @@ class Arcade:
         self.screen = pygame.display.set_mode((1920, 1080))
         self.sounds = Noted()
         nowhere = cast(Canvas, None)
-        self.house = House(Settings(), Scores(), Words(language), controls, self.sounds, nowhere)
+        self.context = Context(Settings(), Scores(), Words(language), controls, self.sounds, nowhere)
         self.title, self.setup = Floor(), Floor()
         self.stack = Stack(self.title)
         self.stack.scenes.append(self.setup)
@@ -64,17 +64,17 @@ class Arcade:
         self.stack.scenes.append(scene)
         scene.entered()
 
-    def press(self, act: Act, device: Device = KEYS[0]) -> None:
-        self.stack.turn(self.stack.top.on(Press(act, device)))
+    def press(self, button: Button, device: Device = KEYS[0]) -> None:
+        self.stack.turn(self.stack.top.on(InputEvent(button, device)))
 
     def click(self, x: float, y: float) -> None:
-        self.stack.turn(self.stack.top.on(Press(Act.CLICK, Device("mouse"), at=(x, y))))
+        self.stack.turn(self.stack.top.on(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))
 
     def frame(self, seconds: float = 1 / 30, draw: bool = False) -> None:
         """One turn of the loop of the real arcade."""
-        controls = self.house.controls
-        for press in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
-            self.stack.turn(self.stack.top.on(press))
+        controls = self.context.controls
+        for event in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
+            self.stack.turn(self.stack.top.on(event))
         self.stack.turn(self.stack.top.update(seconds))
         if draw:
             self.stack.top.draw(self.screen)

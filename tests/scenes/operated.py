@@ -13,7 +13,7 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
@@ -23,19 +23,19 @@ class Operated(Arcade):
 
     def __init__(self, controls: Controls, site: Any) -> None:
         super().__init__(controls)
-        self.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+        self.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         self.site = site
         if isinstance(site, EmulatedCalibrationSite):
-            self.house.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
+            self.context.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
 
     def picture(self, covered: bool = False) -> None:
         """One picture, on the mat too; `covered`: somebody stands in the light of its right half."""
         self.frame()
-        screen = self.house.canvas.screen
+        screen = self.context.canvas.screen
         self.stack.top.draw(screen)
         if covered:
             screen.fill((20, 20, 20), (700, 0, 1220, 1080))
-        self.house.canvas.flip()
+        self.context.canvas.flip()
 
     def pictures(self, kind: type[Scene], most: int = 400, covered: bool = False) -> Any:
         """Pictures until a scene of this kind is on top."""
@@ -49,10 +49,10 @@ class Operated(Arcade):
         """Put the focus on a row of the first page."""
         top = self.shown(CalibrationPage)
         while top.focus.name != row:
-            self.press(Act.DOWN)
+            self.press(Button.DOWN)
         return top
 
     def begin(self) -> None:
         self.go("begin")
-        self.press(Act.FIRE)
+        self.press(Button.FIRE)
         self.shown(BoardsPage)

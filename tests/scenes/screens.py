@@ -10,22 +10,22 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
-from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.results.high_score_tables import boards
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_score_tables import high_score_tables
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.scores import ScoreTable
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
 
 FACTS = {
@@ -55,7 +55,7 @@ class Ending:
         arena = max(arenas(self.game), key=len)
         setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, game.variants[-1], goal)
         devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
-        scene = Results(arcade.house, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
+        scene = Results(arcade.context, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
         scene.age = 9.0
         return scene
 
@@ -82,11 +82,11 @@ ENDINGS = {
 
 def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
-        scene = Lobby(arcade.house, game)
+        scene = Lobby(arcade.context, game)
         for device in KEYS[:people]:
-            scene.on(Press(Act.FIRE, device))
+            scene.on(InputEvent(Button.FIRE, device))
         for _ in range(ais):
-            scene.on(Press(Act.ALT, KEYS[0]))
+            scene.on(InputEvent(Button.Y, KEYS[0]))
         return scene
 
     return opened
@@ -104,7 +104,7 @@ def seats(game: str) -> Seats:
 def match(arcade: Arcade) -> MatchScene:
     one, two, three, four = (Seat("human", i) for i in range(4))
     setup = Setup("pitanks", "classic", (one, two, three, four), 2.0, 3, "plain")
-    return MatchScene(arcade.house, setup, [*KEYS[:3], Device("pad", 77)])
+    return MatchScene(arcade.context, setup, [*KEYS[:3], Device("pad", 77)])
 
 
 def best(game: str) -> Callable[[Arcade], Scene]:
@@ -113,10 +113,10 @@ def best(game: str) -> Callable[[Arcade], Scene]:
         conditions = ScoreTable(
             game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4
         )
-        for board in boards(conditions):
+        for board in high_score_tables(conditions):
             for score in (999, 599_990, -100):
-                arcade.house.scores.add(board.table, "WWW", score)
-        scene = Best(arcade.house, conditions)
+                arcade.context.scores.add(board.table, "WWW", score)
+        scene = HighScores(arcade.context, conditions)
         scene.age = 9.0
         return scene
 
@@ -124,23 +124,23 @@ def best(game: str) -> Callable[[Arcade], Scene]:
 
 
 def lesson(game: str) -> Callable[[Arcade], Scene]:
-    return lambda arcade: HowTo(arcade.house, game)
+    return lambda arcade: HowTo(arcade.context, game)
 
 
 def choice(game: str) -> Callable[[Arcade], Scene]:
-    return lambda arcade: SetupPage(arcade.house, game, seats(game))
+    return lambda arcade: MatchSetupPage(arcade.context, game, seats(game))
 
 
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
-    "title": lambda arcade: Title(arcade.house),
-    "options": lambda arcade: OptionsPage(arcade.house),
-    "operator": lambda arcade: OptionsPage(arcade.house, operator=True),
-    "robots menu": lambda arcade: RobotsMenu(arcade.house),
-    "pad test": lambda arcade: PadTest(arcade.house),
+    "title": lambda arcade: Title(arcade.context),
+    "options": lambda arcade: OptionsPage(arcade.context),
+    "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
+    "robots menu": lambda arcade: RobotsMenu(arcade.context),
+    "pad test": lambda arcade: ControlsTest(arcade.context),
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
     "still there": lambda arcade: StillThere(match(arcade)),
-    "devices": lambda arcade: DeviceTable(arcade.house, KEYS, Access(arcade.house, lambda: KEYS)),
+    "devices": lambda arcade: DeviceTable(arcade.context, KEYS, Access(arcade.context, lambda: KEYS)),
     **{f"how to play {game}": lesson(game) for game in games()},
     **{f"setup {game}": choice(game) for game in games()},
     **{f"lobby {game}": lobby(game, 0, 0) for game in games()},

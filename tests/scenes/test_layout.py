@@ -7,7 +7,7 @@ import pytest
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
@@ -20,7 +20,7 @@ LISTS = ("options", "operator", "robots menu", "setup")  # each of their rows is
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     return arcade
 
 
@@ -29,7 +29,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def test_texts_keep_off_each_other_and_off_frames(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, name: str, language: str
 ) -> None:
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     with measuring(monkeypatch) as screen:
         scene = SCREENS[name](arcade)
         for _ in range(12 if name.startswith(LISTS) else 1):
@@ -37,11 +37,11 @@ def test_texts_keep_off_each_other_and_off_frames(
             screen.marks.clear()
             scene.draw(screen)
             assert len(screen.texts) > 5, "it is measured"
-            assert meant(name, faults(screen)) == []
-            scene.on(Press(Act.DOWN, KEYS[0]))
+            assert relevant(name, faults(screen)) == []
+            scene.on(InputEvent(Button.DOWN, KEYS[0]))
 
 
-def meant(name: str, found: list[str]) -> list[str]:
+def relevant(name: str, found: list[str]) -> list[str]:
     """Without the numbers of the lessons, which lie in discs on the frames."""
     numbers = {f"'{number}' crosses its frame" for number in range(1, 5)} if name.startswith("how to") else set()
     return [fault for fault in found if fault not in numbers]

@@ -14,7 +14,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, Swap, Turn
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
@@ -23,8 +23,8 @@ from pigaming_app.scenes.views.sprites.effects import beam, wave
 from pigaming_app.ui.draw import surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
-from tests.bench.memory import press
+from pigaming_app.ui.input.events import Button
+from tests.bench.memory import event
 from tests.scenes.arcade import Arcade, Floor
 
 
@@ -33,7 +33,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     surfaces.clear()
     arcade = Arcade(controls)
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.stack = Stack(Title(arcade.context))
     return arcade
 
 
@@ -43,7 +43,7 @@ def match(arcade: Arcade, game: str) -> MatchScene:
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(game, arenas(game)[0], (one, two, three, four), 2.0, 1, rules.variants[0], goal)
-    return MatchScene(arcade.house, setup)
+    return MatchScene(arcade.context, setup)
 
 
 def warmed(arcade: Arcade, game: str) -> None:
@@ -63,7 +63,7 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
     images = [weakref.ref(sprite.image) for sprite in sprites]
     assert surfaces.bytes > title + (90 << 20)
     del sprites
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.wait(0.1, draw=True)
     arcade.stack.turn(Home())
     assert [image for image in images if image()] == []
@@ -95,7 +95,7 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
 
     def over() -> bool:
         used.append(surfaces.bytes)
-        press(rng, 40)
+        event(rng, 40)
         return len(used) > 50
 
     assert run(Options(headless=True, kiosk=True, step=0.1, over=over)) == 0
@@ -130,7 +130,7 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
     scenes: list[weakref.ref[Leaving]] = []
     alive: list[bool] = []
 
-    def first(house: House) -> Leaving:
+    def first(context: Context) -> Leaving:
         gc.disable()
         scene = Leaving(turn)
         scenes.append(weakref.ref(scene))

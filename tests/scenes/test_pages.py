@@ -12,11 +12,11 @@ from pigaming_app.scenes.howto import scene as howto
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby import seat_card as card
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.options import controls_pictures as gadgets
-from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views import game_tile
@@ -25,11 +25,11 @@ from pigaming_app.ui.draw import text as texts
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import labels as page
 from pigaming_app.ui.widgets import player_card
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts, places
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts, places
 from pigaming_app.ui.window import Canvas
 from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
@@ -51,13 +51,13 @@ def filled() -> Seats:
 
 
 PAGES: dict[str, Callable[[Arcade], Scene]] = {
-    "title": lambda arcade: Title(arcade.house),
-    "lobby": lambda arcade: Lobby(arcade.house, "pitanks"),
-    "setup": lambda arcade: SetupPage(arcade.house, "pitanks", filled()),
-    "options": lambda arcade: OptionsPage(arcade.house),
-    "operator": lambda arcade: OptionsPage(arcade.house, operator=True),
-    "padtest": lambda arcade: PadTest(arcade.house),
-    "howto": lambda arcade: HowTo(arcade.house),
+    "title": lambda arcade: Title(arcade.context),
+    "lobby": lambda arcade: Lobby(arcade.context, "pitanks"),
+    "setup": lambda arcade: MatchSetupPage(arcade.context, "pitanks", filled()),
+    "options": lambda arcade: OptionsPage(arcade.context),
+    "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
+    "padtest": lambda arcade: ControlsTest(arcade.context),
+    "howto": lambda arcade: HowTo(arcade.context),
 }
 
 
@@ -70,13 +70,13 @@ def language(request: pytest.FixtureRequest) -> str:
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, language: str) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls, language)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     return arcade
 
 
 def top(arcade: Arcade, name: str) -> Scene:
     """Put a page on a stack of its own."""
-    arcade.house.kiosk = name == "operator"
+    arcade.context.kiosk = name == "operator"
     arcade.stack = Stack(PAGES[name](arcade))
     return arcade.stack.top
 
@@ -86,11 +86,11 @@ def top(arcade: Arcade, name: str) -> Scene:
 def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None:
     with VirtualPad() as pad:
         arcade.frame()
-        for act in Act:
+        for button in Button:
             for device in (*KEYS, Device("pad", pad.number), MOUSE, Device("pad", 99)):
                 scene = top(arcade, name)
                 at = (960.0, 540.0) if device == MOUSE else None
-                scene.on(Press(act, device, at=at))
+                scene.on(InputEvent(button, device, at=at))
                 scene.update(1 / 60)
         top(arcade, name).draw(arcade.screen)
 
@@ -100,8 +100,8 @@ def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None
 def test_a_mouse_may_click_anywhere(arcade: Arcade, name: str) -> None:
     for at in PLACES:
         scene = top(arcade, name)
-        scene.on(Press(Act.POINT, MOUSE, at=at))
-        scene.on(Press(Act.CLICK, MOUSE, at=at))
+        scene.on(InputEvent(Button.POINT, MOUSE, at=at))
+        scene.on(InputEvent(Button.CLICK, MOUSE, at=at))
         scene.update(1 / 60)
     scene.draw(arcade.screen)
 
@@ -115,7 +115,7 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
         shrunk[text] = min(shrunk.get(text, 1.0), fits / size)
         return fits
 
-    true_size = texts.fitted
+    true_size = texts.fit_size
     for module in (card, choice, dials, gadgets, game_tile, howto, page, player_card, texts):
         monkeypatch.setattr(module, "fitted", measured)
     surfaces.clear()
@@ -127,10 +127,10 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
 
 def walk(arcade: Arcade, scene: Scene) -> None:
     """Show every row of a page, and everything that seats can be."""
-    for act in (Act.EXTRA, Act.ALT, *[Act.FIRE] * 2, *[Act.ALT] * 2, *[Act.DOWN, Act.RIGHT] * 11):
-        if not isinstance(scene, Lobby) and act in (Act.FIRE, Act.ALT):
+    for button in (Button.X, Button.Y, *[Button.FIRE] * 2, *[Button.Y] * 2, *[Button.DOWN, Button.RIGHT] * 11):
+        if not isinstance(scene, Lobby) and button in (Button.FIRE, Button.Y):
             continue
-        scene.on(Press(act, KEYS[0]))
+        scene.on(InputEvent(button, KEYS[0]))
         scene.update(1 / 60)
         scene.draw(arcade.screen)
 
@@ -146,7 +146,7 @@ def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: s
             pad = plugged.enter_context(VirtualPad(f"{kind} pad", usb, plain=kind == "Joystick"))
             arcade.frame()
             device = Device("pad", pad.number)
-        arcade.house.controls.last = device
+        arcade.context.controls.last = device
         scene = top(arcade, name)
         for prompts in hints(scene, device):
             ends = places(prompts.said, prompts.room)
@@ -154,19 +154,19 @@ def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: s
             assert ends[-1][1] <= 1848, prompts.said
 
 
-def hints(scene: Scene, device: Device) -> Iterator[Prompts]:
+def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
     """The rows of hints that a page can show."""
     if isinstance(scene, Lobby):
         yield scene.page.prompts
-        scene.on(Press(Act.EXTRA, device))
-        scene.on(Press(Act.FIRE, device))
+        scene.on(InputEvent(Button.X, device))
+        scene.on(InputEvent(Button.FIRE, device))
         yield scene.page.prompts
         for _ in range(3):
-            scene.on(Press(Act.ALT, device))
+            scene.on(InputEvent(Button.Y, device))
         yield scene.page.prompts
-    elif isinstance(scene, PadTest):
+    elif isinstance(scene, ControlsTest):
         yield scene._prompts()
-    elif isinstance(scene, SetupPage | OptionsPage):
+    elif isinstance(scene, MatchSetupPage | OptionsPage):
         yield scene.navigation.prompts
 
 

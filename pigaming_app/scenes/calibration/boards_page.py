@@ -9,13 +9,13 @@ from pigaming_app.hardware.calibration.boards import LIGHT, CalibrationBoard
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.vision.markers import OpenCVMissing
-from pigaming_app.scenes.calibration.height_page import OutlinesPage
-from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.calibration.height_page import HeightPage
+from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 BOX, GAP, FOOT = 26, 8, 1062  # px: of a box of the progress, between two, the line on which they are
 GREY, DONE = (150, 150, 150), (20, 20, 20)
@@ -24,23 +24,23 @@ GREY, DONE = (150, 150, 150), (20, 20, 20)
 class BoardsPage:
     """One calibration."""
 
-    def __init__(self, house: House, site: CalibrationSite, number: int, measures: Measurements) -> None:
-        self.house, self.site, self.number, self.measures = house, site, number, measures
-        self.work = Calibration(site, number, measures, house.canvas.projection)
+    def __init__(self, context: Context, site: CalibrationSite, number: int, measures: Measurements) -> None:
+        self.context, self.site, self.number, self.measures = context, site, number, measures
+        self.work = Calibration(site, number, measures, context.canvas.projection)
         self.work.begin()
 
     def entered(self) -> None:
         """Quiet: nothing may move."""
-        self.house.sounds.music(False)
+        self.context.sounds.music(False)
 
     def left(self) -> None:
         """Let go of the camera."""
         self.work.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Only the way back."""
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
+        if event.button is Button.BACK:
+            self.context.sounds.play("back")
             self.left()
             return Pop()
         return None
@@ -53,11 +53,13 @@ class BoardsPage:
             return None
         self.left()
         work = self.work
-        finding = Finding(self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small)
-        self.house.sounds.play("accept" if finding.good else "back")
+        finding = CalibrationResult(
+            self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small
+        )
+        self.context.sounds.play("accept" if finding.good else "back")
         if finding.good and not self.measures.height:
-            return Swap(OutlinesPage(self.house, finding, self._again))
-        return Swap(ResultPage(self.house, finding, self._again))
+            return Swap(HeightPage(self.context, finding, self._again))
+        return Swap(ResultPage(self.context, finding, self._again))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the board, pure light, and how far it is."""
@@ -76,7 +78,7 @@ class BoardsPage:
 
     def _again(self) -> Scene:
         """The same calibration once more."""
-        return BoardsPage(self.house, self.site, self.number, self.measures)
+        return BoardsPage(self.context, self.site, self.number, self.measures)
 
     def _draw_progress(self, screen: pygame.Surface) -> None:
         """A box for every picture; what has been taken is filled."""

@@ -9,7 +9,7 @@ import pygame
 
 from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -27,18 +27,18 @@ from pigaming_app.ui.draw import (
     STEEL,
     SUB,
     THIN,
-    Ink,
-    cut,
+    GlowCanvas,
+    cut_box,
     dim,
     panel,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import english
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import WAYS
 
 STEPS = (10, 1)  # px
@@ -52,22 +52,22 @@ FARTHEST = 800  # px that a corner may be from its own place
 log = logging.getLogger("pigaming")
 
 
-class PinPage:
+class CornerPinPage:
     """The page. What is pinned stays as it was unless it is saved."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
-        self.before = house.canvas.corners
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.before = context.canvas.corners
         self.corners = [round(value) for value in self.before or STRAIGHT]
         self.chosen = self.step = 0
         self.sentence, self.said = "", 0.0
-        self.prompts = house.prompts(
+        self.prompts = context.prompts(
             [
-                (Act.FIRE, "pin.hint_next"),
-                (Act.EXTRA, "pin.hint_step"),
-                (Act.ALT, "pin.hint_reset"),
-                (Act.START, "pin.hint_save"),
-                (Act.BACK, "pin.hint_back"),
+                (Button.FIRE, "pin.hint_next"),
+                (Button.X, "pin.hint_step"),
+                (Button.Y, "pin.hint_reset"),
+                (Button.START, "pin.hint_save"),
+                (Button.BACK, "pin.hint_back"),
             ],
             BOX.bottom + 76,
             solid=True,
@@ -81,43 +81,43 @@ class PinPage:
         """Whoever leaves without saving leaves it as it was."""
         self._restore()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Directions move the corner; FIRE takes the next one."""
-        press = self.prompts.meant(press)
-        match press.act:
-            case Act.BACK:
-                self.house.sounds.play("back")
+        event = self.prompts.as_button(event)
+        match event.button:
+            case Button.BACK:
+                self.context.sounds.play("back")
                 self._restore()
                 return Pop()
-            case Act.START:
+            case Button.START:
                 return self._save()
-            case Act.FIRE:
+            case Button.FIRE:
                 self.chosen = (self.chosen + 1) % 4
-                self.house.sounds.play("move")
-            case Act.EXTRA:
+                self.context.sounds.play("move")
+            case Button.X:
                 self.step = 1 - self.step
-                self.house.sounds.play("move")
-            case Act.ALT:
+                self.context.sounds.play("move")
+            case Button.Y:
                 self.corners = [round(value) for value in STRAIGHT]
-                self.house.sounds.play("accept")
+                self.context.sounds.play("accept")
                 self._pin()
-            case Act.CLICK if press.at:
-                self._take(press.at)
-            case act if act in WAYS:
-                self._move(*WAYS[act])
+            case Button.CLICK if event.at:
+                self._take(event.at)
+            case button if button in WAYS:
+                self._move(*WAYS[button])
         return None
 
     def update(self, seconds: float) -> Turn:
         """Let a sentence fade."""
         self.said -= seconds
-        if self.house.idle > IDLE:
+        if self.context.idle > IDLE:
             self._restore()
             return Home()
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the grid, and in its middle which corner is moved by how much."""
-        words, x, y = self.house.words, BOX.centerx, BOX.y
+        words, x, y = self.context.words, BOX.centerx, BOX.y
         screen.blit(grid(), (0, 0))
         handle(self.chosen).draw(screen)
         text(words("pin.title", corner=self.chosen + 1), SUB, FOCUS, "head").draw(screen, x, y + 76)
@@ -128,7 +128,7 @@ class PinPage:
         )
         text(words("pin.step", step=STEPS[self.step]), LABEL, MIST, "head").draw(screen, x, y + 340)
         if self.said > 0.0:
-            plate(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
+            caption(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
         self.prompts.draw(screen)
 
     # ---- inside
@@ -147,42 +147,42 @@ class PinPage:
         """A click takes the corner in whose quarter it is."""
         right, low = at[0] > 960, at[1] > 540
         self.chosen = (2 if right else 3) if low else int(right)
-        self.house.sounds.play("move")
+        self.context.sounds.play("move")
 
     def _pin(self) -> bool:
         """Show the picture in these corners; false: it cannot be, and a sentence says why."""
         straight = self.corners == [round(value) for value in STRAIGHT]
         try:
-            self.house.canvas.pin(None if straight else CornerPin(self.corners))
+            self.context.canvas.pin(None if straight else CornerPin(self.corners))
             return True
         except OperatorError as trouble:
             log.warning("%s", english().explained(trouble.message))
-            self._say(self.house.words.sentence(trouble.message))
+            self._say(self.context.words.sentence(trouble.message))
             return False
 
     def _restore(self) -> None:
         try:
-            self.house.canvas.pin(CornerPin(self.before) if self.before else None)
+            self.context.canvas.pin(CornerPin(self.before) if self.before else None)
         except OperatorError as trouble:
             log.warning("%s", english().explained(trouble.message))
 
     def _save(self) -> Turn:
         """Keep it for good, or say that it cannot be kept."""
-        canvas, settings = self.house.canvas, self.house.settings
+        canvas, settings = self.context.canvas, self.context.settings
         settings.corners = [round(value) for value in canvas.corners]
         try:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self._say(self.house.words("app.unsaved"))
+            self._say(self.context.words("app.unsaved"))
             return None
         self.before = canvas.corners
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         return Pop()
 
     def _say(self, sentence: str) -> None:
         self.sentence, self.said = sentence, SAID
-        self.house.sounds.play("back")
+        self.context.sounds.play("back")
 
 
 def signed(number: int) -> str:
@@ -191,37 +191,37 @@ def signed(number: int) -> str:
 
 
 @cached
-@sliced
+@resumable
 def grid() -> Steps[pygame.Surface]:
     """A grid over the whole picture, the edge of the arena, and a black box in the middle."""
-    pane = Pane(0, 0, 1920, 1080)
+    layer = Layer(0, 0, 1920, 1080)
     for x in range(0, 1921, CELL):
-        pane.page.cold.line([(x, 0), (x, 1080)], dim(ICE, 0.35), HAIR)
+        layer.canvas.crisp.line([(x, 0), (x, 1080)], dim(ICE, 0.35), HAIR)
     yield
     for y in range(0, 1081, CELL):
-        pane.page.cold.line([(0, y), (1920, y)], dim(ICE, 0.35), HAIR)
-    pane.page.cold.line(cut(3, 3, 1914, 1074, 0), ICE, LINE, True)
-    pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), STEEL, THIN, True)
+        layer.canvas.crisp.line([(0, y), (1920, y)], dim(ICE, 0.35), HAIR)
+    layer.canvas.crisp.line(cut_box(3, 3, 1914, 1074, 0), ICE, LINE, True)
+    layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), STEEL, THIN, True)
     yield
-    light = yield from pane.lighting()
+    light = yield from layer.lighting()
     surface = pygame.Surface((1920, 1080))
     light.draw(surface)
     yield
-    pygame.draw.polygon(surface, (0, 0, 0), cut(BOX.x, BOX.y, BOX.w, BOX.h, 28))
-    frame = Pane(*BOX)
-    panel(frame.hot, BOX.x, BOX.y, BOX.w, BOX.h, STEEL, LINE, 28)
+    pygame.draw.polygon(surface, (0, 0, 0), cut_box(BOX.x, BOX.y, BOX.w, BOX.h, 28))
+    frame = Layer(*BOX)
+    panel(frame.glow, BOX.x, BOX.y, BOX.w, BOX.h, STEEL, LINE, 28)
     light = yield from frame.lighting()
     light.draw(surface)
     return surface
 
 
 @cached
-def handle(corner: int) -> Lit:
+def handle(corner: int) -> LitImage:
     """The corner that is moved: a bright angle, and an arrow out to it."""
     x, y = CORNERS[corner]
     across, down = (-1 if x else 1), (-1 if y else 1)  # from the corner into the picture
-    pane = Pane(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)
-    ink: Ink = pane.hot
+    layer = Layer(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)
+    ink: GlowCanvas = layer.glow
     for width, reach in ((THIN, 20), (14, 8)):
         ends = [(x + across * 240, y + down * reach), (x + across * reach, y + down * reach)]
         ink.line([*ends, (x + across * reach, y + down * 240)], FOCUS, width)
@@ -231,4 +231,4 @@ def handle(corner: int) -> Lit:
         FOCUS,
         LINE,
     )
-    return pane.done()
+    return layer.done()

@@ -13,14 +13,14 @@ from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.calibration.result_page import OFF
 from pigaming_app.scenes.calibration.setup_page import site_of
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut_box
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 BAR = pygame.Rect(560, 640, 800, 40)
 ROOM = 1040  # px between the spot for a robot and as much on the other side
@@ -28,32 +28,32 @@ MOST = 20.0  # mm at the right end of the bar
 IDLE = 300.0  # seconds without a press until the title
 
 
-class CheckPage:
+class DriftPage:
     """The page, for the camera of the settings."""
 
-    def __init__(self, house: House, site: CalibrationSite | None = None) -> None:
-        self.house, self.site = house, site or site_of(house)
-        number = house.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
+    def __init__(self, context: Context, site: CalibrationSite | None = None) -> None:
+        self.context, self.site = context, site or site_of(context)
+        number = context.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
         self.work = DriftCheck(
-            self.site, number, partial(store.load, store.calibration_file(self.site.name), house.canvas.projection)
+            self.site, number, partial(store.load, store.calibration_file(self.site.name), context.canvas.projection)
         )
         self.clock = 0.0
-        self.prompts = house.prompts([(Act.BACK, "calibrate.hint_back")])
+        self.prompts = context.prompts([(Button.BACK, "calibrate.hint_back")])
 
     def entered(self) -> None:
         """Look."""
-        if self.house.session is not None:
-            self.house.session.close()
+        if self.context.session is not None:
+            self.context.session.close()
         self.work.begin()
 
     def left(self) -> None:
         """Let go of the camera."""
         self.work.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Any button leads back."""
-        if self.prompts.meant(press).act in (Act.BACK, Act.FIRE, Act.START):
-            self.house.sounds.play("back")
+        if self.prompts.as_button(event).button in (Button.BACK, Button.FIRE, Button.START):
+            self.context.sounds.play("back")
             self.left()
             return Pop()
         return None
@@ -63,11 +63,11 @@ class CheckPage:
         self.clock += seconds
         self.site.advance(seconds)
         self.work.pump()
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the markers, and between them what is known."""
-        words, work = self.house.words, self.work
+        words, work = self.context.words, self.work
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
         if work.trouble is not None:
@@ -86,7 +86,7 @@ class CheckPage:
 
     def _draw_spot(self, screen: pygame.Surface) -> None:
         """A robot here shows by its marker whether the width of the mat was measured well."""
-        words, work = self.house.words, self.work
+        words, work = self.context.words, self.work
         x, y = LEFT + SPOT[0], TOP + SPOT[1]
         pygame.draw.circle(screen, GREY, (x, y), DISC)
         said, color = words("calibrate.put"), MIST
@@ -100,21 +100,21 @@ class CheckPage:
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
-        text(self.house.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
+        text(self.context.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
         bar().draw(screen)
         share = min(1.0, mm / MOST)
         pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
-        text(self.house.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
+        text(self.context.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
 
 
 @cached
-def bar() -> Lit:
+def bar() -> LitImage:
     """The empty bar, with marks where it warns and where a match pauses."""
-    pane = Pane(BAR.x, BAR.y - 20, BAR.w, 120)
-    pane.hot.line(cut(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
+    layer = Layer(BAR.x, BAR.y - 20, BAR.w, 120)
+    layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
     marks: tuple[tuple[float, Color], ...] = ((WARN, FOCUS), (PAUSE, ALARM))
     for mm, color in marks:
         x = BAR.x + BAR.w * mm / MOST
-        pane.hot.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
-        pane.page.cold.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
-    return pane.done()
+        layer.glow.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
+        layer.canvas.crisp.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
+    return layer.done()

@@ -6,31 +6,31 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, HeightProcedure
-from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, GlowCanvas, dim
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 DISC = 72  # px: the light must fall on all of a lid, which is 70 mm up, aslant
 GREY = (128, 128, 128)
 NEAR, FAR = 86, 128  # px from the middle, of the four lines that help to aim
 
 
-class OutlinesPage:
+class HeightPage:
     """The page. `finding`: a calibration that lacks only the camera's place; `again`: the page that repeats it."""
 
-    def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
+    def __init__(self, context: Context, finding: CalibrationResult, again: Callable[[], Scene]) -> None:
         assert finding.ground is not None
-        self.house, self.finding, self.again = house, finding, again
+        self.context, self.finding, self.again = context, finding, again
         self.work = HeightProcedure(finding.site, finding.number, finding.ground)
         self.work.begin()
         self.known = 0
-        self.prompts = house.prompts([(Act.BACK, "calibrate.hint_stop")], 1040)
+        self.prompts = context.prompts([(Button.BACK, "calibrate.hint_stop")], 1040)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -39,10 +39,10 @@ class OutlinesPage:
         """Let go of the camera."""
         self.work.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Only the way back."""
-        if self.prompts.meant(press).act is Act.BACK:
-            self.house.sounds.play("back")
+        if self.prompts.as_button(event).button is Button.BACK:
+            self.context.sounds.play("back")
             self.left()
             return Pop()
         return None
@@ -54,17 +54,17 @@ class OutlinesPage:
         work.pump()
         if len(work.seen) != self.known:
             self.known = len(work.seen)
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
         if work.place is not None:
             return None
         self.left()
         ground = work.found or self.finding.ground
         found = replace(self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small)
-        return Swap(ResultPage(self.house, found, self.again))
+        return Swap(ResultPage(self.context, found, self.again))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the spots, and what to do."""
-        place, words = self.work.place, self.house.words
+        place, words = self.work.place, self.context.words
         screen.fill((0, 0, 0))
         for i, (x, y) in enumerate(PLACES):
             if i == place:
@@ -84,12 +84,12 @@ class OutlinesPage:
 
 
 @cached
-def spot(here: bool, done: bool) -> Lit:
+def spot(here: bool, done: bool) -> LitImage:
     """Four lines that help to put a robot in the middle; no light near its marker."""
     color = FOCUS if here else dim(ICE, 0.5) if done else STEEL
-    ink = Ink(2 * FAR + 60, 2 * FAR + 60).to(FAR + 30, FAR + 30)
+    ink = GlowCanvas(2 * FAR + 60, 2 * FAR + 60).to(FAR + 30, FAR + 30)
     for across, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         ink.line([(NEAR * across, NEAR * down), (FAR * across, FAR * down)], color, LINE if here else THIN)
     if done:
         ink.line([(-26, 2), (-8, 20), (28, -18)], color, LINE)
-    return Lit(ink.plain(), (-FAR - 30, -FAR - 30))
+    return LitImage(ink.plain(), (-FAR - 30, -FAR - 30))

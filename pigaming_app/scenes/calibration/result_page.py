@@ -16,18 +16,18 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import Image
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
-from pigaming_app.ui.draw.layers import Lit, backdrop
+from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, chip, heading
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
 HIGH = 84  # px, of a chip
 FOOT = 836  # px, their upper edge
@@ -39,7 +39,7 @@ log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
-class Finding:
+class CalibrationResult:
     """How a calibration went: with what, and what came out. `marker_mm`: of a robot's marker, if one was seen."""
 
     site: CalibrationSite
@@ -60,13 +60,13 @@ class Finding:
 class ResultPage:
     """The page: save, again, or back. `again`: makes the page that repeats the calibration."""
 
-    def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
-        self.house, self.finding, self.again = house, finding, again
+    def __init__(self, context: Context, finding: CalibrationResult, again: Callable[[], Scene]) -> None:
+        self.context, self.finding, self.again = context, finding, again
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
-        self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
-        self.arrows: tuple[Lit, int] | None = None
-        hints = [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")]
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
+        self.arrows: tuple[LitImage, int] | None = None
+        hints = [(Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back")]
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
@@ -75,12 +75,12 @@ class ResultPage:
         if self.finding.residuals and not self.finding.trouble:
             log.info("calibration: %s", english().explained(self.finding.residuals.verdict))
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Left and right choose, FIRE does it."""
-        press = self.navigation.prompts.meant(press)
-        if turn := self.navigation.on(press):
+        event = self.navigation.prompts.as_button(event)
+        if turn := self.navigation.on(event):
             return turn
-        chosen = self.focus.chosen(press)
+        chosen = self.focus.chosen(event)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
@@ -90,17 +90,17 @@ class ResultPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words, finding = self.house.words, self.finding
+        words, finding = self.context.words, self.finding
         screen.blit(backdrop(), (0, 0))
         title = "good" if finding.good else "failed" if finding.residuals is None or finding.trouble else "bad"
         heading(words(f"calibrate.{title}"), color=ICE if finding.good else ALARM).draw(screen)
-        blacked(screen, AREA)
+        black_out(screen, AREA)
         if finding.residuals is None or finding.trouble:
             self._draw_failure(screen)
         else:
             self._draw_errors(screen, finding.residuals)
         for spot in self.focus.spots:
-            blacked(screen, spot.rect)
+            black_out(screen, spot.rect)
             state = "focus" if spot.name == self.focus.name else "on"
             chip(words(f"calibrate.{spot.name}"), spot.rect.w, state, HIGH).draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
@@ -115,7 +115,7 @@ class ResultPage:
         return pygame.Rect(AREA.x + 388 * i, FOOT, 368, HIGH)
 
     def _draw_errors(self, screen: pygame.Surface, residuals: Residuals) -> None:
-        words, finding = self.house.words, self.finding
+        words, finding = self.context.words, self.finding
         self.arrows = self.arrows or arrows(residuals)
         lit, times = self.arrows
         lit.draw(screen)
@@ -139,9 +139,9 @@ class ResultPage:
         for i, line in enumerate(lines):
             line.draw(screen, SIDE.x, y + 20 + 52 * i)
 
-    def _marker(self) -> list[Lit]:
+    def _marker(self) -> list[LitImage]:
         """How large a robot's marker seems: it says whether the mat was measured well."""
-        finding, words = self.finding, self.house.words
+        finding, words = self.finding, self.context.words
         if not finding.marker_mm or finding.ground is None:
             return []
         true = finding.ground.marker
@@ -151,7 +151,7 @@ class ResultPage:
         return [*paragraph(said, SIDE.w, 3, ALARM if off else ICE)]
 
     def _draw_failure(self, screen: pygame.Surface) -> None:
-        words, trouble = self.house.words, self.finding.trouble
+        words, trouble = self.context.words, self.finding.trouble
         sentence = words.sentence(trouble) if trouble else ""
         for i, line in enumerate(paragraph(sentence, SIDE.w, 9)):
             line.draw(screen, SIDE.x, SIDE.y + 40 + 52 * i)
@@ -170,10 +170,10 @@ class ResultPage:
     def _do(self, name: str) -> Turn:
         finding = self.finding
         if name == "leave":
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if name == "again":
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
             return Swap(self.again())
         if finding.ground is None:
             return None
@@ -182,8 +182,8 @@ class ResultPage:
             store.save(finding.ground, path)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.house.sounds.play("back")
-            self.navigation.say(self.house.words("calibrate.unsaved", path=path))
+            self.context.sounds.play("back")
+            self.navigation.say(self.context.words("calibrate.unsaved", path=path))
             return None
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         return Pop()

@@ -11,7 +11,7 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.storage.safe_files import NotSaved
@@ -21,11 +21,11 @@ from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading
-from pigaming_app.ui.widgets.setting_row import Value
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
@@ -39,10 +39,10 @@ PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 log = logging.getLogger("pigaming")
 
 
-def site_of(house: House) -> CalibrationSite:
+def site_of(context: Context) -> CalibrationSite:
     """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
     try:
-        return house.session.site if house.session is not None else RealCalibrationSite()
+        return context.session.site if context.session is not None else RealCalibrationSite()
     except RobotsUnavailable:
         return RealCalibrationSite()  # without OpenCV there is nothing; the page says so
 
@@ -50,9 +50,9 @@ def site_of(house: House) -> CalibrationSite:
 class CalibrationPage:
     """The page. `camera`: one to begin with, else the one of the settings."""
 
-    def __init__(self, house: House, site: CalibrationSite | None = None, camera: int | None = None) -> None:
-        self.house, self.site = house, site or site_of(house)
-        self.number = house.settings.camera if camera is None else camera
+    def __init__(self, context: Context, site: CalibrationSite | None = None, camera: int | None = None) -> None:
+        self.context, self.site = context, site or site_of(context)
+        self.number = context.settings.camera if camera is None else camera
         self.measures = self._measured()
         self.preview: CameraPreview | None = None
         self.known = self.site.cameras()
@@ -63,9 +63,9 @@ class CalibrationPage:
         self._small: object = None
         self._picture: pygame.Surface | None = None
         self.focus = Focus(dials.spots(self._rows()))
-        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok")]
-        hints.append((Act.BACK, "calibrate.hint_back"))
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        hints = [(Button.RIGHT, "calibrate.hint_change"), (Button.FIRE, "calibrate.hint_ok")]
+        hints.append((Button.BACK, "calibrate.hint_back"))
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look through the camera, also after a calibration."""
@@ -79,18 +79,18 @@ class CalibrationPage:
         if self.preview is not None:
             self.preview.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Up and down choose a row, left and right change it; the last row begins."""
-        press = self.navigation.prompts.meant(press)
-        if turn := self.navigation.on(press):
+        event = self.navigation.prompts.as_button(event)
+        if turn := self.navigation.on(event):
             return turn
-        by = dials.pushed(press, self.focus, self._value(self.focus.name))
+        by = dials.step_of(event, self.focus, self._value(self.focus.name))
         if by:
-            self.held = self.held + 1 if press.repeat else 0
+            self.held = self.held + 1 if event.repeat else 0
             self._change(self.focus.name, by)
-        elif self.focus.chosen(press) is not None and press.act is not Act.CLICK:
+        elif self.focus.chosen(event) is not None and event.button is not Button.CLICK:
             return self._accept(self.focus.name)
-        elif press.act is Act.CLICK and self.focus.under(press) == "begin":
+        elif event.button is Button.CLICK and self.focus.under(event) == "begin":
             return self._accept("begin")
         return None
 
@@ -108,12 +108,12 @@ class CalibrationPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("calibrate.title"), self.state).draw(screen)
-        blacked(screen, dials.PANEL)
+        black_out(screen, dials.PANEL)
         dials.draw(
-            screen, self.house.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
+            screen, self.context.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
         )
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         self._draw_camera(screen)
@@ -124,14 +124,14 @@ class CalibrationPage:
         for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
             line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
         if self.navigation.sentence:
-            calling(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
+            call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
         self.navigation.prompts.draw(screen)
 
     # ---- what is seen
 
     def _draw_camera(self, screen: pygame.Surface) -> None:
         """The camera's picture, or why there is none."""
-        preview, words = self.preview, self.house.words
+        preview, words = self.preview, self.context.words
         if preview is None:
             return
         room, below = dials.PANEL.w - 40, PICTURE.bottom + 40
@@ -152,10 +152,10 @@ class CalibrationPage:
 
     def _look_up(self, size: tuple[int, int]) -> None:
         """Whether there is a calibration for this camera and display."""
-        self._state_of, words = size, self.house.words
+        self._state_of, words = size, self.context.words
         try:
             file = store.calibration_file(self.site.name)
-            ground = store.load(file, self.house.canvas.projection, size)
+            ground = store.load(file, self.context.canvas.projection, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
         except CalibrationError as trouble:
             log.warning("%s", english().explained(trouble.message))
@@ -166,23 +166,23 @@ class CalibrationPage:
     def _rows(self) -> tuple[str, ...]:
         return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
 
-    def _value(self, name: str) -> Value:
-        words, measures = self.house.words, self.measures
+    def _value(self, name: str) -> SettingValue:
+        words, measures = self.context.words, self.measures
         match name:
             case "display":
-                return Value("arrows", tuple(self.house.canvas.displays()), self.house.canvas.display)
+                return SettingValue("arrows", tuple(self.context.canvas.displays()), self.context.canvas.display)
             case "camera":
-                return Value("arrows", (self._camera(),))
+                return SettingValue("arrows", (self._camera(),))
             case "by":
                 choice = (words("calibrate.ruler"), words("calibrate.robot"))
-                return Value("toggle", choice, int(not measures.height))
+                return SettingValue("toggle", choice, int(not measures.height))
             case "begin":
-                return Value("deed", (words("calibrate.start"),))
+                return SettingValue("deed", (words("calibrate.start"),))
         mm = {"width": measures.width, "lid": measures.lid, "height": measures.height}[name]
-        return Value("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
+        return SettingValue("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
 
     def _camera(self) -> str:
-        words = self.house.words
+        words = self.context.words
         if not self.known:
             return words("calibrate.no_cameras")
         name = next((known.name for known in self.known if known.number == self.number), "")
@@ -197,8 +197,8 @@ class CalibrationPage:
 
     def _change(self, name: str, by: int, around: bool = False) -> None:
         """The next value of a row, or the one before it."""
-        measures, canvas = self.measures, self.house.canvas
-        self.house.sounds.play("move")
+        measures, canvas = self.measures, self.context.canvas
+        self.context.sounds.play("move")
         match name:
             case "display":
                 count = len(canvas.displays())
@@ -226,7 +226,7 @@ class CalibrationPage:
 
     def _show(self, display: int, fullscreen: bool) -> None:
         """Move the picture; a calibration belongs to where it is."""
-        canvas, settings = self.house.canvas, self.house.settings
+        canvas, settings = self.context.canvas, self.context.settings
         canvas.show(display, fullscreen)
         settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
         self._state_of = (0, 0)
@@ -243,31 +243,31 @@ class CalibrationPage:
     def _look(self) -> None:
         """Look through the camera that is chosen, once the one before is free."""
         self._state_of = (0, 0)
-        if self.house.session is not None:
-            self.house.session.close()
+        if self.context.session is not None:
+            self.context.session.close()
         self.left()
         self.preview = CameraPreview(self.site, self.number)
         self.preview.begin()
 
     def _begin(self) -> Turn:
         """Show the boards on the whole display."""
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         self.left()
-        canvas = self.house.canvas
+        canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)
         self._keep()
-        return Push(BoardsPage(self.house, self.site, self.number, self.measures))
+        return Push(BoardsPage(self.context, self.site, self.number, self.measures))
 
     def _measured(self) -> Measurements:
-        settings = self.house.settings
+        settings = self.context.settings
         if self.site.name != "real":
             return self.site.measures
         return Measurements(settings.arena_mm, settings.camera_mm, settings.lid_mm)
 
     def _keep(self) -> None:
         """Remember what is chosen; an emulated arena is not worth it."""
-        settings, measures = self.house.settings, self.measures
+        settings, measures = self.context.settings, self.measures
         if self.site.name != "real":
             return
         settings.camera = self.number
@@ -276,4 +276,4 @@ class CalibrationPage:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.house.words("app.unsaved"))
+            self.navigation.say(self.context.words("app.unsaved"))

@@ -6,14 +6,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.scenes.flow.preload import Backstage
+from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.sounds import Sounds
-from pigaming_app.ui.widgets.button_prompts import ROOM, Prompts
+from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.window import Canvas
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass
-class House:
+class Context:
     """One of each, made once, handed to every scene."""
 
     settings: Settings
@@ -34,8 +34,8 @@ class House:
     idle: float = 0.0  # seconds since anyone pressed anything
     session: "RobotSession | None" = None  # where real robots drive
     compiler: Compiler = field(default_factory=Compiler)  # of the Lab's training
-    backstage: Backstage = field(default_factory=Backstage)
-    stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
+    preloader: Preloader = field(default_factory=Preloader)
+    emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
 
     @property
     def robots(self) -> bool:
@@ -44,18 +44,18 @@ class House:
 
     def prompts(
         self,
-        items: Sequence[tuple[Act, str]],
+        items: Sequence[tuple[Button, str]],
         y: int = 980,
         room: int = ROOM,
         solid: bool = False,
         voice: Callable[[], Device] | None = None,
-    ) -> Prompts:
-        """The row of hints of a page, see `Prompts`."""
-        return Prompts(self.words, self.controls, items, y, room, solid, voice)
+    ) -> ButtonPrompts:
+        """The row of hints of a page, see `ButtonPrompts`."""
+        return ButtonPrompts(self.words, self.controls, items, y, room, solid, voice)
 
-    def stand_still(self) -> None:
+    def stop_all_robots(self) -> None:
         """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""
-        for stop in self.stops:
+        for stop in self.emergency_stops:
             try:
                 stop()
             except Exception:

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.match_words import FIRES, kept_minutes, limits
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_words import FIRES, last_minutes, limits_line
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.ui.draw import (
@@ -18,61 +18,61 @@ from pigaming_app.ui.draw import (
     button,
     button_width,
     panel,
-    regular,
+    regular_polygon,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, span
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import balanced, fitted, lines_of, text
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import blacked, button_light, chip, chip_width, heading
+from pigaming_app.ui.draw.text import fit_size, text, wrap, wrap_balanced
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_width, heading
 
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without a press until the title
-LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
+LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
 
 class HowTo:
     """The page of one game; left and right, or a click on a name, show another's, almost any other press leaves."""
 
-    def __init__(self, house: House, game: str = "pitanks") -> None:
-        self.house, self.game = house, game
+    def __init__(self, context: Context, game: str = "pitanks") -> None:
+        self.context, self.game = context, game
         self.clock = 0.0
 
     def entered(self) -> None:
         """Begin all pictures."""
         self.clock = 0.0
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Show another game, or leave."""
-        named = next((game for game, box in self._names() if press.at and box.collidepoint(press.at)), None)
-        if press.act in (Act.LEFT, Act.RIGHT):
+        named = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
+        if event.button in (Button.LEFT, Button.RIGHT):
             games = list(LESSONS)
-            self._show(games[(games.index(self.game) + (1 if press.act is Act.RIGHT else -1)) % len(games)])
-        elif press.act is Act.CLICK and named:
+            self._show(games[(games.index(self.game) + (1 if event.button is Button.RIGHT else -1)) % len(games)])
+        elif event.button is Button.CLICK and named:
             self._show(named)
-        elif press.act in LEAVE:
-            self.house.sounds.play("back")
+        elif event.button in LEAVE:
+            self.context.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
         """Let the pictures move."""
         self.clock += seconds
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint panels, pictures and keys."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("title.howto")).draw(screen)
         for game, box in self._names():
             chip(words(f"games.{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)
-        button_light("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
+        button_label("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
-        blacked(screen, *boxes)
+        black_out(screen, *boxes)
         for i, (box, (name, picture)) in enumerate(zip(boxes, LESSONS[self.game].items(), strict=True)):
             screen.set_clip(box.inflate(-8, -8))
             said = picture(screen, box.centerx, TOP + 268, self.clock)
@@ -81,77 +81,77 @@ class HowTo:
             if said:
                 text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
-        said = limits(words, self.game, kept_minutes(self.house.settings, self.game))
+        said = limits_line(words, self.game, last_minutes(self.context.settings, self.game))
         text(said, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
         keys(self._keys()).draw(screen)
 
     def _show(self, game: str) -> None:
         if game != self.game:
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
             self.game, self.clock = game, 0.0
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
         """The games by name and where these stand, at the right end of the heading."""
         boxes, right = [], RIGHT
         for game in reversed(LESSONS):
-            w = chip_width(self.house.words(f"games.{game}"))
+            w = chip_width(self.context.words(f"games.{game}"))
             boxes.append((game, pygame.Rect(right - w, 80, w, 64)))
             right -= w + 16
         return boxes[::-1]
 
     def _keys(self) -> tuple[tuple[str, str], ...]:
         """What is printed on the device used last, and what it does; the last one stands at the right end."""
-        words, controls = self.house.words, self.house.controls
+        words, controls = self.context.words, self.context.controls
         device = controls.last
-        turbo = Act.LEAVE if device.kind == "keys" else Act.BACK
+        turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
         found = [
             (controls.moves(device) or "<>", words("howto.hint_drive")),
             (controls.label(device, turbo), words("howto.hint_turbo")),
-            (controls.label(device, Act.BACK), words("howto.hint_back")),
+            (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
         if self.game in FIRES:
-            found.insert(1, (words.printed(controls.label(device, Act.FIRE)), words(f"howto.{FIRES[self.game]}")))
+            found.insert(1, (words.printed(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
         return tuple((label, what) for label, what in found if label)
 
 
 @cached
-@sliced
-def frame(number: int, w: int) -> Steps[Lit]:
+@resumable
+def frame(number: int, w: int) -> Steps[LitImage]:
     """An empty panel with its number; upper left at (0, 0)."""
-    pane = Pane(0, 0, w, HIGH)
-    panel(pane.hot, 0, 0, w, HIGH, STEEL)
-    pane.hot.fill(regular(40, 32, 0, w / 2, 0), ICE)
-    pane.hot.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
+    layer = Layer(0, 0, w, HIGH)
+    panel(layer.glow, 0, 0, w, HIGH, STEEL)
+    layer.glow.fill(regular_polygon(40, 32, 0, w / 2, 0), ICE)
+    layer.glow.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 @cached
-def caption(said: str, room: int) -> Lit:
+def caption(said: str, room: int) -> LitImage:
     """A few words in lines of about the same length, their middle at (0, 0)."""
-    lines = balanced(said, len(lines_of(said, BODY, room)))
-    pane = Pane(-room / 2, -70, room, 140)
+    lines = wrap_balanced(said, len(wrap(said, BODY, room)))
+    layer = Layer(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
-        size = fitted(line, BODY, room, "body")
-        pane.page.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
-    return pane.done()
+        size = fit_size(line, BODY, room, "body")
+        layer.canvas.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
+    return layer.done()
 
 
 @cached
-@sliced
-def keys(items: Sequence[tuple[str, str]]) -> Steps[Lit]:
+@resumable
+def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
     """The row at the foot: all but the last from the left, the last at the right end."""
-    pane = Pane(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
+    layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
     for i, (label, what) in enumerate(items):
         if i == len(items) - 1:
             x = RIGHT - _width(label) - 10 - text_width(what, BODY, "body")
         for part in label.split():
-            x += button(pane.page, x, FOOT_Y, part) + 8
-        pane.page.body(what, x + 10, FOOT_Y, MIST)
+            x += button(layer.canvas, x, FOOT_Y, part) + 8
+        layer.canvas.body(what, x + 10, FOOT_Y, MIST)
         x += 10 + text_width(what, BODY, "body") + 56
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 def _width(label: str) -> float:

@@ -6,15 +6,15 @@ from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.experiments.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.play.pause import title
+from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
-from pigaming_app.ui.draw.layers import Pane
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
 
 MINUTES = 1.0
@@ -23,25 +23,25 @@ DEAF = 1.0  # seconds in which presses are ignored
 IDLE = 60.0  # seconds without a press until the Lab
 
 
-class Fight:
+class Challenge:
     """One match of a person against the robot."""
 
-    def __init__(self, house: House, kind: BrainKind, device: Device, arena: str = ARENA) -> None:
-        self.house, self.kind, self.device, self.arena = house, kind, device, arena
+    def __init__(self, context: Context, kind: BrainKind, device: Device, arena: str = ARENA) -> None:
+        self.context, self.kind, self.device, self.arena = context, kind, device, arena
         off = Seat("off", 2), Seat("off", 3)
         setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
-        self.inner = MatchScene(house, setup, [device])
+        self.inner = MatchScene(context, setup, [device])
         self.inner.open = False  # nobody else takes the robot's seat
         self.inner.match.sit(ROBOT, BrainPlayer(kind, setup.seed))
-        self.inner.stage.players[ROBOT] = kind.name
+        self.inner.runner.players[ROBOT] = kind.name
 
     def entered(self) -> None:
         """Begin, or go on after an interruption."""
         self.inner.entered()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """As in every match."""
-        return self.inner.on(press)
+        return self.inner.on(event)
 
     def update(self, seconds: float) -> Turn:
         """Let the match run on; ended by hand, it leads back at once."""
@@ -52,58 +52,58 @@ class Fight:
             return Pop()
         if inner.match.over:
             inner.frozen += seconds
-            inner.stage.wait(seconds)
-            return Swap(Verdict(self)) if inner.frozen >= FREEZE else None
+            inner.runner.wait(seconds)
+            return Swap(ChallengeResult(self)) if inner.frozen >= FREEZE else None
         return inner.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """The match."""
         self.inner.draw(screen)
 
-    def again(self, device: Device | None) -> "Fight":
+    def again(self, device: Device | None) -> "Challenge":
         """Once more, driven with this device, or with the same one."""
-        return Fight(self.house, self.kind, device or self.device, self.arena)
+        return Challenge(self.context, self.kind, device or self.device, self.arena)
 
 
-class Verdict:
+class ChallengeResult:
     """Who won, and whether once more."""
 
-    def __init__(self, fight: Fight) -> None:
-        self.fight, self.house = fight, fight.house
+    def __init__(self, fight: Challenge) -> None:
+        self.fight, self.context = fight, fight.context
         self.scores = [robot.score for robot in fight.inner.match.state.robots][:2]
         self.age = self.idle = 0.0
         self.picture: pygame.Surface | None = None
-        self.access = Access(self.house, lambda: [fight.inner.devices[0]])
-        self.leaving = Holds(self.house.controls, LEAVE)
-        hints = [(Act.FIRE, "results.again"), (Act.BACK, "lab.hint_lab")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.access = Access(self.context, lambda: [fight.inner.devices[0]])
+        self.leaving = HoldTimers(self.context.controls, LEAVE)
+        hints = [(Button.FIRE, "results.again"), (Button.BACK, "lab.hint_lab")]
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
         mine, its = self.scores
-        self.house.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
+        self.context.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE plays again, with whatever device presses it; BACK leads to the Lab, held as after every match."""
-        press = self.prompts.meant(press)
-        admitted = self.access.admit(press)
-        if admitted is None and press.act not in (Act.FIRE, Act.START):
+        event = self.prompts.as_button(event)
+        admitted = self.access.admit(event)
+        if admitted is None and event.button not in (Button.FIRE, Button.START):
             return None
         self.idle = 0.0
         if self.age < DEAF:
             return None
-        if press.act in (Act.FIRE, Act.START):
-            self.house.sounds.play("accept")
-            return Swap(self.fight.again(None if press.device.kind == "mouse" else press.device))
-        if admitted and press.act is Act.BACK:
-            if press.device.kind == "mouse":
+        if event.button in (Button.FIRE, Button.START):
+            self.context.sounds.play("accept")
+            return Swap(self.fight.again(None if event.device.kind == "mouse" else event.device))
+        if admitted and event.button is Button.BACK:
+            if event.device.kind == "mouse":
                 return self._leave()
             if self.age >= LATE:
                 self.leaving.begin(admitted)
         return None
 
     def _leave(self) -> Turn:
-        self.house.sounds.play("back")
+        self.context.sounds.play("back")
         return Pop()
 
     def update(self, seconds: float) -> Turn:
@@ -125,20 +125,22 @@ class Verdict:
         if self.leaving.share:
             filled(screen, self.leaving.share)
 
-    def _paint(self, pane: Pane) -> None:
-        words = self.house.words
+    def _paint(self, layer: Layer) -> None:
+        words = self.context.words
         mine, its = self.scores
         name = self.fight.kind.name.upper()
         if mine == its:
-            title(pane, None, words("results.tie"), ICE)
+            sheet_title(layer, None, words("results.tie"), ICE)
         else:
             seat = 0 if mine > its else ROBOT
-            title(pane, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat])
+            sheet_title(
+                layer, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat]
+            )
         middle = (HEAD + FOOT) / 2
         for seat, side, score, who in ((0, -1, mine, words("lab.you")), (ROBOT, 1, its, name)):
-            pane.page.text(
+            layer.canvas.text(
                 str(score).replace("-", "−"), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
             )
-            badge(pane.hot, seat, 960 + side * 430, middle - 28, 44)
-            pane.page.body(who, 960 + side * 430, middle + 66, MIST, "c")
-        pane.page.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")
+            badge(layer.glow, seat, 960 + side * 430, middle - 28, 44)
+            layer.canvas.body(who, 960 + side * 430, middle + 66, MIST, "c")
+        layer.canvas.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")

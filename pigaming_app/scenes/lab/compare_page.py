@@ -14,13 +14,13 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench
+from pigaming_app.scenes.lab.bench import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
 MATCHES = {True: 10, False: 2}  # of every two, compiled and plain
@@ -35,7 +35,7 @@ GLIDE = 8.0  # of the way to its new place that a row goes in a second
 
 
 @dataclass
-class Player:
+class Entrant:
     """One row of the table."""
 
     name: str
@@ -51,39 +51,39 @@ class Player:
         return WIN * self.won + TIE * self.tied
 
 
-class Compare:
+class ComparePage:
     """The league of one training."""
 
-    def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
-        words, workshop = self.house.words, lab.workshop
-        kept = workshop.checkpoints()
-        self.players = [Player(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
-        now = workshop.moment.matches
+    def __init__(self, lab: LabHost) -> None:
+        self.lab, self.context = lab, lab.context
+        words, trainer = self.context.words, lab.trainer
+        kept = trainer.checkpoints()
+        self.players = [Entrant(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
+        now = trainer.moment.matches
         if now not in kept:
-            self.players.append(Player(words("lab.now", matches=now), workshop.checkpoint("now").kind))
-        self.players.append(Player(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
+            self.players.append(Entrant(words("lab.now", matches=now), trainer.checkpoint("now").kind))
+        self.players.append(Entrant(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
         for i, player in enumerate(self.players):
             player.y = TOP + PITCH * i
         self.pairs = list(combinations(self.players, 2))
         self.whole = len(self.pairs)
         self.exam: Evaluation | None = None
-        self.prompts = self.house.prompts([(Act.BACK, "lab.hint_lab")])
+        self.prompts = self.context.prompts([(Button.BACK, "lab.hint_lab")])
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Any button leads back."""
-        press = self.prompts.meant(press)
-        if press.act in (Act.BACK, Act.FIRE, Act.START):
-            self.house.sounds.play("back")
+        event = self.prompts.as_button(event)
+        if event.button in (Button.BACK, Button.FIRE, Button.START):
+            self.context.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
         """Play on for some milliseconds, and let the rows glide."""
-        if self.house.idle > IDLE:
+        if self.context.idle > IDLE:
             return Pop()
         end = perf_counter() + SLICE
         while self.pairs and perf_counter() < end:
@@ -95,7 +95,7 @@ class Compare:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the table."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("lab.compare_title")).draw(screen)
         for key, right in COLUMNS:
@@ -111,7 +111,7 @@ class Compare:
             self._bar(screen)
         self.prompts.draw(screen)
 
-    def order(self) -> list[Player]:
+    def order(self) -> list[Entrant]:
         """The players, the best first; equals as they were."""
         return sorted(self.players, key=lambda player: -player.points)
 
@@ -120,7 +120,7 @@ class Compare:
     def _play(self) -> None:
         one, other = self.pairs[0]
         if self.exam is None:
-            fast, arena = self.lab.workshop.fast, self.lab.workshop.training.arena
+            fast, arena = self.lab.trainer.fast, self.lab.trainer.training.arena
             self.exam = Evaluation(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
         self.exam.play(TICKS)
         if self.exam.over:
@@ -129,7 +129,7 @@ class Compare:
             one.won, one.tied, one.lost = one.won + exam.wins, one.tied + exam.ties, one.lost + exam.losses
             other.won, other.tied, other.lost = other.won + exam.losses, other.tied + exam.ties, other.lost + exam.wins
             if not self.pairs:
-                self.house.sounds.play("win")
+                self.context.sounds.play("win")
 
     def _bar(self, screen: pygame.Surface) -> None:
         """How much has been played."""
@@ -140,12 +140,12 @@ class Compare:
 
 
 @cached
-def row(name: str, own: bool, best: bool) -> Lit:
+def row(name: str, own: bool, best: bool) -> LitImage:
     """A row without its numbers; upper left at (0, 0)."""
     w = RIGHT - LEFT
-    pane = Pane(0, 0, w, HIGH)
-    pane.hot.line(cut(0, 0, w, HIGH, 14), FOCUS if best else STEEL, THIN, True)
-    icon(pane.hot, "crown" if best else "ai", 62, HIGH / 2, 26, FOCUS if best else MIST, THIN)
+    layer = Layer(0, 0, w, HIGH)
+    layer.glow.line(cut_box(0, 0, w, HIGH, 14), FOCUS if best else STEEL, THIN, True)
+    icon(layer.glow, "crown" if best else "ai", 62, HIGH / 2, 26, FOCUS if best else MIST, THIN)
     color = FOCUS if best else ICE if own else MIST
-    pane.page.body(name, 124, HIGH / 2, color, "l", fitted(name, LABEL, 780, "body"))
-    return pane.done()
+    layer.canvas.body(name, 124, HIGH / 2, color, "l", fit_size(name, LABEL, 780, "body"))
+    return layer.done()

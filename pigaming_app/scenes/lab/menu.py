@@ -3,15 +3,15 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench, behind
-from pigaming_app.scenes.lab.compare_page import Compare
-from pigaming_app.scenes.lab.name_page import Naming
-from pigaming_app.scenes.lab.open_page import Shelf
-from pigaming_app.scenes.play.pause import items, title
+from pigaming_app.scenes.lab.bench import IDLE, LabHost, behind
+from pigaming_app.scenes.lab.compare_page import ComparePage
+from pigaming_app.scenes.lab.name_page import NamePage
+from pigaming_app.scenes.lab.open_page import OpenPage
+from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import word
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
 
@@ -21,32 +21,34 @@ ITEMS = ("save", "open", "compare", "anew")
 class LabMenu:
     """The menu over the Lab, which rests."""
 
-    def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
+    def __init__(self, lab: LabHost) -> None:
+        self.lab, self.context = lab, lab.context
         self.sure = False  # the next press on it forgets everything
         self.picture: pygame.Surface | None = None
-        self.focus = Focus(items(ITEMS))
-        self.prompts = self.house.prompts([(Act.FIRE, "pause.hint_ok"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+        self.focus = Focus(menu_spots(ITEMS))
+        self.prompts = self.context.prompts(
+            [(Button.FIRE, "pause.hint_ok"), (Button.BACK, "lab.hint_lab")], PROMPTS, W - 80
+        )
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE takes what has the focus; START and BACK lead back."""
-        press = self.prompts.meant(press)
-        if press.act in (Act.START, Act.BACK):
-            self.house.sounds.play("back")
+        event = self.prompts.as_button(event)
+        if event.button in (Button.START, Button.BACK):
+            self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(press):
+        if self.focus.on(event):
             self.sure = False
-            self.house.sounds.play("move")
-        chosen = self.focus.chosen(press)
+            self.context.sounds.play("move")
+        chosen = self.focus.chosen(event)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
         """Only the focus moves."""
         self.focus.update(seconds)
-        return Pop() if self.house.idle > IDLE else None
+        return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The page, painted once, and the item in focus."""
@@ -54,21 +56,21 @@ class LabMenu:
             self.picture = overlay(behind(self.lab), ICE, self._paint)
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen, ALARM if self.sure else FOCUS)
-        said = self.house.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
+        said = self.context.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
         if self.sure:
             pygame.draw.rect(screen, (0, 0, 0), self.focus.spot.rect)
         word(said, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
         self.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         match name:
             case "save":
-                return Swap(Naming(self.lab))
+                return Swap(NamePage(self.lab))
             case "open":
-                return Swap(Shelf(self.lab))
+                return Swap(OpenPage(self.lab))
             case "compare":
-                return Swap(Compare(self.lab))
+                return Swap(ComparePage(self.lab))
             case _ if self.sure:
                 self.lab.begin()
                 return Pop()
@@ -76,8 +78,8 @@ class LabMenu:
                 self.sure = True
                 return None
 
-    def _paint(self, pane: Pane) -> None:
-        words = self.house.words
-        title(pane, None, words("lab.title"), ICE)
+    def _paint(self, layer: Layer) -> None:
+        words = self.context.words
+        sheet_title(layer, None, words("lab.title"), ICE)
         for spot in self.focus.spots:
-            pane.page.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+            layer.canvas.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")

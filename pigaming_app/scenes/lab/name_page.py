@@ -3,8 +3,8 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench
-from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, NotKept, keep, names, proposal
+from pigaming_app.scenes.lab.bench import IDLE, LabHost
+from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, RobotFileError, names, proposal, save_robot
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -14,13 +14,13 @@ from pigaming_app.ui.draw import (
     STEEL,
     THIN,
     Color,
-    cut,
+    cut_box,
     panel,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters
 
@@ -29,16 +29,16 @@ W, H, GAP, MIDDLE = 176, 240, 32, 510  # px of a letter's box
 SIZE = 168  # px of a letter
 
 
-class Naming:
+class NamePage:
     """Asks for a name and saves the robot under it."""
 
-    def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
+    def __init__(self, lab: LabHost) -> None:
+        self.lab, self.context = lab, lab.context
         self.picker = LetterPicker(LETTERS, (lab.name or proposal()).ljust(LENGTH))
         self.age = 0.0
         self.taken = False  # the name belongs to another robot; START again replaces it
-        self.prompts = self.house.prompts(
-            [(Act.FIRE, "results.next_letter"), (Act.BACK, "lab.hint_back"), (Act.START, "lab.hint_save")],
+        self.prompts = self.context.prompts(
+            [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
         )
 
     def entered(self) -> None:
@@ -49,29 +49,29 @@ class Naming:
         """What is spelled now."""
         return self.picker.spelled.strip()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Choose letters; START saves; BACK goes a letter back, and from the first one to the Lab."""
-        press = self.prompts.meant(press)
+        event = self.prompts.as_button(event)
         if self.age < DEAF:
             return None
-        if press.act is not Act.START:
-            self.taken = self.taken and press.act is Act.POINT
-        match press.act:
-            case Act.UP | Act.DOWN:
-                self._play(self.picker.turn(-1 if press.act is Act.UP else 1))
-            case Act.RIGHT | Act.FIRE:
+        if event.button is not Button.START:
+            self.taken = self.taken and event.button is Button.POINT
+        match event.button:
+            case Button.UP | Button.DOWN:
+                self._play(self.picker.turn(-1 if event.button is Button.UP else 1))
+            case Button.RIGHT | Button.FIRE:
                 self._play(self.picker.move(1))
-            case Act.LEFT:
+            case Button.LEFT:
                 self._play(self.picker.move(-1))
-            case Act.BACK if self.picker.slot == 0:
-                self.house.sounds.play("back")
+            case Button.BACK if self.picker.slot == 0:
+                self.context.sounds.play("back")
                 return Pop()
-            case Act.BACK:
+            case Button.BACK:
                 self._play(self.picker.move(-1))
-            case Act.START:
+            case Button.START:
                 return self._save()
-            case Act.CLICK if press.at:
-                self._click(press.at)
+            case Button.CLICK if event.at:
+                self._click(event.at)
             case _:
                 pass
         return None
@@ -80,12 +80,12 @@ class Naming:
         """Let a letter roll."""
         self.age += seconds
         self.picker.update(seconds)
-        return Pop() if self.house.idle > IDLE else None
+        return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the question and the letters."""
         screen.blit(backdrop(), (0, 0))
-        words = self.house.words
+        words = self.context.words
         heading(words("lab.name_title")).draw(screen)
         xs = [middle(i) for i in range(LENGTH)]
         for x in xs:
@@ -99,14 +99,14 @@ class Naming:
     # ---- inside
 
     def _said(self) -> tuple[str, Color]:
-        words = self.house.words
+        words = self.context.words
         if self.taken:
             return words("lab.taken", name=self.name), ALARM
         return words("lab.name_how"), MIST
 
     def _play(self, sound: str | None) -> None:
         if sound:
-            self.house.sounds.play(sound)
+            self.context.sounds.play(sound)
 
     def _click(self, at: tuple[float, float]) -> None:
         """The upper half of a letter's column goes one letter back, the lower one on."""
@@ -120,18 +120,18 @@ class Naming:
         """Save it, unless the name is another robot's and this is the first time that START was pressed."""
         name = self.name
         if not name:
-            self.house.sounds.play("refused")
+            self.context.sounds.play("refused")
             return None
         if name != self.lab.name and name in names() and not self.taken:
             self.taken = True
-            self.house.sounds.play("refused")
+            self.context.sounds.play("refused")
             return None
-        words = self.house.words
+        words = self.context.words
         try:
-            self.lab.workshop.hold(lambda training: keep(training, name))
+            self.lab.trainer.hold(lambda training: save_robot(training, name))
             self.lab.name = name
             self.lab.say(words("lab.saved", name=name))
-        except NotKept as trouble:
+        except RobotFileError as trouble:
             self.lab.say(words(str(trouble)), wrong=True)
         return Pop()
 
@@ -142,9 +142,9 @@ def middle(slot: int) -> float:
 
 
 @cached
-def box() -> Lit:
+def box() -> LitImage:
     """A letter's box, round (0, 0)."""
-    pane = Pane(-W / 2, -H / 2, W, H)
-    panel(pane.hot, -W / 2, -H / 2, W, H)
-    pane.hot.line(cut(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)
-    return pane.done()
+    layer = Layer(-W / 2, -H / 2, W, H)
+    panel(layer.glow, -W / 2, -H / 2, W, H)
+    layer.glow.line(cut_box(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)
+    return layer.done()

@@ -5,48 +5,48 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench
-from pigaming_app.scenes.lab.saved_robots import NotKept, fetch, file_of, names
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, span
+from pigaming_app.scenes.lab.bench import IDLE, LabHost
+from pigaming_app.scenes.lab.saved_robots import RobotFileError, file_of, load_robot, names
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, text
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, heading
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, heading
 
 COLUMNS, ROWS = 3, 4
 TOP, HIGH, PITCH = 236, 140, 164
 DEAF = 0.3  # seconds in which presses are ignored
 
 
-class Shelf:
+class OpenPage:
     """Cards of the robots, the last saved first; those of one page at a time."""
 
-    def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
+    def __init__(self, lab: LabHost) -> None:
+        self.lab, self.context = lab, lab.context
         self.names = names()
         self.page, self.age = 0, 0.0
         self.focus = Focus(self._spots())
-        self.prompts = self.house.prompts(self._hints())
+        self.prompts = self.context.prompts(self._hints())
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
-        """FIRE opens, BACK leads to the Lab, ALT shows the next page."""
-        press = self.prompts.meant(press)
-        if press.act is Act.BACK or (not self.names and press.act in (Act.FIRE, Act.START)):
-            self.house.sounds.play("back")
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE opens, BACK leads to the Lab, Y shows the next page."""
+        event = self.prompts.as_button(event)
+        if event.button is Button.BACK or (not self.names and event.button in (Button.FIRE, Button.START)):
+            self.context.sounds.play("back")
             return Pop()
-        if press.act is Act.ALT and self.pages > 1:
+        if event.button is Button.Y and self.pages > 1:
             self.page = (self.page + 1) % self.pages
             self.focus = Focus(self._spots())
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         elif self.names:
-            if self.focus.on(press):
-                self.house.sounds.play("move")
-            chosen = self.focus.chosen(press)
+            if self.focus.on(event):
+                self.context.sounds.play("move")
+            chosen = self.focus.chosen(event)
             return self._open(chosen) if chosen and self.age > DEAF else None
         return None
 
@@ -54,16 +54,16 @@ class Shelf:
         """Let the focus glide."""
         self.age += seconds
         self.focus.update(seconds)
-        return Pop() if self.house.idle > IDLE else None
+        return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the cards."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         count = f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
         heading(words("lab.open_title"), count).draw(screen)
         if self.names:
-            blacked(screen, *(spot.rect for spot in self.focus.spots))
+            black_out(screen, *(spot.rect for spot in self.focus.spots))
             for spot in self.focus.spots:
                 card(spot.name, saved(spot.name), spot.name == self.focus.name).draw(screen, *spot.rect.topleft)
             self.focus.draw(screen)
@@ -78,24 +78,24 @@ class Shelf:
         """How many pages there are."""
         return max(1, -(-len(self.names) // (COLUMNS * ROWS)))
 
-    def _spots(self) -> list[Spot]:
+    def _spots(self) -> list[FocusSpot]:
         first = self.page * COLUMNS * ROWS
-        return [Spot(name, place(i)) for i, name in enumerate(self.names[first : first + COLUMNS * ROWS])] or [
-            Spot("", place(0))
+        return [FocusSpot(name, place(i)) for i, name in enumerate(self.names[first : first + COLUMNS * ROWS])] or [
+            FocusSpot("", place(0))
         ]
 
-    def _hints(self) -> list[tuple[Act, str]]:
-        more = [(Act.ALT, "lab.hint_page")] if self.pages > 1 else []
-        return ([(Act.FIRE, "lab.hint_open")] if self.names else []) + more + [(Act.BACK, "lab.hint_lab")]
+    def _hints(self) -> list[tuple[Button, str]]:
+        more = [(Button.Y, "lab.hint_page")] if self.pages > 1 else []
+        return ([(Button.FIRE, "lab.hint_open")] if self.names else []) + more + [(Button.BACK, "lab.hint_lab")]
 
     def _open(self, name: str) -> Turn:
-        words, workshop = self.house.words, self.lab.workshop
+        words, trainer = self.context.words, self.lab.trainer
         try:
-            training, other_engine = fetch(name, workshop.fast)
-            workshop.take(training)
+            training, other_engine = load_robot(name, trainer.fast)
+            trainer.take(training)
             self.lab.name = name
             self.lab.say(words("lab.opened_other" if other_engine else "lab.opened", name=name))
-        except NotKept as trouble:
+        except RobotFileError as trouble:
             self.lab.say(words(str(trouble), name=name), wrong=True)
         return Pop()
 
@@ -115,11 +115,11 @@ def saved(name: str) -> str:
 
 
 @cached
-def card(name: str, when: str, hot: bool) -> Lit:
+def card(name: str, when: str, hot: bool) -> LitImage:
     """A robot's name and when it was saved; upper left at (0, 0)."""
     w = span(0, 4)[1]
-    pane = Pane(0, 0, w, HIGH)
-    pane.hot.line(cut(0, 0, w, HIGH, 16), STEEL, THIN, True)
-    pane.page.text(name, fitted(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
-    pane.page.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
-    return pane.done()
+    layer = Layer(0, 0, w, HIGH)
+    layer.glow.line(cut_box(0, 0, w, HIGH, 16), STEEL, THIN, True)
+    layer.canvas.text(name, fit_size(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
+    layer.canvas.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
+    return layer.done()

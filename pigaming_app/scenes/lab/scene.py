@@ -11,19 +11,19 @@ import pygame
 
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.lab.knob import MOST
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
 from pigaming_app.scenes.lab.learning_curve import HANDMADE
 from pigaming_app.scenes.lab.progress import Progress
-from pigaming_app.scenes.lab.trainer import Workshop
-from pigaming_app.scenes.lab.view import SPEEDS, LabPage, Shown, speed_at, warming
+from pigaming_app.scenes.lab.trainer import Trainer
+from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.ui.draw import ALARM, FOCUS
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import plate
-from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 FIRST = replace(RECIPES[1], behind_always=1)  # each knob counts at every decision, so that turning it is seen soon
 IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
@@ -32,69 +32,69 @@ LAST = 20.0  # seconds before that in which it asks
 SAID = 4.0  # seconds for which a sentence stays
 PATIENT = 2.0  # seconds of compiling after which a word about it is due
 LEAST = 2.0  # Q that makes at least a whole petal
-TURNS = {Act.LEFT: -1, Act.DOWN: -1, Act.RIGHT: 1, Act.UP: 1}
+TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
 class Lab:
     """A robot that learns, from an empty table on. `fast`: compiled; left out: if numba is there."""
 
-    def __init__(self, house: House, fast: bool | None = None) -> None:
-        self.house = house
-        self.workshop = Workshop(FIRST, new_seed(), fast, house.compiler)
+    def __init__(self, context: Context, fast: bool | None = None) -> None:
+        self.context = context
+        self.trainer = Trainer(FIRST, new_seed(), fast, context.compiler)
         self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
         self.cheered: Progress | None = None  # in which that was over
         self.name = ""  # under which it was saved or opened
-        self.shown = Shown()
+        self.shown = LabState()
         self.page: LabPage | None = None
         self.seen = -1  # number of the picture that the page has
         self.held = ""  # the knob in hand
         self.age = self.said = self.compiling = 0.0
         self.sentence, self.wrong = "", False
-        self.focus = Focus([Spot("speed", SPEED), Spot("play", PLAY)]
-                           + [Spot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
-        self.prompts = house.prompts(
+        self.focus = Focus([FocusSpot("speed", SPEED), FocusSpot("play", PLAY)]
+                           + [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
+        self.prompts = context.prompts(
             [
-                (Act.FIRE, "lab.hint_choose"),
-                (Act.EXTRA, "lab.hint_play"),
-                (Act.ALT, "lab.hint_faster"),
-                (Act.START, "lab.hint_more"),
-                (Act.BACK, "lab.hint_leave"),
+                (Button.FIRE, "lab.hint_choose"),
+                (Button.X, "lab.hint_play"),
+                (Button.Y, "lab.hint_faster"),
+                (Button.START, "lab.hint_more"),
+                (Button.BACK, "lab.hint_leave"),
             ],
             PROMPTS_Y,
         )
-        self.turning = house.prompts([(Act.RIGHT, "lab.hint_turn"), (Act.FIRE, "lab.hint_done")], PROMPTS_Y)
+        self.turning = context.prompts([(Button.RIGHT, "lab.hint_turn"), (Button.FIRE, "lab.hint_done")], PROMPTS_Y)
 
     # ---- what happens to it
 
     def entered(self) -> None:
         """Begin, or go on."""
         self.age, self.held = 0.0, ""
-        self.house.sounds.music(True)
-        if self.page and self.page.language != self.house.words.language:
+        self.context.sounds.music(True)
+        if self.page and self.page.language != self.context.words.language:
             self.page = None
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
-        press = (self.turning if self.held else self.prompts).meant(press)
-        if self.held and press.act not in (Act.EXTRA, Act.ALT):
-            return self._turn(press)
+        event = (self.turning if self.held else self.prompts).as_button(event)
+        if self.held and event.button not in (Button.X, Button.Y):
+            return self._turn(event)
         self.held = ""
-        match press.act:
-            case Act.EXTRA:
-                return self.play(press.device)
-            case Act.ALT:
-                self._hurry((self.workshop.speed + 1) % len(SPEEDS))
-            case Act.START:
+        match event.button:
+            case Button.X:
+                return self.play(event.device)
+            case Button.Y:
+                self._hurry((self.trainer.speed + 1) % len(SPEEDS))
+            case Button.START:
                 return self._menu()
-            case Act.BACK:
-                self.house.sounds.play("back")
+            case Button.BACK:
+                self.context.sounds.play("back")
                 return self.leave(Pop())
-            case Act.FIRE | Act.CLICK:
-                self.focus.on(press)
-                return self._choose(press) if self.age > DEAF else None
+            case Button.FIRE | Button.CLICK:
+                self.focus.on(event)
+                return self._choose(event) if self.age > DEAF else None
             case _:
-                if self.focus.on(press):
-                    self.house.sounds.play("move")
+                if self.focus.on(event):
+                    self.context.sounds.play("move")
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -102,11 +102,11 @@ class Lab:
         self.age += seconds
         self.said -= seconds
         self.focus.update(seconds)
-        self.workshop.feed(seconds)
-        self.compiling = self.compiling + seconds if self.workshop.compiling else 0.0
+        self.trainer.feed(seconds)
+        self.compiling = self.compiling + seconds if self.trainer.compiling else 0.0
         self._follow(seconds)
-        if self.house.idle > IDLE:
-            self.workshop.recipe, self.workshop.speed = FIRST, 0
+        if self.context.idle > IDLE:
+            self.trainer.recipe, self.trainer.speed = FIRST, 0
             self.begin()
             return self.leave(Home())
         return None
@@ -114,110 +114,110 @@ class Lab:
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
         if self.page is None:
-            self.page, self.seen = LabPage(self.house), -1
+            self.page, self.seen = LabPage(self.context), -1
         self.page.draw(screen, self.shown)
         if not self.held:
             self.focus.draw(screen)
-        words = self.house.words
+        words = self.context.words
         if self.said > 0.0:
-            plate(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
+            caption(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
         else:
             (self.turning if self.held else self.prompts).draw(screen)
-        if self.house.idle > IDLE - LAST:
-            plate(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
+        if self.context.idle > IDLE - LAST:
+            caption(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > PATIENT:
             warming(words("lab.warming")).draw(screen)
 
     def left(self) -> None:
         """Taken off the stack: the training rests."""
-        self.workshop.close()
+        self.trainer.close()
 
     # ---- what the pages above it may do
 
     def say(self, sentence: str, wrong: bool = False) -> None:
         """Show a sentence for a while."""
         self.sentence, self.wrong, self.said = sentence, wrong, SAID
-        self.house.sounds.play("error" if wrong else "accept")
+        self.context.sounds.play("error" if wrong else "accept")
 
     def play(self, device: Device) -> Turn:
         """A match against what the robot is now."""
-        from pigaming_app.scenes.lab.challenge import Fight
+        from pigaming_app.scenes.lab.challenge import Challenge
 
-        self.house.sounds.play("accept")
-        driver = self.house.controls.last if device.kind == "mouse" else device
-        robot = self.workshop.checkpoint(self.name or self.house.words("lab.robot"))
-        self.workshop.close()
-        return Push(Fight(self.house, robot.kind, driver, self.workshop.training.arena))
+        self.context.sounds.play("accept")
+        driver = self.context.controls.last if device.kind == "mouse" else device
+        robot = self.trainer.checkpoint(self.name or self.context.words("lab.robot"))
+        self.trainer.close()
+        return Push(Challenge(self.context, robot.kind, driver, self.trainer.training.arena))
 
     def begin(self) -> None:
         """Everything from an empty table."""
-        self.workshop.begin(new_seed())
+        self.trainer.begin(new_seed())
         self.name, self.seen = "", -1
 
     def leave(self, turn: Turn) -> Turn:
         """The training rests."""
-        self.workshop.close()
+        self.trainer.close()
         return turn
 
     # ---- inside
 
-    def _choose(self, press: Press) -> Turn:
-        chosen = self.focus.chosen(press)
+    def _choose(self, event: InputEvent) -> Turn:
+        chosen = self.focus.chosen(event)
         if chosen == "play":
-            return self.play(press.device)
+            return self.play(event.device)
         if chosen == "speed":
-            at = press.at
-            here = self.workshop.speed
+            at = event.at
+            here = self.trainer.speed
             self._hurry(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
-        elif chosen and press.at:
-            self._set(chosen, self._value(chosen) + (1 if press.at[0] > self.focus.rect(chosen).centerx else -1))
+        elif chosen and event.at:
+            self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
         elif chosen:
             self.held = chosen
-            self.house.sounds.play("lift")
+            self.context.sounds.play("lift")
         return None
 
-    def _turn(self, press: Press) -> Turn:
+    def _turn(self, event: InputEvent) -> Turn:
         """A press while a knob is in hand."""
-        if press.act in TURNS:
-            self._set(self.held, self._value(self.held) + TURNS[press.act])
-        elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.CLICK):
+        if event.button in TURNS:
+            self._set(self.held, self._value(self.held) + TURNS[event.button])
+        elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.CLICK):
             self.held = ""
-            self.house.sounds.play("set_down")
+            self.context.sounds.play("set_down")
         return None
 
     def _hurry(self, speed: int) -> None:
-        self.workshop.speed = speed
-        self.house.sounds.play("move")
+        self.trainer.speed = speed
+        self.context.sounds.play("move")
 
     def _menu(self) -> Turn:
         from pigaming_app.scenes.lab.menu import LabMenu
 
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         return self.leave(Push(LabMenu(self)))
 
     def _value(self, knob: str) -> int:
-        return max(-MOST, min(MOST, int(getattr(self.workshop.recipe, knob))))
+        return max(-MOST, min(MOST, int(getattr(self.trainer.recipe, knob))))
 
     def _set(self, knob: str, value: int) -> None:
         """Turn a knob as far as it goes."""
         value = max(-MOST, min(MOST, value))
         if value != self._value(knob):
-            self.workshop.recipe = turned(self.workshop.recipe, knob, value)
-            self.house.sounds.play("tick")
+            self.trainer.recipe = turned(self.trainer.recipe, knob, value)
+            self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
         """Tell the page what is so."""
-        workshop, shown, moment = self.workshop, self.shown, self.workshop.moment
+        trainer, shown, moment = self.trainer, self.shown, self.trainer.moment
         if self.page and moment.number != self.seen:
             self.seen = moment.number
             self.page.watch(moment.state)
         if self.page:
             self.page.update(seconds)
-        shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, workshop.progress.measures
-        self._cheer(workshop.progress)
-        shown.speed, shown.focus, shown.held = workshop.speed, self.focus.name, self.held
+        shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, trainer.progress.measures
+        self._cheer(trainer.progress)
+        shown.speed, shown.focus, shown.held = trainer.speed, self.focus.name, self.held
         shown.values = {name: self._value(name) for name in KNOB_NAMES}
-        plan = workshop.progress.plan
+        plan = trainer.progress.plan
         most = max([LEAST] + [abs(one.worth) for one in plan if one])
         shown.levels = [level(one.worth / most) if one else 0 for one in plan]
         shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
@@ -229,8 +229,8 @@ class Lab:
             self.lagged = progress
         elif share is not None and share > HANDMADE and self.lagged is progress is not self.cheered:
             self.cheered = progress
-            self.say(self.house.words("lab.outdone"))
-            self.house.sounds.play("win")
+            self.say(self.context.words("lab.outdone"))
+            self.context.sounds.play("win")
 
 
 def level(share: float) -> int:

@@ -13,8 +13,8 @@ import pygame
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.match_choice import chosen, load_kept, playable, title
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import arena_title, last_choice, load_cached, playable_arenas
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, Turn
 from pigaming_app.scenes.lobby import match_setup_view as choice
@@ -27,12 +27,12 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import PLAYERS
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, backdrop, span
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, frame, heading
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, frame, heading
 
 IDLE = 60.0  # seconds without a press until the title
 DEAF = 0.35  # seconds in which nobody can begin: the press that said "ready" may be hammered
@@ -47,51 +47,51 @@ GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
 log = logging.getLogger(__name__)
 
 
-class SetupPage:
+class MatchSetupPage:
     """The choice of the match that `seats` are going to play. `game_choice`: see `Results`."""
 
-    def __init__(self, house: House, game: str, seats: Seats, game_choice: After | None = None) -> None:
-        self.house, self.game, self.seats, self.game_choice = house, games()[game], seats, game_choice
-        self.arenas = playable(game)
-        self.chosen = chosen(house, game)
+    def __init__(self, context: Context, game: str, seats: Seats, game_choice: After | None = None) -> None:
+        self.context, self.game, self.seats, self.game_choice = context, games()[game], seats, game_choice
+        self.arenas = playable_arenas(game)
+        self.chosen = last_choice(context, game)
         self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
-        self.access = Access(house, seats.devices)
+        self.access = Access(context, seats.devices)
         self.going = False  # a match was asked for
-        hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
-        self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
-        self.navigation = Navigation(house, self.focus, hints, IDLE, voice=lambda: self.access.voice)
+        hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), (Button.BACK, "setup.hint_back")]
+        self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
+        self.navigation = Navigation(context, self.focus, hints, IDLE, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
         self.clock, self.going = 0.0, False
-        self.house.sounds.music(True)
+        self.context.sounds.music(True)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Change, begin, or go back."""
-        admitted = self.access.admit(self.navigation.prompts.meant(press))
+        admitted = self.access.admit(self.navigation.prompts.as_button(event))
         if admitted is None or self.going:
             return None
-        press = admitted
-        match press.act:
-            case Act.LEFT | Act.RIGHT:
-                self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
-            case Act.FIRE | Act.START:
+        event = admitted
+        match event.button:
+            case Button.LEFT | Button.RIGHT:
+                self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
+            case Button.FIRE | Button.START:
                 return self._go() if self.clock > DEAF else None
-            case Act.CLICK:
-                self.focus.on(press)
-                return self._click(press)
+            case Button.CLICK:
+                self.focus.on(event)
+                return self._click(event)
             case _:
-                return self.navigation.on(press)
+                return self.navigation.on(event)
         return None
 
     def update(self, seconds: float) -> Turn:
         """Let the picture slide in; go back when a seat has lost its device, and leave when nobody is there."""
         self.clock += seconds
-        if any(device and not self.house.controls.connected(device) for device in self.seats.devices()):
+        if any(device and not self.context.controls.connected(device) for device in self.seats.devices()):
             return Pop()
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
         turn = self.navigation.update(seconds)
@@ -99,16 +99,16 @@ class SetupPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("setup.title")).draw(screen)
         choice.lineup(self._signs()).draw(screen, RIGHT, 112)
-        blacked(screen, FRAME, *self.rows.values())
+        black_out(screen, FRAME, *self.rows.values())
         self._picture(screen)
         for name, box in self.rows.items():
             self._row(name).draw(screen, *box.topleft)
         self._records(screen)
-        choice.meant(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
+        choice.focus_outline(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
         self.focus.draw(screen)
         self.navigation.prompts.draw(screen)
 
@@ -116,7 +116,7 @@ class SetupPage:
 
     def _go(self) -> Turn:
         self._keep()
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         self.going = True
         return self._begin()
 
@@ -125,10 +125,12 @@ class SetupPage:
         from pigaming_app.scenes.play.scene import new_seed
         from pigaming_app.scenes.robots.start_match import match_of
 
-        if not self.house.backstage.ready(self.game.name, self.chosen.arena):
+        if not self.context.preloader.ready(self.game.name, self.chosen.arena):
             return None
         setup = replace(self._setup(), seed=new_seed())
-        return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real(), game_choice=self.game_choice))
+        return Push(
+            match_of(self.context, setup, self.seats.devices(), self.seats.real(), game_choice=self.game_choice)
+        )
 
     def _setup(self) -> Setup:
         """The match as it is chosen now, without a seed."""
@@ -139,16 +141,16 @@ class SetupPage:
     def _keep(self) -> None:
         """Remember the choice for the next time, also after a power cut."""
         try:
-            self.house.settings.save(folders().config)
+            self.context.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
 
-    def _row(self, name: str) -> Lit:
+    def _row(self, name: str) -> LitImage:
         """What a row says."""
-        words, now, game = self.house.words, self.chosen, self.game
+        words, now, game = self.context.words, self.chosen, self.game
         if name == "arena":
             place = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
-            where = title(load_kept(game.name, now.arena), words.language)
+            where = arena_title(load_cached(game.name, now.arena), words.language)
             return choice.row(words(f"setup.arena_{game.name}"), where, place)
         if name == "goal":
             return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, game.goals)), str(now.goal))
@@ -167,19 +169,19 @@ class SetupPage:
             now.arena = self.arenas[(self.arenas.index(now.arena) + by) % len(self.arenas)]
             self.slid, self.way = 0.0, by
         elif name == "goal":
-            now.goal = beside(game.goals, now.goal, by)
+            now.goal = stepped(game.goals, now.goal, by)
         elif name == "minutes":
-            now.minutes = beside(game.minutes, now.minutes, by)
+            now.minutes = stepped(game.minutes, now.minutes, by)
         elif name == "rules":
             now.variant = game.variants[(game.variants.index(now.variant) + by) % len(game.variants)]
         if now != before:
-            self.house.sounds.play("move")
-        self.house.settings.games[game.name] = now
+            self.context.sounds.play("move")
+        self.context.settings.games[game.name] = now
 
-    def _click(self, press: Press) -> Turn:
+    def _click(self, event: InputEvent) -> Turn:
         """The arrows and chips of a row, the picture (the next arena), the button."""
-        name = self.focus.under(press)
-        at = press.at or (0.0, 0.0)
+        name = self.focus.under(event)
+        at = event.at or (0.0, 0.0)
         if name == "go":
             return self._go()
         if name in ("goal", "minutes"):
@@ -199,10 +201,10 @@ class SetupPage:
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
         for feat in self.game.record_kinds:
-            best = self.house.scores.best(table_of(contest(self._setup()), feat))
+            best = self.context.scores.best(table_of(contest(self._setup()), feat))
             if best:
-                name = self.house.words(f"setup.best_{feat.name}")
-                lines.append((name, self.house.words.decimal(format_score(best[0].score, feat)), best[0].initials))
+                name = self.context.words(f"setup.best_{feat.name}")
+                lines.append((name, self.context.words.decimal(format_score(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
@@ -237,11 +239,11 @@ class SetupPage:
 
 
 @cached
-@sliced
-def picture(game: str, name: str) -> Steps[Lit]:
+@resumable
+def picture(game: str, name: str) -> Steps[LitImage]:
     """A large picture of an arena, where the page shows it."""
-    image = yield from preview(load_kept(game, name), *PICTURE.size)
-    return Lit(image, PICTURE.topleft)
+    image = yield from preview(load_cached(game, name), *PICTURE.size)
+    return LitImage(image, PICTURE.topleft)
 
 
 @lru_cache(maxsize=16)
@@ -249,7 +251,7 @@ def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[t
     """Where the robots of these seats begin, px."""
     rules, state = games()[game], games()[game].state()
     setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
-    rules.start(state, load_kept(game, name), setup)
+    rules.start(state, load_cached(game, name), setup)
     return [(robot.x, robot.y) for robot in state.robots]
 
 
@@ -264,6 +266,6 @@ def rows(game: Game) -> dict[str, pygame.Rect]:
     return {**boxes, "go": GO}
 
 
-def beside(values: Sequence[int], value: int, by: int) -> int:
+def stepped(values: Sequence[int], value: int, by: int) -> int:
     """The value so many places after another one; the last and the first stop it."""
     return values[max(0, min(len(values) - 1, values.index(value) + by))]

@@ -9,7 +9,7 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Quit, Turn
 from pigaming_app.scenes.options import pictures
@@ -17,15 +17,15 @@ from pigaming_app.scenes.views.race.ghost_files import forget
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import LABEL
-from pigaming_app.ui.draw.frame_budget import Ahead
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading
-from pigaming_app.ui.widgets.setting_row import Value
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
 
 IDLE = 90.0  # seconds without a press until the title
 SAID = 3.0  # seconds for which a sentence stays
@@ -41,35 +41,39 @@ log = logging.getLogger("pigaming")
 class OptionsPage:
     """The options; `operator`: everything, also in a kiosk."""
 
-    def __init__(self, house: House, operator: bool = False) -> None:
-        self.house, self.operator = house, operator
+    def __init__(self, context: Context, operator: bool = False) -> None:
+        self.context, self.operator = context, operator
         self.rows: Sequence[str] = ROWS
-        if house.kiosk:
+        if context.kiosk:
             self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
         self.clock = 0.0
         self.cleared = False
-        self.clearing = Holds(house.controls, CLEAR)
-        self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
-        self.ahead = Ahead(self._ahead())
-        hints = [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        self.clearing = HoldTimers(context.controls, CLEAR)
+        self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(self.rows)])
+        self.ahead = PrewarmQueue(self._ahead())
+        hints = [
+            (Button.RIGHT, "options.hint_change"),
+            (Button.FIRE, "options.hint_ok"),
+            (Button.BACK, "options.hint_back"),
+        ]
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Shown, or come back to from the test of the controls."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
-        press = self.navigation.prompts.meant(press)
-        match press.act:
-            case Act.LEFT | Act.RIGHT:
-                self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
-            case Act.FIRE | Act.START:
-                return self._do(self.focus.name, press)
-            case Act.CLICK:
-                self.focus.on(press)
-                return self._click(press)
+        event = self.navigation.prompts.as_button(event)
+        match event.button:
+            case Button.LEFT | Button.RIGHT:
+                self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
+            case Button.FIRE | Button.START:
+                return self._do(self.focus.name, event)
+            case Button.CLICK:
+                self.focus.on(event)
+                return self._click(event)
             case _:
-                before, turn = self.focus.name, self.navigation.on(press)
+                before, turn = self.focus.name, self.navigation.on(event)
                 if self.focus.name != before:
                     self.clearing.clear()
                 return turn
@@ -85,10 +89,10 @@ class OptionsPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words, focus = self.house.words, self.focus.name
+        words, focus = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("options.operator" if self.operator else "options.title")).draw(screen)
-        blacked(screen, dials.PANEL)
+        black_out(screen, dials.PANEL)
         values = {name: self._value(name) for name in self.rows}
         dials.draw(screen, words, self.focus, "options", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
@@ -97,7 +101,7 @@ class OptionsPage:
         if self.clearing.share:
             pictures.ring(screen, self.clearing.share)
         if self.navigation.sentence:
-            calling(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
+            call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
         self.navigation.prompts.draw(screen)
 
     # ---- what is seen
@@ -111,7 +115,7 @@ class OptionsPage:
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
         """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
-        words = self.house.words
+        words = self.context.words
         for name in self.rows:
             yield partial(dials.label, words(f"options.{name}"), True)
             yield partial(self._piece, name)
@@ -124,27 +128,27 @@ class OptionsPage:
 
     # ---- what the rows are
 
-    def _value(self, name: str) -> Value:
-        settings, words, canvas = self.house.settings, self.house.words, self.house.canvas
+    def _value(self, name: str) -> SettingValue:
+        settings, words, canvas = self.context.settings, self.context.words, self.context.canvas
         off_on = (words("options.off"), words("options.on"))
         match name:
             case "language":
-                return Value("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
+                return SettingValue("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
             case "music" | "sounds":
-                return Value("meter", (), settings.music if name == "music" else settings.sounds)
+                return SettingValue("meter", (), settings.music if name == "music" else settings.sounds)
             case "flashes":
                 flashes = tuple(words(f"options.{one}") for one in FLASHES)
-                return Value("toggle", flashes, FLASHES.index(settings.flashes))
+                return SettingValue("toggle", flashes, FLASHES.index(settings.flashes))
             case "shake":
-                return Value("toggle", off_on, int(settings.shake))
+                return SettingValue("toggle", off_on, int(settings.shake))
             case "fullscreen":
-                return Value("toggle", off_on, int(canvas.fullscreen))
+                return SettingValue("toggle", off_on, int(canvas.fullscreen))
             case "display":
-                return Value("arrows", tuple(canvas.displays()), canvas.display)
+                return SettingValue("arrows", tuple(canvas.displays()), canvas.display)
             case "reset":
                 key = "cleared" if self.cleared else "clear"
-                return Value("deed", (words(f"options.{key}"),))
-        return Value("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
+                return SettingValue("deed", (words(f"options.{key}"),))
+        return SettingValue("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
         """The next value of a row, or the one before it."""
@@ -152,36 +156,36 @@ class OptionsPage:
         most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
         self._take(name, max(0, min(most, value.chosen + by)))
 
-    def _do(self, name: str, press: Press) -> Turn:
+    def _do(self, name: str, event: InputEvent) -> Turn:
         """Fire: the next value, round and round; or the deed."""
         value = self._value(name)
         if value.kind != "deed":
             count = 11 if value.kind == "meter" else len(value.options)
             self._take(name, (value.chosen + 1) % count)
             return None
-        self.house.sounds.play("move" if name == "reset" else "accept")
+        self.context.sounds.play("move" if name == "reset" else "accept")
         if name == "close":
             return Quit()
         if name == "padtest":
-            from pigaming_app.scenes.options.controls_test import PadTest
+            from pigaming_app.scenes.options.controls_test import ControlsTest
 
-            return Push(PadTest(self.house))
+            return Push(ControlsTest(self.context))
         if name == "robots":
             from pigaming_app.scenes.robots.menu import RobotsMenu
 
-            return Push(RobotsMenu(self.house))
+            return Push(RobotsMenu(self.context))
         self.cleared = False
-        self.clearing.begin(press)
+        self.clearing.begin(event)
         return None
 
-    def _click(self, press: Press) -> Turn:
-        name = self.focus.under(press)
-        if name is None or press.at is None:
+    def _click(self, event: InputEvent) -> Turn:
+        name = self.focus.under(event)
+        if name is None or event.at is None:
             return None
         value = self._value(name)
         if value.kind == "deed":
-            return self._do(name, press)
-        hit = dials.hit(value.kind, value.options, value.chosen, press.at[0] - self.focus.rect(name).x)
+            return self._do(name, event)
+        hit = dials.value_at(value.kind, value.options, value.chosen, event.at[0] - self.focus.rect(name).x)
         if hit is not None:
             self._take(name, hit)
         return None
@@ -190,15 +194,15 @@ class OptionsPage:
         """Make a value so, at once."""
         if chosen == self._value(name).chosen:
             return
-        house, settings, canvas = self.house, self.house.settings, self.house.canvas
+        context, settings, canvas = self.context, self.context.settings, self.context.canvas
         match name:
             case "language":
                 settings.language = LANGUAGES[chosen]
-                house.words.switch(settings.language)
-                self.ahead = Ahead(self._ahead())
+                context.words.switch(settings.language)
+                self.ahead = PrewarmQueue(self._ahead())
             case "music" | "sounds":
                 setattr(settings, name, chosen)
-                house.sounds.volume(settings.music, settings.sounds)
+                context.sounds.volume(settings.music, settings.sounds)
             case "flashes":
                 settings.flashes = FLASHES[chosen]
             case "shake":
@@ -206,14 +210,14 @@ class OptionsPage:
             case "display" | "fullscreen":
                 canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
                 settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
-        house.sounds.play("hit" if name == "sounds" else "move")
+        context.sounds.play("hit" if name == "sounds" else "move")
         self._keep()
 
     def _clear(self) -> None:
         """Empty the tables of scores."""
-        self.house.scores.reset()
+        self.context.scores.reset()
         self.cleared = True
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         self._keep(scores=True)
         try:
             forget(folders().data)
@@ -224,9 +228,9 @@ class OptionsPage:
         """Save, or say in one sentence that it could not be saved."""
         try:
             if scores:
-                self.house.scores.save(folders().data)
+                self.context.scores.save(folders().data)
             else:
-                self.house.settings.save(folders().config)
+                self.context.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.house.words("app.unsaved"))
+            self.navigation.say(self.context.words("app.unsaved"))

@@ -11,8 +11,8 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.flow.access import OWNED, Access, Ownership
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.access import OWNED, Access, PauseAccess
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, Turn
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.views.sprites.effects import timer_ring
@@ -31,13 +31,13 @@ from pigaming_app.ui.draw import (
     button_width,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, word
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.draw.text import fit_size, word
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay
-from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 ITEMS = ("continue", "restart", "controls", "end")
 PITCH, ITEM_H = 74, 66
@@ -48,10 +48,10 @@ WAITS = 2.0  # seconds for which somebody whose press did not count is told why
 RING = X + W - 112, Y + 116
 
 
-class Held(Protocol):
+class PausedMatch(Protocol):
     """The match below a page."""
 
-    house: House
+    context: Context
     devices: list[Device | None]
 
     def picture(self) -> pygame.Surface:
@@ -74,7 +74,7 @@ class Held(Protocol):
     def access(self) -> Access:
         """Whose presses count in the match."""
 
-    def welcome(self, press: Press) -> bool:
+    def welcome(self, event: InputEvent) -> bool:
         """Give its seat back to a device that has walked off."""
 
     def hold(self, seconds: float) -> None:
@@ -87,42 +87,46 @@ class Held(Protocol):
 class Pause:
     """A pause that `device` has asked for."""
 
-    def __init__(self, match: Held, device: Device) -> None:
-        self.match, self.house = match, match.house
+    def __init__(self, match: PausedMatch, device: Device) -> None:
+        self.match, self.context = match, match.context
         self.player = match.devices.index(device) if device in match.devices else None
-        self.access = Ownership(match.house, lambda: match.devices, device)
+        self.access = PauseAccess(match.context, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
         self.sure = self.waits = 0.0
-        self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
-        hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.focus = Focus(menu_spots((ITEMS[0], *match.extras, *ITEMS[1:])))
+        hints = [
+            (Button.FIRE, "pause.hint_ok"),
+            (Button.BACK, "pause.hint_continue"),
+            (Button.BRAIN, "pause.hint_brain"),
+        ]
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Quiet."""
-        self.house.sounds.music(False)
+        self.context.sounds.music(False)
 
-    def on(self, press: Press) -> Turn:
-        """START and BACK go on; so does F4, or ALT of a pad, with a look into an AI; FIRE takes what has the focus."""
-        press = self.prompts.meant(press)
-        if press.act is Act.ALT:
-            press = replace(press, act=Act.BRAIN)
-        admitted = self.access.admit(press)
+    def on(self, event: InputEvent) -> Turn:
+        """START and BACK go on; so does F4, or Y of a pad, with a look into an AI; FIRE takes what has the focus."""
+        event = self.prompts.as_button(event)
+        if event.button is Button.Y:
+            event = replace(event, button=Button.BRAIN)
+        admitted = self.access.admit(event)
         acting = self.access.acting
-        if admitted is None or (press.act is Act.BRAIN and acting and admitted.device not in acting):
+        if admitted is None or (event.button is Button.BRAIN and acting and admitted.device not in acting):
             self.waits = WAITS
             return None
-        press = admitted
-        if press.act is Act.BRAIN:
+        event = admitted
+        if event.button is Button.BRAIN:
             self.match.think_aloud()
-        if press.act in (Act.START, Act.BACK, Act.BRAIN):
+        if event.button in (Button.START, Button.BACK, Button.BRAIN):
             return self._do("continue")
-        if self.focus.on(press):
+        if self.focus.on(event):
             self.sure = 0.0
-            self.house.sounds.play("move")
-        chosen = self.focus.chosen(press)
+            self.context.sounds.play("move")
+        chosen = self.focus.chosen(event)
         if chosen in ASKED and self.sure <= 0.0:
             self.sure = SURE
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
             return None
         return self._do(chosen) if chosen else None
 
@@ -145,14 +149,14 @@ class Pause:
         self.focus.draw(screen, color)
         if self.sure > 0.0:
             pygame.draw.rect(screen, (0, 0, 0), box)
-            sure(self.house.words(f"pause.sure_{self.focus.name}", button="{button}"), self._button()).draw(
+            sure(self.context.words(f"pause.sure_{self.focus.name}", button="{button}"), self._button()).draw(
                 screen, *box.center
             )
         else:
-            word(self.house.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
+            word(self.context.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
         self._draw_owned(screen)
         if self.waits > 0.0:
-            plate(self._why(), FOCUS).draw(screen, 960, PROMPTS)
+            caption(self._why(), FOCUS).draw(screen, 960, PROMPTS)
         else:
             self.prompts.draw(screen)
         self.match.shine(screen)
@@ -161,7 +165,7 @@ class Pause:
 
     def _button(self) -> str:
         """What is printed on the button that takes what has the focus."""
-        return self.house.words.printed(self.house.controls.label(self.access.voice, Act.FIRE))
+        return self.context.words.printed(self.context.controls.label(self.access.voice, Button.FIRE))
 
     def _draw_owned(self, screen: pygame.Surface) -> None:
         """For how long the pause belongs to whoever asked for it."""
@@ -174,57 +178,59 @@ class Pause:
     def _why(self) -> str:
         """Why a press did not count."""
         if self.player is None or not self.access.owned:
-            return self.house.words("pause.wait")
-        return self.house.words("pause.wait_for", player=self.player + 1)
+            return self.context.words("pause.wait")
+        return self.context.words("pause.wait_for", player=self.player + 1)
 
     def _do(self, name: str) -> Turn:
-        self.house.sounds.play("back" if name == "continue" else "accept")
+        self.context.sounds.play("back" if name == "continue" else "accept")
         match name:
             case "restart":
                 self.match.restart()
             case "end":
                 self.match.stop()
             case "controls":
-                return Push(DeviceTable(self.house, self.match.devices, self.access))
+                return Push(DeviceTable(self.context, self.match.devices, self.access))
             case extra if extra in self.match.extras:
                 return Push(self.match.extras[extra](self.access))
         return Pop()
 
-    def _paint(self, pane: Pane) -> None:
-        words = self.house.words
+    def _paint(self, layer: Layer) -> None:
+        words = self.context.words
         text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
-        title(pane, self.player, text, ICE, RING[0] - 80)
+        sheet_title(layer, self.player, text, ICE, RING[0] - 80)
         for spot in self.focus.spots:
-            pane.page.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+            layer.canvas.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
 
 
-def items(names: Sequence[str] = ITEMS) -> list[Spot]:
+def menu_spots(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
     """Where the items of a menu are."""
     pitch = min(PITCH, (FOOT - HEAD - 8) // len(names))
     high = pitch - PITCH + ITEM_H
     top = HEAD + (FOOT - HEAD - pitch * len(names)) // 2 + (pitch - high) // 2
-    return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + pitch * i, ITEM_W, high)) for i, name in enumerate(names)]
+    return [
+        FocusSpot(name, pygame.Rect(960 - ITEM_W // 2, top + pitch * i, ITEM_W, high)) for i, name in enumerate(names)
+    ]
 
 
 @cached
-def sure(said: str, label: str) -> Lit:
+def sure(said: str, label: str) -> LitImage:
     """A question that a second press answers, round (0, 0); {button} in it is the button."""
     before, _, after = said.partition("{button}")
     wide = button_width(label) + 36
-    size = fitted(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
+    size = fit_size(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]
     x = -(sum(ends) + wide) / 2
-    pane = Pane(x, -40, -2 * x, 80)
-    pane.page.text(before.strip(), size, x, 0, ALARM)
-    button(pane.page, x + ends[0] + 18, 0, label, ALARM)
-    pane.page.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
-    return pane.done()
+    layer = Layer(x, -40, -2 * x, 80)
+    layer.canvas.text(before.strip(), size, x, 0, ALARM)
+    button(layer.canvas, x + ends[0] + 18, 0, label, ALARM)
+    layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
+    return layer.done()
 
 
-def title(pane: Pane, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
+def sheet_title(layer: Layer, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
     """The head of a sheet: a badge, if it is about somebody, and one line that ends before `right`."""
     x = X + 72
     if player is not None:
-        badge(pane.hot, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
+        badge(layer.glow, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
         x = X + 232
-    pane.page.text(text, fitted(text, TITLE, right - x), x, Y + 116, color)
+    layer.canvas.text(text, fit_size(text, TITLE, right - x), x, Y + 116, color)

@@ -3,15 +3,15 @@
 import pygame
 
 from pigaming_app.games.replay import BYTES_PER_TICK, Replay, to_match
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.play.runner import Stage
-from pigaming_app.scenes.play.side_hints import Column, note
+from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.play.side_hints import SideHints, side_note
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
+from pigaming_app.ui.widgets.caption import caption
 
 SPEEDS = (1, 2, 4)
 SHOWN = 4.0  # seconds for which the hints stay after a press
@@ -22,32 +22,32 @@ LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # of the time line, px
 class ReplayScene:
     """A replay on the screen."""
 
-    def __init__(self, house: House, replay: Replay) -> None:
-        self.house, self.replay = house, replay
+    def __init__(self, context: Context, replay: Replay) -> None:
+        self.context, self.replay = context, replay
         self.length = len(replay.ticks) // BYTES_PER_TICK * DT
         self.speed, self.shown, self.playing = 0, SHOWN, True
-        self.stage, self.warm = Stage(house, to_match(replay)), False
+        self.runner, self.warm = MatchRunner(context, to_match(replay)), False
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
-        """FIRE holds and goes on, LEFT and RIGHT change the speed, EXTRA begins again, BACK leaves."""
-        press = self.hints.meant(press)
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE holds and goes on, LEFT and RIGHT change the speed, X begins again, BACK leaves."""
+        event = self.hints.as_button(event)
         self.shown = SHOWN
-        match press.act:
-            case Act.FIRE | Act.START:
+        match event.button:
+            case Button.FIRE | Button.START:
                 if self.ended:
                     self._begin()
                 else:
                     self.playing = not self.playing
-            case Act.LEFT:
+            case Button.LEFT:
                 self.speed = max(0, self.speed - 1)
-            case Act.RIGHT:
+            case Button.RIGHT:
                 self.speed = min(len(SPEEDS) - 1, self.speed + 1)
-            case Act.EXTRA:
+            case Button.X:
                 self._begin()
-            case Act.BACK:
+            case Button.BACK:
                 return Pop()
             case _:
                 pass
@@ -56,52 +56,52 @@ class ReplayScene:
     def update(self, seconds: float) -> Turn:
         """Let the match run as fast as it is wished."""
         self.shown -= seconds
-        self.warm = self.warm or self.stage.warm(4.0)
+        self.warm = self.warm or self.runner.warm(4.0)
         if self.playing and not self.ended:
-            self.stage.advance(seconds, SPEEDS[self.speed])
+            self.runner.advance(seconds, SPEEDS[self.speed])
         else:
-            self.stage.wait(seconds)
+            self.runner.wait(seconds)
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The match; in the margins its time line, how fast it runs, and what can be pressed."""
-        self.stage.draw(screen)
-        words, seconds = self.house.words, self.stage.match.seconds
+        self.runner.draw(screen)
+        words, seconds = self.context.words, self.runner.match.seconds
         if seconds < SHOWN or not self.playing:
-            self.stage.captions(screen, [None] * len(self.replay.setup.seats))
+            self.runner.captions(screen, [None] * len(self.replay.setup.seats))
         x = LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, seconds / max(DT, self.length))
         pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
         pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (x, LINE_Y), 6)
         pygame.draw.circle(screen, FOCUS, (x, LINE_Y), 9)
         if self.ended:
-            plate(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
+            caption(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
         elif not self.playing or self.speed or seconds < SHOWN:
             said = words("replay.title") if self.playing else words("replay.hint_pause")
-            note(said, f"{SPEEDS[self.speed]}×").draw(screen)
+            side_note(said, f"{SPEEDS[self.speed]}×").draw(screen)
         if self.replay.other_engine and seconds < NOTICE:
-            plate(words("replay.other_engine"), FOCUS).draw(screen, 960, NOTICE_Y)
+            caption(words("replay.other_engine"), FOCUS).draw(screen, 960, NOTICE_Y)
         if self.shown > 0.0 or not self.playing or self.ended:
             self.hints.draw(screen)
 
     @property
-    def hints(self) -> Column:
+    def hints(self) -> SideHints:
         """The hints, where they hide nothing."""
-        return Column(self.prompts)
+        return SideHints(self.prompts)
 
     @property
-    def prompts(self) -> Prompts:
+    def prompts(self) -> ButtonPrompts:
         """What the buttons do now; at the end there is nothing to hold and nothing to hurry."""
-        hints = [(Act.FIRE, "replay.hint_again"), (Act.BACK, "replay.hint_back")]
+        hints = [(Button.FIRE, "replay.hint_again"), (Button.BACK, "replay.hint_back")]
         if not self.ended:
             fire = "replay.hint_pause" if self.playing else "replay.hint_play"
-            hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
-        return self.house.prompts(hints)
+            hints = [(Button.FIRE, fire), (Button.RIGHT, "replay.hint_speed"), (Button.X, hints[0][1]), hints[1]]
+        return self.context.prompts(hints)
 
     @property
     def ended(self) -> bool:
         """Nothing more was recorded."""
-        match = self.stage.match
+        match = self.runner.match
         return match.over or match.seconds >= self.length
 
     def _begin(self) -> None:
-        self.stage, self.warm, self.playing = Stage(self.house, to_match(self.replay)), False, True
+        self.runner, self.warm, self.playing = MatchRunner(self.context, to_match(self.replay)), False, True

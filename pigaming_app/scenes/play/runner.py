@@ -11,32 +11,32 @@ import pygame
 from pigaming_app.ai import RIVALS
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
-from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.input.events import Act, Device
-from pigaming_app.ui.widgets.caption import Plate, plate
+from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.widgets.caption import Caption, caption
 
 BEHIND = 72  # of 255: how bright a match is behind a page
 LAST = 10  # seconds before the end in which each second is heard
 BESIDE = 104  # px from a robot to what is said about it
 
 
-class Stage:
+class MatchRunner:
     """A match and its view. `loud`: its sounds are heard."""
 
-    def __init__(self, house: House, match: Match, loud: bool = True) -> None:
-        self.house, self.match, self.loud = house, match, loud
+    def __init__(self, context: Context, match: Match, loud: bool = True) -> None:
+        self.context, self.match, self.loud = context, match, loud
         self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
         kind = VIEWS[match.setup.game]
         with self._making():
-            self.view = kind(match.arena, match.state, self.players, house.settings, house.words)
-        self.brain = BrainOverlay(match, self.view, house.words)
-        self.pace = Pace()
+            self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
+        self.brain = BrainOverlay(match, self.view, context.words)
+        self.timestep = FixedTimestep()
         self.unseen = 0.0  # seconds of real time since the last picture
         self.second = LAST + 1
 
@@ -48,7 +48,7 @@ class Stage:
     def advance(self, seconds: float, speed: float = 1.0) -> None:
         """Let the match run on for `seconds` of real time."""
         self.unseen += seconds
-        for _ in range(self.pace.due(seconds, speed)):
+        for _ in range(self.timestep.due(seconds, speed)):
             if self.match.over:
                 break
             self.match.tick()
@@ -56,7 +56,7 @@ class Stage:
                 heard = self.view.watch(self.match.state)
             for name, player, x in heard:
                 if self.loud:
-                    self.house.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
+                    self.context.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
         self._count_down()
 
     def wait(self, seconds: float) -> None:
@@ -65,7 +65,7 @@ class Stage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the match, between its last two ticks."""
-        blend = 1.0 if self.match.over else self.pace.blend
+        blend = 1.0 if self.match.over else self.timestep.blend
         unseen, self.unseen = self.unseen, 0.0
         with self._making():
             self.view.draw(screen, self.match.state, blend, unseen)
@@ -87,9 +87,9 @@ class Stage:
         for seat, robot in enumerate(self.match.state.robots):
             if robot.present:
                 name, sign = self.driver(seat, devices[seat])
-                self.beside(screen, seat, plate(name, PLAYERS[seat], sign=sign))
+                self.beside(screen, seat, caption(name, PLAYERS[seat], sign=sign))
 
-    def beside(self, screen: pygame.Surface, seat: int, sheet: Plate) -> None:
+    def beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
         """Paint something beside a robot, on the side where the arena has more room."""
         robot = self.match.state.robots[seat]
         margin = LEFT + 24 + sheet.width / 2
@@ -99,13 +99,13 @@ class Stage:
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
         """What drives a seat, in words, and the icon for it."""
-        words = self.house.words
+        words = self.context.words
         if device and device.kind == "pad":
-            return words(f"devices.{self.house.controls.name(device)}"), "pad"
+            return words(f"devices.{self.context.controls.name(device)}"), "pad"
         if device:
-            moves = self.house.controls.moves(device)
+            moves = self.context.controls.moves(device)
             steer = words("match.arrows") if "←" in moves else moves
-            return f"{steer} + {words.printed(self.house.controls.label(device, Act.FIRE))}", "keys"
+            return f"{steer} + {words.printed(self.context.controls.label(device, Button.FIRE))}", "keys"
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"
@@ -118,5 +118,5 @@ class Stage:
     def _count_down(self) -> None:
         second = int(self.match.seconds_left) + 1
         if second < self.second and second <= LAST and not self.match.over and self.loud:
-            self.house.sounds.play("tick")
+            self.context.sounds.play("tick")
         self.second = second

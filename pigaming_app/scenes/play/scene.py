@@ -17,23 +17,23 @@ from pigaming_app.ai import make, seated
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, Swap, Turn
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
-from pigaming_app.scenes.play.idle_seats import WalkOff
+from pigaming_app.scenes.play.idle_seats import IdleSeats
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
-from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import After, Results
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
-from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.text import lines_of, text
-from pigaming_app.ui.input.events import Act, Device, Drive, Press
-from pigaming_app.ui.input.hold import Holds
-from pigaming_app.ui.widgets.caption import RING_STEPS, Plate, filling, plate
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
+from pigaming_app.ui.draw.text import text, wrap
+from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
+from pigaming_app.ui.input.hold import HoldTimers
+from pigaming_app.ui.widgets.caption import RING_STEPS, Caption, caption, hold_ring
 
 LEAD = 0.8  # seconds in which one looks round before the countdown
 RESUME = 0.5  # seconds for each number after an interruption
@@ -53,66 +53,66 @@ class MatchScene:
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         setup: Setup,
         devices: Sequence[Device | None] = (),
         speed: float = 1.0,
         plant: Callable[[Any], Plant] = SimPlant,
         game_choice: After | None = None,
     ) -> None:
-        self.house, self.setup, self.speed, self.game_choice = house, setup, speed, game_choice
+        self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = seated(setup, plant)
-        self.stage = Stage(house, self.match)
+        self.runner = MatchRunner(context, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
-        self.signs = Ahead(signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish"))))
+        self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
-        self.notice: Plate | None = None
+        self.notice: Caption | None = None
         self.results: Results | None = None
-        self.access = Access(house, lambda: self.devices)
-        self.joining = Holds(house.controls, TAKE)
-        self.walkoff = WalkOff()
+        self.access = Access(context, lambda: self.devices)
+        self.joining = HoldTimers(context.controls, TAKE)
+        self.idle_seats = IdleSeats()
         self.helped: set[int] = set()
         self.open = True
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans:
-            self.stage.view.for_real(folders().data)
+            self.runner.view.for_real(folders().data)
 
     # ---- what happens to it
 
     def entered(self) -> None:
         """Begin, or go on after an interruption."""
-        self.house.sounds.music(True)
-        self.house.controls.forget_taps()
+        self.context.sounds.music(True)
+        self.context.controls.forget_taps()
         self.joining.clear()
         if self.begun and not self.match.over:
             self.count = Countdown(RESUME) if not self.count.locked else Countdown()
         self.begun = True
         self.idle = 0.0
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """START or Escape of a seated device pauses; a free one takes a seat that an AI holds."""
         if self.match.over:
             return None
-        if press.act is Act.LOST:
-            self.walkoff.forget(press.device)
-        if self.welcome(press):
+        if event.button is Button.LOST:
+            self.idle_seats.forget(event.device)
+        if self.welcome(event):
             return None
-        admitted = self.access.admit(press)
-        if press.act is Act.FIRE and self.free(press.device):
-            self._knock(press)
+        admitted = self.access.admit(event)
+        if event.button is Button.FIRE and self.free(event.device):
+            self._knock(event)
         if admitted is None:
             return None
         self.idle = 0.0
         if admitted.device in self.devices:
-            self.walkoff.alive(self.devices.index(admitted.device))
-        if press.act is Act.BRAIN:
+            self.idle_seats.alive(self.devices.index(admitted.device))
+        if event.button is Button.BRAIN:
             self.think_aloud()
-        if press.act is Act.START or (press.act is Act.BACK and self._escapes(admitted.device)):
+        if event.button is Button.START or (event.button is Button.BACK and self._escapes(admitted.device)):
             return Push(Pause(self, admitted.device))
         return None
 
@@ -120,34 +120,34 @@ class MatchScene:
         """Let the match run on."""
         self.noticed -= seconds
         if self.repeated:
-            return Swap(self.again(self.house, self.setup, self.devices))
+            return Swap(self.again(self.context, self.setup, self.devices))
         if self.match.over or self.stopped:
             return self._end(seconds)
         if held := self.access.update(seconds):
             return Push(Pause(self, held.device))
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
-        for press in self.joining.update(seconds):
-            self._join(press.device)
+        for event in self.joining.update(seconds):
+            self._join(event.device)
         self.signs.work(0.0)
-        self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
+        self.warm = self.warm or self.runner.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
-            self.house.sounds.play(sound)
+            self.context.sounds.play(sound)
         if self.count.locked:
-            self.house.controls.forget_taps()
-            self.stage.wait(seconds)
+            self.context.controls.forget_taps()
+            self.runner.wait(seconds)
             return None
         self.idle += seconds
         self._miss(seconds)
-        self.stage.advance(seconds, self.speed)
+        self.runner.advance(seconds, self.speed)
         if self.humans and self.idle > STILL:
             return Push(StillThere(self))
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The arena, and over it what has to be said."""
-        self.stage.draw(screen)
-        words = self.house.words
+        self.runner.draw(screen)
+        words = self.context.words
         if self.match.over and not self.stopped:
             pop = min(4, int(self.frozen / 0.04))
             ending = "time" if self.match.seconds_left <= 0.0 else "finish"
@@ -156,21 +156,21 @@ class MatchScene:
             if self.match.setup.game == "race" and self.match.seconds < 1.0:
                 self._draw_laps(screen)
             if self.count.locked:
-                self.stage.captions(screen, self.devices)
-                self.spot = clear_of(self.stage.robots())
+                self.runner.captions(screen, self.devices)
+                self.spot = clear_of(self.runner.robots())
             self.count.draw(screen, words("match.go"), self.spot)
-        for seat, left in self.walkoff.asked().items():
+        for seat, left in self.idle_seats.asked().items():
             said = words("match.still", seconds=max(1, math.ceil(left)))
-            self.stage.beside(screen, seat, plate(said, PLAYERS[seat], player=seat))
+            self.runner.beside(screen, seat, caption(said, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
         if self.notice and self.noticed > 0.0:
             self.notice.draw(screen, 960, 206)
 
     def _draw_laps(self, screen: pygame.Surface) -> None:
         """How many laps the race has, in the place of its clock, which stands still."""
-        box = self.stage.view.clock
+        box = self.runner.view.clock
         screen.fill("black", box)
-        lines = lines_of(tagline(self.house.words, "race", self.match.setup.goal), LABEL, box.w, "head")
+        lines = wrap(tagline(self.context.words, "race", self.match.setup.goal), LABEL, box.w, "head")
         for i, line in enumerate(lines):
             text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
 
@@ -180,7 +180,7 @@ class MatchScene:
     def lost(self) -> list[int]:
         """Seats whose device is gone and for whom nobody drives."""
         gone = [(i, device) for i, device in enumerate(self.devices) if device]
-        return [i for i, device in gone if not self.house.controls.connected(device)]
+        return [i for i, device in gone if not self.context.controls.connected(device)]
 
     @property
     def stood_in(self) -> list[int]:
@@ -194,29 +194,29 @@ class MatchScene:
     def hand(self, seat: int, device: Device | None) -> None:
         """Give a seat to a device, or to an AI that drives until somebody comes."""
         self._sit(seat, device)
-        self.walkoff.settle(seat, device)
-        name, sign = self.stage.driver(seat, device)
-        name = name if device else self.house.words("match.back_in")
-        self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
-        self.house.sounds.play("join", seat)
+        self.idle_seats.settle(seat, device)
+        name, sign = self.runner.driver(seat, device)
+        name = name if device else self.context.words("match.back_in")
+        self.notice, self.noticed = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
+        self.context.sounds.play("join", seat)
 
-    def welcome(self, press: Press) -> bool:
+    def welcome(self, event: InputEvent) -> bool:
         """Give its seat back to a device that has walked off and now presses something; true if it did."""
-        if press.device not in self.walkoff.away or press.act in (Act.STOP, Act.BRAIN):
+        if event.device not in self.idle_seats.away or event.button in (Button.STOP, Button.BRAIN):
             return False
         self.idle = 0.0
-        self.hand(self.walkoff.away[press.device], press.device)
+        self.hand(self.idle_seats.away[event.device], event.device)
         return True
 
     def think_aloud(self) -> None:
         """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
-        if not self.stage.brain.seats:
-            self.notice, self.noticed = plate(self.house.words("brain.nobody"), sign="ai"), NOTICE
-        self.stage.brain.next()
+        if not self.runner.brain.seats:
+            self.notice, self.noticed = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
+        self.runner.brain.next()
 
     def picture(self) -> pygame.Surface:
         """The match as it lies behind a page."""
-        return self.stage.picture()
+        return self.runner.picture()
 
     def stop(self) -> None:
         """End the match now; the results are what they are."""
@@ -226,9 +226,9 @@ class MatchScene:
         """Begin anew, with another seed."""
         self.repeated = True
 
-    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+    def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck."""
-        return MatchScene(house, anew(setup, devices), devices, game_choice=self.game_choice)
+        return MatchScene(context, rematch_setup(setup, devices), devices, game_choice=self.game_choice)
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
@@ -261,14 +261,14 @@ class MatchScene:
         """Whether BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
         return device.kind != "pad" or not self.access.seated
 
-    def _knock(self, press: Press) -> None:
+    def _knock(self, event: InputEvent) -> None:
         """FIRE on a free device: a seat that nobody has a claim to is taken at once, any other one after a while."""
-        claimed = self.walkoff.away.values()
+        claimed = self.idle_seats.away.values()
         if vacant := [seat for seat in self.stood_in if seat not in claimed]:
-            self.hand(vacant[0], press.device)
+            self.hand(vacant[0], event.device)
         elif self.takeable:
-            self.joining.begin(press)
-            self.notice, self.noticed = plate(self.house.words("match.hold"), sign="ai"), NOTICE
+            self.joining.begin(event)
+            self.notice, self.noticed = caption(self.context.words("match.hold"), sign="ai"), NOTICE
 
     def _join(self, device: Device) -> None:
         """Give a device the seat of an AI."""
@@ -284,18 +284,18 @@ class MatchScene:
         """A ring that fills beside each robot that is about to be taken."""
         for (device, share), seat in zip(self.joining.shares.items(), self.takeable, strict=False):
             if self.free(device):
-                self.stage.beside(screen, seat, filling(seat, math.ceil(share * RING_STEPS)))
+                self.runner.beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
 
     def _miss(self, seconds: float) -> None:
         """Let an AI drive on for everybody who has walked off."""
-        controls = self.house.controls
+        controls = self.context.controls
         driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
         for seat, device in driven.items():
             if controls.touched(device):
-                self.walkoff.alive(seat)
-        for seat in self.walkoff.update(seconds, driven):
+                self.idle_seats.alive(seat)
+        for seat in self.idle_seats.update(seconds, driven):
             self.hand(seat, None)
-            self.walkoff.leave(driven[seat], seat)
+            self.idle_seats.leave(driven[seat], seat)
 
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
@@ -303,14 +303,14 @@ class MatchScene:
             self.helped.add(seat)
         brain = HumanPlayer(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
-        self.stage.players[seat] = "human" if device else STAND_IN
+        self.runner.players[seat] = "human" if device else STAND_IN
 
-    def _held(self, seat: int, device: Device) -> Drive:
+    def _held(self, seat: int, device: Device) -> StickState:
         """How a device is held on the tick that acts on it."""
-        drive = self.house.controls.drive(device)
+        drive = self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
-            self.walkoff.alive(seat)
+            self.idle_seats.alive(seat)
         return drive
 
     def _end(self, seconds: float) -> Turn:
@@ -319,7 +319,7 @@ class MatchScene:
             finished = self.match.over and not self.stopped
             helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
             self.results = Results(
-                self.house,
+                self.context,
                 self.match.outcome(),
                 self.setup,
                 self.devices,
@@ -329,16 +329,16 @@ class MatchScene:
                 self.game_choice,
             )
             if finished:
-                self.house.sounds.play("go")
+                self.context.sounds.play("go")
         ready = self.results.warm(WARM)
         self.frozen += seconds
-        self.stage.wait(seconds)
+        self.runner.wait(seconds)
         if ready and (self.stopped or self.frozen >= FREEZE):
             return Swap(self.results)
         return None
 
 
-def anew(setup: Setup, devices: Sequence[Device | None]) -> Setup:
+def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:
     """The same match with other luck, and people on all seats that now have a device."""
     drivers = [*devices, None, None, None, None]
     one, two, three, four = (replace(seat, brain="human") if drivers[i] else seat for i, seat in enumerate(setup.seats))

@@ -8,18 +8,24 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.flow.match_choice import load_kept, playable, title
-from pigaming_app.scenes.flow.match_words import measure
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import arena_title, load_cached, playable_arenas
+from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, format_score, older_boards
+from pigaming_app.scenes.results.high_score_tables import (
+    HighScoreTable,
+    contests,
+    format_score,
+    high_score_tables,
+    older_tables,
+)
 from pigaming_app.storage.scores import Score, ScoreTable
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
-from pigaming_app.ui.draw.layers import RIGHT, Lit, backdrop, span
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, GlowCanvas, cut_box, text_width
+from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading, sign
 
 ROWS = 8
@@ -30,18 +36,18 @@ DEAF = 0.4  # seconds in which presses are ignored
 APART, WIPE = 0.05, 0.25  # seconds from row to row, for one row
 ARROW = 20  # px from the middle of an arrow to its tip
 ROOM, WHERE_ROOM = 1360, 800  # px for the conditions, and for game and arena
-STEPS = {Act.LEFT: -1, Act.RIGHT: 1, Act.UP: -1, Act.DOWN: 1}
+STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
 
 
-class Best:
+class HighScores:
     """The tables of a contest; if they are empty, of the first one that has rows. `fresh`: rows shown in yellow."""
 
-    def __init__(self, house: House, contest: ScoreTable, fresh: Sequence[Score] = ()) -> None:
-        self.house, self.fresh = house, list(fresh)
-        self.shelf = [one for one in contests(house.scores) if one.arena in playable(one.game)]
+    def __init__(self, context: Context, contest: ScoreTable, fresh: Sequence[Score] = ()) -> None:
+        self.context, self.fresh = context, list(fresh)
+        self.shelf = [one for one in contests(context.scores) if one.arena in playable_arenas(one.game)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
-        self.prompts = house.prompts([(Act.FIRE, "results.on")])
+        self.prompts = context.prompts([(Button.FIRE, "results.on")])
 
     @property
     def game(self) -> str:
@@ -51,17 +57,17 @@ class Best:
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Directions and arrows show other tables; any button leads on."""
-        press = self.prompts.meant(press)
+        event = self.prompts.as_button(event)
         self.idle = 0.0
-        if press.act is Act.CLICK and press.at:
-            near = (act for act, at in self.arrows.items() if hit(at, press.at))
-            press = Press(next(near, Act.CLICK), press.device)
-        if press.act in STEPS:
-            self._step(press.act)
-        elif self.age > DEAF and press.act in (Act.FIRE, Act.START, Act.BACK, Act.ALT, Act.CLICK):
-            self.house.sounds.play("back")
+        if event.button is Button.CLICK and event.at:
+            near = (button for button, at in self.arrows.items() if hit(at, event.at))
+            event = InputEvent(next(near, Button.CLICK), event.device)
+        if event.button in STEPS:
+            self._step(event.button)
+        elif self.age > DEAF and event.button in (Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK):
+            self.context.sounds.play("back")
             return Pop()
         return None
 
@@ -75,47 +81,47 @@ class Best:
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the tables and what leads on."""
         self.paint(screen)
-        for act, (x, y) in self.arrows.items():
-            sign(act.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
+        for button, (x, y) in self.arrows.items():
+            sign(button.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
         self.prompts.draw(screen)
 
     def paint(self, screen: pygame.Surface) -> None:
         """Paint the tables alone; their rows come in one after the other."""
-        words, contest = self.house.words, self.contest
+        words, contest = self.context.words, self.contest
         screen.blit(backdrop(), (0, 0))
         heading(words("results.scores")).draw(screen)
         text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
         text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
-        shown = older_boards(contest, self.house.scores) if contest.older else boards(contest)
+        shown = older_tables(contest, self.context.scores) if contest.older else high_score_tables(contest)
         for column, board in zip((0, 6) if len(shown) > 1 else (3,), shown, strict=False):
             self._board(screen, board, *span(column, 6))
 
     # ---- inside
 
-    def _step(self, act: Act) -> None:
+    def _step(self, button: Button) -> None:
         """Show the next table that way, round and round."""
-        ring = self._ring(act)
+        ring = self._ring(button)
         if len(ring) > 1:
-            self._show(ring[(ring.index(self.contest) + STEPS[act]) % len(ring)])
-            self.house.sounds.play("move")
+            self._show(ring[(ring.index(self.contest) + STEPS[button]) % len(ring)])
+            self.context.sounds.play("move")
 
     def _show(self, contest: ScoreTable) -> None:
         """Show the tables of a contest, and arrows wherever there are others."""
         self.contest, self.turned = contest, 0.0
         where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
-        line = min(ROOM, text_width(conditions(self.house.words, contest), LABEL, "head")) / 2
-        self.arrows: dict[Act, tuple[float, float]] = {}
-        if len(self._ring(Act.UP)) > 1:
-            self.arrows[Act.UP] = RIGHT - where - 52, WHERE_Y - 24
-            self.arrows[Act.DOWN] = RIGHT - where - 52, WHERE_Y + 24
-        if len(self._ring(Act.LEFT)) > 1:
-            self.arrows[Act.LEFT] = 960 - line - 60, LINE_Y
-            self.arrows[Act.RIGHT] = 960 + line + 60, LINE_Y
+        line = min(ROOM, text_width(conditions(self.context.words, contest), LABEL, "head")) / 2
+        self.arrows: dict[Button, tuple[float, float]] = {}
+        if len(self._ring(Button.UP)) > 1:
+            self.arrows[Button.UP] = RIGHT - where - 52, WHERE_Y - 24
+            self.arrows[Button.DOWN] = RIGHT - where - 52, WHERE_Y + 24
+        if len(self._ring(Button.LEFT)) > 1:
+            self.arrows[Button.LEFT] = 960 - line - 60, LINE_Y
+            self.arrows[Button.RIGHT] = 960 + line + 60, LINE_Y
 
-    def _ring(self, act: Act) -> list[ScoreTable]:
+    def _ring(self, button: Button) -> list[ScoreTable]:
         """The contests left and right of the one shown, or above and below: one in each arena."""
         here = place_of(self.contest)
-        if act in (Act.LEFT, Act.RIGHT):
+        if button in (Button.LEFT, Button.RIGHT):
             return [one for one in self.shelf if place_of(one) == here]
         firsts: dict[tuple[str, str], ScoreTable] = {}
         for one in self.shelf:
@@ -124,19 +130,19 @@ class Best:
 
     def _where(self) -> str:
         """Game and arena."""
-        words, contest = self.house.words, self.contest
-        there = contest.arena in playable(contest.game)
-        arena = title(load_kept(contest.game, contest.arena), words.language) if there else contest.arena
+        words, contest = self.context.words, self.contest
+        there = contest.arena in playable_arenas(contest.game)
+        arena = arena_title(load_cached(contest.game, contest.arena), words.language) if there else contest.arena
         return f"{words('games.' + contest.game)}  ·  {arena}"
 
-    def _board(self, screen: pygame.Surface, board: Board, x: int, w: int) -> None:
+    def _board(self, screen: pygame.Surface, board: HighScoreTable, x: int, w: int) -> None:
         """A table under its heading."""
-        said = self.house.words(board.heading, goal=f"{board.table.length:g}")
+        said = self.context.words(board.heading, goal=f"{board.table.length:g}")
         text(said, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
         frame(w).draw(screen, x, TOP)
-        rows = self.house.scores.best(board.table, board.days)[:ROWS]
+        rows = self.context.scores.best(board.table, board.days)[:ROWS]
         if not rows:
-            text(self.house.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
+            text(self.context.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
                 screen, x + w / 2, TOP + HIGH / 2
             )
         for i, row in enumerate(rows):
@@ -144,7 +150,9 @@ class Best:
             if share > 0.0:
                 self._row(screen, row, board, i, x, w, 1 - (1 - min(1.0, share)) ** 2)
 
-    def _row(self, screen: pygame.Surface, row: Score, board: Board, i: int, x: int, w: int, share: float) -> None:
+    def _row(
+        self, screen: pygame.Surface, row: Score, board: HighScoreTable, i: int, x: int, w: int, share: float
+    ) -> None:
         """Place, initials and value, of whose width only `share` is shown."""
         y = TOP + 12 + PITCH * i + PITCH / 2
         color = FOCUS if row in self.fresh else ICE if i == 0 else MIST
@@ -152,7 +160,7 @@ class Best:
         screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
-        value = self.house.words.decimal(format_score(row.score, board.table))
+        value = self.context.words.decimal(format_score(row.score, board.table))
         text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
         if row in self.fresh:
             sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
@@ -184,7 +192,7 @@ def conditions(words: Words, contest: ScoreTable) -> str:
     if len(game.variants) > 1 and contest.rules:
         parts.append(words(f"setup.{contest.rules}"))
     if contest.length:
-        parts.append(measure(words, game, contest.length, round(contest.length)))
+        parts.append(match_length(words, game, contest.length, round(contest.length)))
     if contest.people:
         parts.append(words("best.person") if contest.people == 1 else words("best.people", count=contest.people))
     if contest.side == contest.people and contest.side:
@@ -195,6 +203,8 @@ def conditions(words: Words, contest: ScoreTable) -> str:
 
 
 @cached
-def frame(w: int) -> Lit:
+def frame(w: int) -> LitImage:
     """The outline of a table, its upper left at (0, 0)."""
-    return Lit(Ink(w + 8, HIGH + 8).to(4, 4).line(cut(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4))
+    return LitImage(
+        GlowCanvas(w + 8, HIGH + 8).to(4, 4).line(cut_box(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4)
+    )

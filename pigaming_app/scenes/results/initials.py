@@ -12,20 +12,21 @@ import pygame
 
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.results import initials_view as page
 from pigaming_app.scenes.results.high_score_tables import contest, counts, format_score, table_of
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, LABEL
-from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.layers import Lit, backdrop
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
+from pigaming_app.ui.draw.layers import LitImage, backdrop
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, heading, pulse
+from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
 
 TOP = 8  # places of today's best, and of the best ever, for which letters are asked
 SECONDS = 10.0  # for all players together
@@ -51,13 +52,13 @@ class Claim:
     places: tuple[tuple[tuple[str, int], ...], ...]
 
 
-def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
+def claims(context: Context, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
     """What people did that is among the best, those of this very match included. `devices`: who played each seat."""
     done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
     out = []
     for seat, feats in done.items():
         rivals = [feat for other, theirs in done.items() if other != seat for feat in theirs]
-        found = [(feat, places(house, *feat, rivals)) for feat in feats]
+        found = [(feat, places(context, *feat, rivals)) for feat in feats]
         kept = [(feat, here) for feat, here in found if here]
         device = devices[seat]
         if kept and device:
@@ -78,7 +79,7 @@ def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, 
 
 
 def places(
-    house: House, table: ScoreTable, value: int, rivals: Sequence[tuple[ScoreTable, int]]
+    context: Context, table: ScoreTable, value: int, rivals: Sequence[tuple[ScoreTable, int]]
 ) -> tuple[tuple[str, int], ...]:
     """The places of a value among today's best and the best ever, by heading, as far as they are in the top eight.
 
@@ -88,7 +89,7 @@ def places(
     ahead = sum(other < value if table.timed else other > value for other in others)
     found = []
     for title, days in SPANS.items():
-        place = house.scores.place(table, value, days)
+        place = context.scores.place(table, value, days)
         if place and place + ahead <= TOP:
             found.append((title, place + ahead))
     return tuple(found)
@@ -97,11 +98,11 @@ def places(
 class Initials:
     """Asks everyone in `claims` at once, and shows the tables."""
 
-    def __init__(self, house: House, setup: Setup, claims: Sequence[Claim]) -> None:
-        self.house, self.setup, self.claims = house, setup, sorted(claims, key=lambda claim: claim.seat)
+    def __init__(self, context: Context, setup: Setup, claims: Sequence[Claim]) -> None:
+        self.context, self.setup, self.claims = context, setup, sorted(claims, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
-        self.ahead = Ahead(self._ahead())
+        self.ahead = PrewarmQueue(self._ahead())
 
     def warm(self) -> None:
         """Make one piece of the page, so that it does not come in one long frame."""
@@ -110,13 +111,13 @@ class Initials:
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Each player's presses change the own letters alone."""
-        device = self._meant(press)
+        device = self._meant(event)
         if self.age < DEAF or device is None:
             return None
-        if sound := self.spellings[device].on(press.act):
-            self.house.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
+        if sound := self.spellings[device].on(event.button):
+            self.context.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
         return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
 
     def update(self, seconds: float) -> Turn:
@@ -128,54 +129,54 @@ class Initials:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint a panel for every player, and the time that is left."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("results.high_score"), color=FOCUS).draw(screen)
         page.clock(screen, max(0.0, SECONDS - self.age), SECONDS)
         corners = page.corners(len(self.claims))
-        blacked(screen, *(page.panel_at(x) for x in corners))
+        black_out(screen, *(page.panel_at(x) for x in corners))
         for x, claim in zip(corners, self.claims, strict=True):
             self._panel(screen, x, claim)
-        calling(words("results.three"), "", LABEL).draw(screen, 960, page.FOOT_Y)
+        call_to_action(words("results.three"), "", LABEL).draw(screen, 960, page.FOOT_Y)
 
     # ---- inside
 
-    def _meant(self, press: Press) -> Device | None:
+    def _meant(self, event: InputEvent) -> Device | None:
         """Whose letters a press is about; nobody's, if it is of a key that two players on one keyboard share."""
-        if not press.among:
-            return press.device if press.device in self.spellings else None
-        clusters = [device for device in press.among if device in self.spellings]
+        if not event.among:
+            return event.device if event.device in self.spellings else None
+        clusters = [device for device in event.among if device in self.spellings]
         return clusters[0] if len(clusters) == 1 else None
 
     def _panel(self, screen: pygame.Surface, x: int, claim: Claim) -> None:
-        words, spelling = self.house.words, self.spellings[claim.device]
+        words, spelling = self.context.words, self.spellings[claim.device]
         self._frame(claim, spelling.done).draw(screen, x, page.TOP_Y)
         page.letters(screen, x, claim.seat, spelling)
         if spelling.done:
-            page.ready(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
+            ready_bar(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
             return
         if spelling.refused:
             page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
             return
         key = "done" if spelling.last else "next_letter"
-        label = words.printed(self.house.controls.label(claim.device, Act.FIRE))
-        page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
+        label = words.printed(self.context.controls.label(claim.device, Button.FIRE))
+        ask_bar(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
-    def _frame(self, claim: Claim, done: bool) -> Lit:
-        return page.frame(claim.seat, self.house.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
+    def _frame(self, claim: Claim, done: bool) -> LitImage:
+        return page.frame(claim.seat, self.context.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
-        words = self.house.words
+        words = self.context.words
         yield partial(heading, words("results.high_score"), color=FOCUS)
         for done in (False, True):
             for claim in self.claims:
                 yield partial(self._frame, claim, done)
         for claim in self.claims:
-            yield partial(page.ready, claim.seat, words("results.done"))
+            yield partial(ready_bar, claim.seat, words("results.done"))
 
     def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
         """What the panel says about a claim: each feat with its value, and the places that it has."""
-        words = self.house.words
+        words = self.context.words
         lines = []
         for (table, value), found in zip(claim.feats, claim.places, strict=True):
             shown = found if len(claim.feats) == 1 else found[-1:]
@@ -189,14 +190,14 @@ class Initials:
         if not fresh:
             return Pop()
         try:
-            self.house.scores.save(folders().data)
+            self.context.scores.save(folders().data)
         except NotSaved as reason:
             _log.warning("%s", reason)
-        return Swap(Best(self.house, contest(self.setup, self.claims[0].seat), fresh))
+        return Swap(HighScores(self.context, contest(self.setup, self.claims[0].seat), fresh))
 
     def _entered(self) -> list[Score]:
         return [
-            self.house.scores.add(table, initials, value)
+            self.context.scores.add(table, initials, value)
             for claim in self.claims
             if (initials := self.spellings[claim.device].taken)
             for table, value in claim.feats

@@ -5,25 +5,25 @@ from collections.abc import Collection, Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
-from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut, dim, icon, text_width
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut_box, dim, icon, text_width
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Device
-from pigaming_app.ui.widgets.caption import RING_STEPS, filling
+from pigaming_app.ui.widgets.caption import RING_STEPS, hold_ring
 
 Y = 884
 PITCH = 160
 PATIENCE = 10.0  # seconds from the first vote until it begins without the others
 
 
-class Ballot:
+class RematchVote:
     """The votes of the humans among `seats`; `devices` (of all four seats) may change hands here."""
 
     def __init__(
-        self, house: House, seats: Sequence[int], humans: Sequence[int], devices: Sequence[Device | None]
+        self, context: Context, seats: Sequence[int], humans: Sequence[int], devices: Sequence[Device | None]
     ) -> None:
-        self.house, self.seats, self.humans = house, list(seats), list(humans)
+        self.context, self.seats, self.humans = context, list(seats), list(humans)
         self.devices = list(devices)
         self.votes: set[int] = set()
         self.waited = 0.0
@@ -63,7 +63,7 @@ class Ballot:
     def here(self, seat: int) -> bool:
         """The device of a human's seat is there."""
         device = self.devices[seat]
-        return device is not None and self.house.controls.connected(device)
+        return device is not None and self.context.controls.connected(device)
 
     def update(self, seconds: float) -> bool:
         """Let time pass; true when the rematch begins."""
@@ -79,7 +79,7 @@ class Ballot:
 
     def draw(self, screen: pygame.Surface, held: Collection[float] = ()) -> None:
         """Add the question and the votes to the screen; `held`: how far free devices are with taking seats, 0..1."""
-        text = self.house.words("results.rematch")
+        text = self.context.words("results.rematch")
         width = text_width(text, LABEL)
         x = 960 - (width + 48 + len(self.seats) * PITCH - 44) / 2
         question(text).draw(screen, x)
@@ -89,7 +89,7 @@ class Ballot:
             said = "ai" if seat not in self.humans else "check" if seat in self.votes else ""
             answer(seat, said).draw(screen, x)
             if seat in taken:
-                filling(seat, math.ceil(taken[seat] * RING_STEPS)).draw(screen, x, Y)
+                hold_ring(seat, math.ceil(taken[seat] * RING_STEPS)).draw(screen, x, Y)
             x += PITCH
         if self.votes and self.waited > 0.5 and self.humans:
             left = 1.0 - self.waited / PATIENCE
@@ -97,21 +97,21 @@ class Ballot:
 
 
 @cached
-def question(text: str) -> Lit:
+def question(text: str) -> LitImage:
     """The question, its left edge at x = 0."""
-    pane = Pane(0, Y - 40, text_width(text, LABEL), 80)
-    pane.page.text(text, LABEL, 0, Y, FOCUS)
-    return pane.done()
+    layer = Layer(0, Y - 40, text_width(text, LABEL), 80)
+    layer.canvas.text(text, LABEL, 0, Y, FOCUS)
+    return layer.done()
 
 
 @cached
-def answer(seat: int, said: str) -> Lit:
+def answer(seat: int, said: str) -> LitImage:
     """A badge round x = 0 and what that player said: an icon's name, or nothing yet."""
-    pane = Pane(-40, Y - 40, 140, 80)
-    badge(pane.hot, seat, 0, Y, 28, None if said else dim(PLAYERS[seat], 0.45))
+    layer = Layer(-40, Y - 40, 140, 80)
+    badge(layer.glow, seat, 0, Y, 28, None if said else dim(PLAYERS[seat], 0.45))
     if said:
         color, weight = (ICE, LINE) if said == "check" else (MIST, THIN)
-        icon(pane.hot, said, 66, Y, 20, color, weight)
+        icon(layer.glow, said, 66, Y, 20, color, weight)
     else:
-        pane.hot.dashes(cut(44, Y - 22, 44, 44, 8), MIST, THIN, 10, 8)
-    return pane.done()
+        layer.glow.dashes(cut_box(44, Y - 22, 44, 44, 8), MIST, THIN, 10, 8)
+    return layer.done()

@@ -1,9 +1,9 @@
 """The initials that one player spells: the model, without drawing or sounds."""
 
 from pigaming_app.storage.scores import LETTERS
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.letter_picker import LetterPicker
-from pigaming_app.ui.widgets.word_filter import HARMLESS, rude
+from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
 SHAKE = 0.5  # seconds for which refused letters shake
 
@@ -29,7 +29,7 @@ class Spelling:
         """The letters that enter the tables when time is up; None: nobody has chosen any."""
         if not (self.done or self.turned):
             return None
-        return HARMLESS if rude(self.spelled) else self.spelled
+        return HARMLESS if is_rude(self.spelled) else self.spelled
 
     @property
     def refused(self) -> bool:
@@ -41,26 +41,26 @@ class Spelling:
         """The last letter is being chosen."""
         return self.picker.slot == len(self.picker.letters) - 1
 
-    def on(self, act: Act) -> str | None:
+    def on(self, button: Button) -> str | None:
         """Answer a press of the player; the name of the sound that follows."""
-        match act:
-            case Act.BACK | Act.LEAVE if self.done:
+        match button:
+            case Button.BACK | Button.LEAVE_SEAT if self.done:
                 self.done = False
                 return "back"
             case _ if self.done:
                 return None
-            case Act.UP | Act.DOWN:
+            case Button.UP | Button.DOWN:
                 self.turned = True
-                return self.picker.turn(-1 if act is Act.UP else 1)
-            case Act.LEFT | Act.BACK | Act.LEAVE:
+                return self.picker.turn(-1 if button is Button.UP else 1)
+            case Button.LEFT | Button.BACK | Button.LEAVE_SEAT:
                 return self.picker.move(-1)
-            case Act.RIGHT:
+            case Button.RIGHT:
                 return self.picker.move(1)
-            case Act.FIRE if not self.last:
+            case Button.FIRE if not self.last:
                 return self.picker.move(1)
-            case Act.FIRE:
+            case Button.FIRE:
                 return self._accept(self.turned)
-            case Act.START:
+            case Button.START:
                 return self._accept(True)
         return None
 
@@ -70,7 +70,7 @@ class Spelling:
         self.shaking += seconds
 
     def _accept(self, chosen: bool) -> str:
-        if not chosen or rude(self.spelled):
+        if not chosen or is_rude(self.spelled):
             self.shaking = 0.0
             return "refused"
         self.done = True

@@ -8,17 +8,17 @@ import pygame
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Swap, Turn
-from pigaming_app.scenes.play.pause import Pause, title
+from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
-from pigaming_app.ui.draw.layers import Pane
-from pigaming_app.ui.draw.text import fitted, write
+from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.draw.text import fit_size, write_lines
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import Plate, plate
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.caption import Caption, caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, overlay
 
 IDLE = 600.0  # seconds without a press until the title
@@ -28,48 +28,48 @@ TEXT_X, ROOM = X + 280, W - 280 - 64
 RING = X + 150, FOOT - 96
 
 
-class Trouble:
+class FaultPage:
     """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
 
     def __init__(self, match: InterruptedMatch, stopper: Device | None = None) -> None:
-        self.match, self.house, self.stopper = match, match.house, stopper
+        self.match, self.context, self.stopper = match, match.context, stopper
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
-        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
-        mending = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry")]
-        self.mending = self.house.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
+        hints = [(Button.X, "mat.hint_simulate"), (Button.START, "pause.hint_menu")]
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        mending = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
+        self.mending = self.context.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
-        self.house.sounds.music(False)
-        self.house.sounds.play("error")
+        self.context.sounds.music(False)
+        self.context.sounds.play("error")
         self.held, self.picture = 0.0, None
 
-    def on(self, press: Press) -> Turn:
-        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
-        robot did not do as it was told, FIRE pairs robots and radios again, and ALT lets it try again.
+    def on(self, event: InputEvent) -> Turn:
+        """X goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
+        robot did not do as it was told, FIRE pairs robots and radios again, and Y lets it try again.
         """
-        admitted = self.match.access.admit(press)
+        admitted = self.match.access.admit(event)
         if admitted is None:
             return None
-        press = admitted
+        event = admitted
         lasting = self.match.plant.safety.lasting
-        press = self.prompts.meant(self.mending.meant(press) if lasting else press)
-        if press.act is Act.EXTRA:
+        event = self.prompts.as_button(self.mending.as_button(event) if lasting else event)
+        if event.button is Button.X:
             self._simulate()
-        elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
+        elif lasting and event.button is Button.FIRE and not self.match.plant.safety.stopped:
             return Push(PairAgain(self.match))
-        elif lasting and press.act is Act.ALT:
+        elif lasting and event.button is Button.Y:
             for robot in lasting:
                 self.match.plant.forgive(robot)
-            self.house.sounds.play("accept")
-        elif press.act is Act.STOP:
+            self.context.sounds.play("accept")
+        elif event.button is Button.STOP:
             self.match.plant.safety.all_stop()
-            self.stopper = press.device
-        elif press.act in (Act.START, Act.BACK):
-            return Swap(Pause(self.match, press.device))
+            self.stopper = event.device
+        elif event.button in (Button.START, Button.BACK):
+            return Swap(Pause(self.match, event.device))
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -78,7 +78,7 @@ class Trouble:
         safety = self.match.plant.safety
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
-        controls = self.house.controls
+        controls = self.context.controls
         firing = safety.stopped and any(controls.drive(device).fire for device in self._releasing())
         self.held = self.held + seconds if firing else 0.0
         if self.held >= HOLD:
@@ -86,7 +86,7 @@ class Trouble:
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
             self.faults, self.picture = now, None
-        if self.house.idle > IDLE:
+        if self.context.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
 
@@ -95,8 +95,8 @@ class Trouble:
         if self.picture is None:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
-            shown = tuple((one.name, one.robot) for one in self.faults)
-            self.picture = overlay(self.match.picture(), color, self._paint, shown)
+            fault_caption = tuple((one.name, one.robot) for one in self.faults)
+            self.picture = overlay(self.match.picture(), color, self._paint, fault_caption)
         screen.blit(self.picture, (0, 0))
         if self.match.plant.safety.stopped:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
@@ -110,7 +110,7 @@ class Trouble:
 
     def _releasing(self) -> list[Device]:
         """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
-        players, stopper = self.house.controls.players(), self.stopper
+        players, stopper = self.context.controls.players(), self.stopper
         asked = [one for one in players if one == stopper or (stopper and one.kind == stopper.kind == "keys")]
         return [*self.match.access.seated, *asked] or players
 
@@ -120,36 +120,36 @@ class Trouble:
         for fault in self.faults:
             for seat in [*self.match.real] if fault.robot is None else [fault.robot]:
                 self.match.swap(seat, False)
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
 
-    def _paint(self, pane: Pane) -> None:
+    def _paint(self, layer: Layer) -> None:
         """The first fault, what camera or radio say themselves, and how many others there are."""
-        words = self.house.words
+        words = self.context.words
         if not self.faults:
-            title(pane, None, words("mat.stand"), ICE)
+            sheet_title(layer, None, words("mat.stand"), ICE)
             return
         first = self.faults[0]
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
-        title(pane, first.robot, about, ICE)
-        sign(pane.hot, first.name, *ICON, 76, ALARM)
+        sheet_title(layer, first.robot, about, ICE)
+        sign(layer.glow, first.name, *ICON, 76, ALARM)
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
-            pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
-        fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
-        y = write(pane, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
+            layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
+        fire = words.printed(self.context.controls.label(self.match.access.voice, Button.FIRE))
+        y = write_lines(layer, fault_sentence(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         cause = cause_of(self.match.plant.rig, first.name)
         if cause:
-            y = write(pane, words.sentence(cause), TEXT_X, y + 8, ROOM, MIST)
+            y = write_lines(layer, words.sentence(cause), TEXT_X, y + 8, ROOM, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
         if others and y < FOOT - 130:
-            write(pane, words("mat.also", other=named(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
+            write_lines(layer, words("mat.also", other=fault_sentence(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
 
 
-def named(fault: Fault, words: Words, button: str) -> str:
+def fault_sentence(fault: Fault, words: Words, button: str) -> str:
     """A fault in one plain sentence."""
     return words(f"faults.{fault.name}", robot=1 if fault.robot is None else fault.robot + 1, button=button)
 
 
-def shown(sentence: str, color: Color) -> Plate:
+def fault_caption(sentence: str, color: Color) -> Caption:
     """A sentence on a plate, not wider than the arena."""
-    return plate(sentence, color, ICE, fitted(sentence, BODY, 1480, "body"))
+    return caption(sentence, color, ICE, fit_size(sentence, BODY, 1480, "body"))

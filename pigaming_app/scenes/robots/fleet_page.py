@@ -8,25 +8,25 @@ import pygame
 from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import unfit
 from pigaming_app.hardware.vision.discovery import cameras
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Turn
-from pigaming_app.scenes.robots.avoid_discs import Aside
-from pigaming_app.scenes.robots.fleet_state import Checkup, worst
-from pigaming_app.scenes.robots.flood_light import Flood
-from pigaming_app.scenes.robots.marker_discs import Discs, tag
+from pigaming_app.scenes.robots.avoid_discs import BlockLayout
+from pigaming_app.scenes.robots.fleet_state import FleetState, worst
+from pigaming_app.scenes.robots.flood_light import FloodLight
+from pigaming_app.scenes.robots.marker_discs import MarkerDiscs, tag
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import places
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import frame, heading, stamp
-from pigaming_app.ui.widgets.setting_row import Value
+from pigaming_app.ui.widgets.labels import blit_sprite, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "stock")
@@ -44,22 +44,28 @@ LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: the sentence about a row
 log = logging.getLogger("pigaming")
 
 
-class RobotsPage:
+class FleetPage:
     """The page of a house whose mat may be used."""
 
-    def __init__(self, house: House) -> None:
-        assert house.session is not None
-        self.house = house
-        self.check = Checkup(house.session, house.settings)
-        self.flood = Flood()
+    def __init__(self, context: Context) -> None:
+        assert context.session is not None
+        self.context = context
+        self.check = FleetState(context.session, context.settings)
+        self.flood = FloodLight()
         self.flood.level = 0.0
-        self.names = ROWS if not house.session.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
+        self.names = (
+            ROWS if not context.session.emulated else ("radio", *EMULATED) if unfit(context.settings) else EMULATED
+        )
         self.focus = Focus(dials.spots(self.names), "pair")
         self.anew, self.age = 0.0, EVERY
-        self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
+        self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
-        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        hints = [
+            (Button.RIGHT, "calibrate.hint_change"),
+            (Button.FIRE, "robots.hint_ok"),
+            (Button.BACK, "robots.hint_back"),
+        ]
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look and listen."""
@@ -69,25 +75,25 @@ class RobotsPage:
         """Stop the robots; let go of camera and radio."""
         self.check.end()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
-        press = self.navigation.prompts.meant(self._on_sheet(press))
-        if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
+        event = self.navigation.prompts.as_button(self._on_sheet(event))
+        if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
             self.check.stop()
-            self.navigation.say(self.house.words("fleet.stopped"))
+            self.navigation.say(self.context.words("fleet.stopped"))
             return None
-        if turn := self.navigation.on(press):
+        if turn := self.navigation.on(event):
             return turn
         name = self.focus.name
-        if by := dials.pushed(press, self.focus, self._value(name)):
+        if by := dials.step_of(event, self.focus, self._value(name)):
             self._change(name, by, False)
-        elif self.focus.chosen(press) and (press.act is not Act.CLICK or self._value(name).kind == "deed"):
+        elif self.focus.chosen(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
             self._do(name)
         return None
 
     def update(self, seconds: float) -> Turn:
         """Read what there is to read."""
-        words = self.house.words
+        words = self.context.words
         turn = self.navigation.update(seconds)
         self.age += seconds
         if self.anew > 0.0:
@@ -102,7 +108,7 @@ class RobotsPage:
                 self._found()
             else:
                 self.navigation.say(words("fleet.measured" if self.check.late else "fleet.nobody"))
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
             self.lines = [self._read(robot) for robot in range(ROBOTS)]
@@ -111,7 +117,7 @@ class RobotsPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page in blocks that keep off the discs, and these."""
-        words = self.house.words
+        words = self.context.words
         if self.flood.whole:
             self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
             return
@@ -126,9 +132,9 @@ class RobotsPage:
     # ---- what is painted
 
     @property
-    def discs(self) -> Discs | None:
+    def discs(self) -> MarkerDiscs | None:
         """The light that robots need, once there is a rig."""
-        return Discs(self.check.rig) if self.check.rig is not None else None
+        return MarkerDiscs(self.check.rig) if self.check.rig is not None else None
 
     def _blocks(self) -> list[pygame.Rect]:
         """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""
@@ -147,19 +153,19 @@ class RobotsPage:
         """What is wrong, or was just found."""
         return self._trouble() or self.navigation.sentence
 
-    def _on_sheet(self, press: Press) -> Press:
+    def _on_sheet(self, event: InputEvent) -> InputEvent:
         """A press of the mouse where the block is drawn that it hits."""
-        return replace(press, at=self.aside.back(press.at)) if press.at else press
+        return replace(event, at=self.aside.back(event.at)) if event.at else event
 
     def _draw_blocks(self, screen: pygame.Surface) -> None:
         """Everything below the heading."""
-        words = self.house.words
+        words = self.context.words
         screen.fill("black")
-        dials.draw(screen, self.house.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
+        dials.draw(screen, self.context.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
         frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
         for robot, (heard, bright, seen, dim) in enumerate(self.lines):
             x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
-            stamp(screen, tag(robot), x, y)
+            blit_sprite(screen, tag(robot), x, y)
             text(heard, 40, bright, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y - 26)
             text(seen, 34, dim, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y + 26)
         moving = self.check.moving
@@ -175,12 +181,12 @@ class RobotsPage:
 
     def _line(self) -> str:
         """A sentence about the row in focus, or why its value is refused for matches."""
-        reason = unfit(self.house.settings) if self.focus.name == "radio" else None
-        return self.house.words.sentence(reason) if reason else self.house.words(f"fleet.{self.focus.name}_line")
+        reason = unfit(self.context.settings) if self.focus.name == "radio" else None
+        return self.context.words.sentence(reason) if reason else self.context.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
         """What the camera does."""
-        words, check = self.house.words, self.check
+        words, check = self.context.words, self.check
         if check.rig is None:
             return words.sentence(check.refusal) if check.refusal else words("fleet.no_camera")
         return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
@@ -188,10 +194,10 @@ class RobotsPage:
     def _trouble(self) -> str | None:
         """What camera or radio say is wrong."""
         told = self.check.session.trouble
-        return self.house.words.sentence(told) if told else None
+        return self.context.words.sentence(told) if told else None
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
-        words, health = self.house.words, self.check.health(robot)
+        words, health = self.context.words, self.check.health(robot)
         late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
         if health.battery is None:
@@ -202,19 +208,19 @@ class RobotsPage:
 
     # ---- what the rows are
 
-    def _value(self, name: str) -> Value:
-        words, settings = self.house.words, self.house.settings
+    def _value(self, name: str) -> SettingValue:
+        words, settings = self.context.words, self.context.settings
         match name:
             case "mat":
-                return Value("toggle", (words("options.off"), words("options.on")), int(settings.mat))
+                return SettingValue("toggle", (words("options.off"), words("options.on")), int(settings.mat))
             case "pair" | "latency":
-                return Value("deed", (words("fleet.begin"),))
+                return SettingValue("deed", (words("fleet.begin"),))
         values, now = self._choices(name)
-        return Value("arrows", tuple(values.values()), list(values).index(now))
+        return SettingValue("arrows", tuple(values.values()), list(values).index(now))
 
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
         """What can be chosen, by what is kept, and what is now."""
-        words, settings = self.house.words, self.house.settings
+        words, settings = self.context.words, self.context.settings
         if name == "camera":
             known: dict[object, str] = {one.number: f"{one.number}: {one.name}" for one in cameras()}
             return {settings.camera: str(settings.camera), **known}, settings.camera
@@ -228,7 +234,7 @@ class RobotsPage:
 
     def _change(self, name: str, by: int, around: bool) -> None:
         """The next value of a row, or the one before it."""
-        settings = self.house.settings
+        settings = self.context.settings
         if name in EMULATED:
             return
         if name == "mat":
@@ -239,12 +245,12 @@ class RobotsPage:
             at = keys.index(now) + by
             settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
             self.anew = ANEW
-        self.house.sounds.play("move")
+        self.context.sounds.play("move")
         try:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.house.words("app.unsaved"))
+            self.navigation.say(self.context.words("app.unsaved"))
 
     def _do(self, name: str) -> None:
         """Begin what the row is for, or take its next value."""
@@ -252,19 +258,19 @@ class RobotsPage:
             self._change(name, 1, True)
             return
         begun = self.check.pair() if name == "pair" else self.check.measure()
-        self.house.sounds.play("accept" if begun else "error")
+        self.context.sounds.play("accept" if begun else "error")
         if not begun:
-            self.navigation.say(self.house.words("fleet.nobody"))
+            self.navigation.say(self.context.words("fleet.nobody"))
 
     def _found(self) -> None:
         """Say what came of the pairing."""
-        words, told = self.house.words, worst(self.check.findings)
+        words, told = self.context.words, worst(self.check.findings)
         if told is None:
             self.navigation.say(words("fleet.paired"))
         else:
             marker = 0 if told.marker is None else told.marker + 1
             self.navigation.say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
         try:
-            self.house.settings.save(folders().config)
+            self.context.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)

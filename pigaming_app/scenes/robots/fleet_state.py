@@ -10,7 +10,7 @@ from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, Pa
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
@@ -33,7 +33,7 @@ class RobotStatus:
 
 
 @dataclass
-class Checkup:
+class FleetState:
     """A look at the robots. `sentence`: why they cannot be used, or what has come of something."""
 
     session: RobotSession
@@ -48,7 +48,7 @@ class Checkup:
     shake: LatencyTest | None = None
 
     def __post_init__(self) -> None:
-        self._pace = Pace()
+        self._pace = FixedTimestep()
         self._todo: list[int] = []  # robots to be shaken
         self._next_job: Callable[[], bool] | None = None  # what begins once all robots are seen
         self._looked = 0.0  # s for which they have been looked for

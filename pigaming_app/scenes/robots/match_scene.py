@@ -13,22 +13,22 @@ from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, unfit
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, Turn
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
-from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, anew
+from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, rematch_setup
 from pigaming_app.scenes.results.scene import After
-from pigaming_app.scenes.robots.fault_page import Trouble, named
+from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
-from pigaming_app.scenes.robots.marker_discs import Discs
+from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
 from pigaming_app.scenes.robots.swap_page import SwapPage
-from pigaming_app.scenes.robots.take_places import Gathering
+from pigaming_app.scenes.robots.take_places import TakePlaces
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import english
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.caption import caption
 
 IDLE = 180.0  # seconds without a press while robots take their places, until the title
 TOLD = ("low", "drifts", "deadman")  # what is only said
@@ -44,7 +44,7 @@ class RealMatch(MatchScene):
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         setup: Setup,
         devices: Sequence[Device | None],
         real: Collection[int],
@@ -52,21 +52,21 @@ class RealMatch(MatchScene):
         match_of: MatchOf,
         game_choice: After | None = None,
     ) -> None:
-        if reason := unfit(house.settings):
+        if reason := unfit(context.settings):
             raise RobotsUnavailable(reason)
         rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         self.session, self.match_of = session, match_of
         super().__init__(
-            house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen), game_choice=game_choice
+            context, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen), game_choice=game_choice
         )
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
         self.plant = plant
-        self.discs = Discs(rig)
-        self.gathering: Gathering | None = Gathering(house, plant, lambda: self.access.voice)
+        self.discs = MarkerDiscs(rig)
+        self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.voice)
         self.gone = False  # it has let go of the mat
-        self.waiting = Pace()  # ticks in which all wait
+        self.waiting = FixedTimestep()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
         self._dressed()
 
@@ -80,7 +80,7 @@ class RealMatch(MatchScene):
         if self.gathering is None:
             super().entered()
         else:
-            self.house.sounds.music(True)
+            self.context.sounds.music(True)
             self.begun = True
 
     def left(self) -> None:
@@ -89,29 +89,29 @@ class RealMatch(MatchScene):
             self.gone = True
             self.session.close()
 
-    def on(self, press: Press) -> Turn:
-        """As in every match. STOP stops all robots. While places are taken, START begins as they stand, EXTRA
+    def on(self, event: InputEvent) -> Turn:
+        """As in every match. STOP stops all robots. While places are taken, START begins as they stand, X
         lets simulated robots begin where real ones are missing, and BACK leaves.
         """
-        if press.act is Act.STOP and not self.match.over:
+        if event.button is Button.STOP and not self.match.over:
             self.plant.safety.all_stop()
             self.plant.watch()
-            return Push(Trouble(self, press.device))
+            return Push(FaultPage(self, event.device))
         if self.gathering is None:
-            return super().on(press)
-        admitted = self.access.admit(self.gathering.prompts.meant(press))
+            return super().on(event)
+        admitted = self.access.admit(self.gathering.prompts.as_button(event))
         if admitted is None:
             return None
-        press = admitted
-        if press.act is Act.START and self.gathering.clock > self.gathering.DEAF:
+        event = admitted
+        if event.button is Button.START and self.gathering.clock > self.gathering.DEAF:
             self.plant.accept_places()
             self._begin()
-        elif press.act is Act.EXTRA:
+        elif event.button is Button.X:
             for seat in self._missing():
                 self.swap(seat, False)
-            self.house.sounds.play("accept")
-        elif press.act is Act.BACK:
-            self.house.sounds.play("back")
+            self.context.sounds.play("accept")
+        elif event.button is Button.BACK:
+            self.context.sounds.play("back")
             return Pop()
         return None
 
@@ -123,7 +123,7 @@ class RealMatch(MatchScene):
         if self.gathering is not None:
             return self._gather(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
-            return Push(Trouble(self))
+            return Push(FaultPage(self))
         if self.count.locked or self.match.over:
             self._rest(seconds)
         turn = super().update(seconds)
@@ -166,7 +166,7 @@ class RealMatch(MatchScene):
     def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
         """Which radio drives which robot has been found anew; the robots `well` turned as they should."""
         self.plant.rig.channels = channels
-        self.house.settings.radios = [channel + 1 for channel in channels]
+        self.context.settings.radios = [channel + 1 for channel in channels]
         for robot in well:
             self.plant.forgive(robot)
 
@@ -176,34 +176,34 @@ class RealMatch(MatchScene):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
-            self.gathering = Gathering(self.house, self.plant, lambda: self.access.voice)
+            self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.voice)
         self._dressed()
 
-    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+    def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck and the same robots."""
         self.left()
-        return self.match_of(anew(setup, devices), devices, self.real)
+        return self.match_of(rematch_setup(setup, devices), devices, self.real)
 
     # ---- inside
 
-    def _gather(self, gathering: Gathering, seconds: float) -> Turn:
+    def _gather(self, gathering: TakePlaces, seconds: float) -> Turn:
         """Drive the robots to their places."""
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         gathering.update(seconds)
         self.signs.work(0.0)
-        self.stage.warm(4.0)
+        self.runner.warm(4.0)
         for _ in range(self.waiting.due(seconds)):
             if self.plant.take_places():
                 self._begin()
                 break
         self._tell()
         if self.plant.safety.stopped or self.plant.safety.lasting:
-            return Push(Trouble(self))
-        return Home() if self.house.idle > IDLE else None
+            return Push(FaultPage(self))
+        return Home() if self.context.idle > IDLE else None
 
     def _missing(self) -> list[int]:
         """The robots that will not get to their places by themselves."""
@@ -216,7 +216,7 @@ class RealMatch(MatchScene):
         self.gathering = None
         self.count = Countdown(lead=LEAD)
         self.idle = 0.0
-        self.house.sounds.play("ready", 0)
+        self.context.sounds.play("ready", 0)
         self._dressed()
 
     def _rest(self, seconds: float) -> None:
@@ -227,7 +227,7 @@ class RealMatch(MatchScene):
 
     def _dressed(self) -> None:
         """The view and the tracker know which robots are real."""
-        self.stage.view.real = frozenset(self.real)
+        self.runner.view.real = frozenset(self.real)
         self.plant.rig.tracker.expected = self.real
 
     def _tell(self) -> None:
@@ -235,11 +235,11 @@ class RealMatch(MatchScene):
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
         for key in now.keys() - self.logged:
             cause = cause_of(self.plant.rig, now[key].name)
-            told = [named(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
+            told = [fault_sentence(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
             log.warning("%s", " ".join(told))
             if now[key].name in TOLD:
-                said = named(now[key], self.house.words, "")
-                self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE
+                said = fault_sentence(now[key], self.context.words, "")
+                self.notice, self.noticed = caption(said, ALARM, player=now[key].robot), 2 * NOTICE
         self.logged = set(now)
 
     def _worth(self, fault: Fault) -> bool:

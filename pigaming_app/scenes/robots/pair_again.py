@@ -9,14 +9,14 @@ import pygame
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.robots.fleet_state import worst
-from pigaming_app.scenes.robots.flood_light import UNSEEN, Flood, looking
+from pigaming_app.scenes.robots.flood_light import UNSEEN, FloodLight, looking
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, ICE
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
 GOOD = (PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT)
@@ -27,27 +27,29 @@ class PairAgain:
     """The page, over a match whose robots stand."""
 
     def __init__(self, match: InterruptedMatch) -> None:
-        self.match, self.house = match, match.house
-        self.flood, self.pace = Flood(), Pace()
+        self.match, self.context = match, match.context
+        self.flood, self.timestep = FloodLight(), FixedTimestep()
         self.pairing: Pairing | None = None
         self.sentence = ""  # what is wrong, once all have spun
         self.clock = 0.0
-        self.stop = self.house.prompts([(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
-        self.after = self.house.prompts([(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
+        self.stop = self.context.prompts([(Button.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
+        self.after = self.context.prompts(
+            [(Button.FIRE, "mat.hint_retry"), (Button.BACK, "mat.hint_done")], PROMPTS_Y, 1560
+        )
 
     def entered(self) -> None:
         """Nothing moves yet."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE begins anew once all have spun; before, as BACK, START and STOP at any time, it stops the robots."""
-        press = (self.after if self.sentence else self.stop).meant(press)
-        if press.act is Act.FIRE and self.sentence:
+        event = (self.after if self.sentence else self.stop).as_button(event)
+        if event.button is Button.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0
-        elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.STOP):
+        elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.STOP):
             self.match.plant.rig.tell([None] * ROBOTS)
-            if press.act is Act.STOP:
+            if event.button is Button.STOP:
                 self.match.plant.safety.all_stop()
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
@@ -56,7 +58,7 @@ class PairAgain:
         seconds = self.match.session.advance(seconds)
         self.clock += seconds
         self.flood.update(seconds, bool(self.missing) and not self.sentence)
-        for _ in range(self.pace.due(seconds)):
+        for _ in range(self.timestep.due(seconds)):
             if self.pairing is None:
                 self.match.plant.watch()
             elif not self.sentence and self.pairing.tick():
@@ -67,7 +69,7 @@ class PairAgain:
 
     def draw(self, screen: pygame.Surface) -> None:
         """A dark page with the discs, or grey light while a robot is not seen."""
-        words = self.house.words
+        words = self.context.words
         if self.flood.whole:
             self.flood.draw(screen, looking(words, self.missing), words("mat.pairing"))
             draw_corners(screen)
@@ -92,9 +94,9 @@ class PairAgain:
         self.match.paired(pairing.channels, well)
         told = worst([one for one in pairing.findings if one.case not in GOOD])
         if told is None:
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
             return Pop()
         marker = 0 if told.marker is None else told.marker + 1
-        self.sentence = self.house.words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker)
-        self.house.sounds.play("error")
+        self.sentence = self.context.words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker)
+        self.context.sounds.play("error")
         return None

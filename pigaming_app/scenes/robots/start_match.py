@@ -6,7 +6,7 @@ from functools import partial
 
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import After
@@ -17,7 +17,7 @@ log = logging.getLogger("pigaming")
 
 
 def match_of(
-    house: House,
+    context: Context,
     setup: Setup,
     devices: Sequence[Device | None],
     real: Collection[int],
@@ -29,14 +29,14 @@ def match_of(
     `speed`: times real time, for a match without real robots. `game_choice`: see `Results`.
     """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
-    if not real or house.session is None:
-        return MatchScene(house, setup, devices, speed, game_choice=game_choice)
+    if not real or context.session is None:
+        return MatchScene(context, setup, devices, speed, game_choice=game_choice)
     from pigaming_app.scenes.robots.match_scene import RealMatch
-    from pigaming_app.scenes.robots.unavailable import Refused
+    from pigaming_app.scenes.robots.unavailable import UnavailablePage
 
-    again = partial(match_of, house, game_choice=game_choice)
+    again = partial(match_of, context, game_choice=game_choice)
     try:
-        return RealMatch(house, setup, devices, real, house.session, again, game_choice)
+        return RealMatch(context, setup, devices, real, context.session, again, game_choice)
     except RobotsUnavailable as trouble:
         log.warning("%s", english().explained(trouble.message))
-        return Refused(house, setup, devices, real, trouble.message, again)
+        return UnavailablePage(context, setup, devices, real, trouble.message, again)

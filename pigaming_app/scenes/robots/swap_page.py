@@ -4,12 +4,12 @@ import pygame
 
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.play.pause import items, title
+from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
-from pigaming_app.ui.draw.layers import Pane
-from pigaming_app.ui.draw.text import fitted, word
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.draw.text import fit_size, word
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
 
@@ -18,34 +18,34 @@ class SwapPage:
     """The page; what is chosen is done when it is left. `access`: whose presses count."""
 
     def __init__(self, match: InterruptedMatch, access: Access) -> None:
-        self.match, self.house, self.access = match, match.house, access
+        self.match, self.context, self.access = match, match.context, access
         self.seats = [i for i, robot in enumerate(match.match.state.robots) if robot.present]
         self.wanted = {seat: seat in match.real for seat in self.seats}
-        self.focus = Focus(items([str(seat) for seat in self.seats]))
+        self.focus = Focus(menu_spots([str(seat) for seat in self.seats]))
         self.picture: pygame.Surface | None = None
-        hints = [(Act.FIRE, "mat.hint_change"), (Act.BACK, "mat.hint_done")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
+        hints = [(Button.FIRE, "mat.hint_change"), (Button.BACK, "mat.hint_done")]
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing has been chosen yet."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE, LEFT and RIGHT change the robot in focus; BACK and START do what was chosen."""
-        admitted = self.access.admit(self.prompts.meant(press))
+        admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
-        press = admitted
-        if press.act in (Act.BACK, Act.START):
+        event = admitted
+        if event.button in (Button.BACK, Button.START):
             for seat, real in self.wanted.items():
                 self.match.swap(seat, real)
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(press):
-            self.house.sounds.play("move")
-        chosen = self.focus.name if press.act in (Act.LEFT, Act.RIGHT) else self.focus.chosen(press)
+        if self.focus.on(event):
+            self.context.sounds.play("move")
+        chosen = self.focus.name if event.button in (Button.LEFT, Button.RIGHT) else self.focus.chosen(event)
         if chosen:
             self.wanted[int(chosen)] = not self.wanted[int(chosen)]
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -62,17 +62,17 @@ class SwapPage:
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen)
         for spot in self.focus.spots:
-            said = self.house.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
+            said = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
             color = FOCUS if spot.name == self.focus.name else MIST
-            size = fitted(said, LABEL, spot.rect.w - 150)
+            size = fit_size(said, LABEL, spot.rect.w - 150)
             word(said, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
         self.prompts.draw(screen)
         self.match.shine(screen)
 
-    def _paint(self, pane: Pane) -> None:
-        title(pane, None, self.house.words("mat.which"), ICE)
+    def _paint(self, layer: Layer) -> None:
+        sheet_title(layer, None, self.context.words("mat.which"), ICE)
         for spot in self.focus.spots:
             seat = int(spot.name)
-            badge(pane.hot, seat, spot.rect.left + 60, spot.rect.centery - (4 if seat == 1 else 0), 26)
-            pane.hot.line([(spot.rect.left + 110, spot.rect.centery), (spot.rect.left + 122, spot.rect.centery)],
+            badge(layer.glow, seat, spot.rect.left + 60, spot.rect.centery - (4 if seat == 1 else 0), 26)
+            layer.glow.line([(spot.rect.left + 110, spot.rect.centery), (spot.rect.left + 122, spot.rect.centery)],
                           PLAYERS[seat], LINE)  # fmt: skip

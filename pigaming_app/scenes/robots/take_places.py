@@ -12,21 +12,35 @@ from pigaming_app.hardware.control.homing import HomingProgress
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
-from pigaming_app.scenes.flow.context import House
-from pigaming_app.scenes.robots.fault_page import named, shown
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.robots.fault_page import fault_caption, fault_sentence
 from pigaming_app.scenes.robots.flood_light import UNSEEN as UNSEEN_AFTER
-from pigaming_app.scenes.robots.flood_light import Flood, looking
+from pigaming_app.scenes.robots.flood_light import FloodLight, looking
 from pigaming_app.scenes.robots.marker_discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw import (
+    ALARM,
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    GlowCanvas,
+    cut_box,
+    dim,
+)
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Act, Device
-from pigaming_app.ui.widgets.caption import plate
-from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.labels import blit_sprite
 
 UNSEEN = 1e6  # px: so far away is a robot that nobody sees
 DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
@@ -36,17 +50,17 @@ CARRIED = ("lost", "held", "outside")  # what happens to robots that are carried
 MISSING = 1.5  # s until it is said that a robot is not seen
 
 
-class Gathering:
+class TakePlaces:
     """What is shown while the robots of a plant take their places."""
 
     DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
 
-    def __init__(self, house: House, plant: MixedPlant, voice: Callable[[], Device]) -> None:
-        self.house, self.plant = house, plant
+    def __init__(self, context: Context, plant: MixedPlant, voice: Callable[[], Device]) -> None:
+        self.context, self.plant = context, plant
         self.clock = 0.0
-        self.flood = Flood()
-        self.prompts = house.prompts(
-            [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
+        self.flood = FloodLight()
+        self.prompts = context.prompts(
+            [(Button.START, "mat.hint_begin"), (Button.X, "mat.hint_missing"), (Button.BACK, "mat.hint_leave")],
             HINTS_Y, 1560, voice=voice,
         )  # fmt: skip
 
@@ -63,10 +77,10 @@ class Gathering:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint outlines, ways and what has to be done; the discs come on top of it."""
-        words, places = self.house.words, self.plant.places
+        words, places = self.context.words, self.plant.places
         if self.flood.whole:
             hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
-            faults = [named(fault, words, "") for fault in self._faults()]
+            faults = [fault_sentence(fault, words, "") for fault in self._faults()]
             self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
             return
         screen.fill((0, 0, 0))
@@ -87,8 +101,8 @@ class Gathering:
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         for i, fault in enumerate(self._faults()[:2]):
             cause = cause_of(self.plant.rig, fault.name)
-            sentence = words.sentence(cause) if cause else named(fault, words, "")
-            shown(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
+            sentence = words.sentence(cause) if cause else fault_sentence(fault, words, "")
+            fault_caption(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
         self.flood.draw(screen, "")
 
     def _faults(self) -> list[Fault]:
@@ -100,9 +114,9 @@ class Gathering:
         color = place.robot
         level = 8 if place.there else round(6 + 2 * math.cos(math.tau * self.clock))
         outline(color, place.there).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
-        stamp(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
+        blit_sprite(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
         if place.distance > 2 * MOAT:
-            stamp(screen, tag(color), LEFT + x, TOP + y)
+            blit_sprite(screen, tag(color), LEFT + x, TOP + y)
 
     def _way(self, screen: pygame.Surface, place: HomingProgress, at: tuple[float, float]) -> None:
         """Dashes that march from a robot to its place."""
@@ -110,7 +124,7 @@ class Gathering:
         turn = math.atan2(goal[1] - at[1], goal[0] - at[0])
         along, end = RING + 20.0 + self.clock * MARCH % DASH, math.dist(at, goal) - RING - 16.0
         while along < end:
-            stamp(
+            blit_sprite(
                 screen,
                 dash(place.robot, step(turn, HEADINGS), place.moving),
                 at[0] + along * math.cos(turn),
@@ -120,11 +134,11 @@ class Gathering:
 
     def _said(self, screen: pygame.Surface, place: HomingProgress) -> None:
         """What has to be done with a robot that does not get there by itself."""
-        words, robot = self.house.words, place.robot
+        words, robot = self.context.words, place.robot
         if place.there or place.moving or self.clock < MISSING:
             return
         key = "mat.carry" if place.distance > UNSEEN else "mat.waits"
-        sheet = plate(words(key, robot=robot + 1), PLAYERS[robot], size=BODY, player=robot)
+        sheet = caption(words(key, robot=robot + 1), PLAYERS[robot], size=BODY, player=robot)
         margin = LEFT + 12 + sheet.width / 2
         x = min(max(LEFT + place.pose[0], margin), 1920 - margin)
         y = TOP + place.pose[1]
@@ -132,24 +146,24 @@ class Gathering:
 
 
 @cached
-def frame() -> Lit:
+def frame() -> LitImage:
     """The rim of the arena, dim."""
-    pane = Pane(LEFT, TOP, WIDTH, HEIGHT)
-    pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
-    return pane.done()
+    layer = Layer(LEFT, TOP, WIDTH, HEIGHT)
+    layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
+    return layer.done()
 
 
 @cached
-def outline(player: int, there: bool) -> Lit:
+def outline(player: int, there: bool) -> LitImage:
     """Where a robot shall stand, round (0, 0): dashed, and whole once it is there."""
     half = RING + 24
-    ink = Ink(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
     if there:
         ink.ring(0, 0, RING, PLAYERS[player], LINE)
     else:
         points = [(RING * math.cos(i * math.tau / 64), RING * math.sin(i * math.tau / 64)) for i in range(64)]
         ink.dashes(points, PLAYERS[player], LINE, 24, 16)
-    return Lit(ink.lit(0.8), (-half, -half))
+    return LitImage(ink.lit(0.8), (-half, -half))
 
 
 @cached

@@ -7,67 +7,67 @@ import pygame
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
-from pigaming_app.scenes.play.pause import title
+from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
 from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.ui.draw import ALARM, ICE, MIST
-from pigaming_app.ui.draw.layers import Pane, backdrop
-from pigaming_app.ui.draw.text import write
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.draw.layers import Layer, backdrop
+from pigaming_app.ui.draw.text import write_lines
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
 
 UNCALIBRATED = ("none", "damaged", "changed", "version", "other_display")  # messages after which one must calibrate
 IDLE = 90.0  # seconds without a press until the title
 
 
-class Refused:
+class UnavailablePage:
     """The page. `message`: the reason; `match_of`: makes a match with these real seats."""
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         setup: Setup,
         devices: Sequence[Device | None],
         real: Collection[int],
         message: OperatorMessage,
         match_of: MatchOf,
     ) -> None:
-        self.house, self.setup, self.devices, self.real, self.message = house, setup, devices, real, message
+        self.context, self.setup, self.devices, self.real, self.message = context, setup, devices, real, message
         self.match_of = match_of
         self.picture: pygame.Surface | None = None
-        self.access = Access(house, lambda: self.devices)
-        hints = [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")]
-        self.prompts = house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.access = Access(context, lambda: self.devices)
+        hints = [(Button.FIRE, "mat.hint_simulated"), (Button.X, "mat.hint_again"), (Button.BACK, "mat.hint_leave")]
+        self.prompts = context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
-        self.house.sounds.play("error")
+        self.context.sounds.play("error")
 
-    def on(self, press: Press) -> Turn:
-        """FIRE plays with simulated robots, EXTRA tries again, BACK leaves."""
-        admitted = self.access.admit(self.prompts.meant(press))
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE plays with simulated robots, X tries again, BACK leaves."""
+        admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
-        press = admitted
-        if press.act in (Act.FIRE, Act.START):
-            self.house.sounds.play("accept")
+        event = admitted
+        if event.button in (Button.FIRE, Button.START):
+            self.context.sounds.play("accept")
             return Swap(self.match_of(self.setup, self.devices, ()))
-        if press.act is Act.EXTRA:
+        if event.button is Button.X:
             return Swap(self.match_of(self.setup, self.devices, self.real))
-        if press.act is Act.BACK:
-            self.house.sounds.play("back")
+        if event.button is Button.BACK:
+            self.context.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
         """Leave when nobody is there."""
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The page."""
@@ -76,10 +76,10 @@ class Refused:
         screen.blit(self.picture, (0, 0))
         self.prompts.draw(screen)
 
-    def _paint(self, pane: Pane) -> None:
-        words = self.house.words
-        title(pane, None, words("mat.refused"), ICE)
-        sign(pane.hot, "robot", *ICON, 76, ALARM)
-        y = write(pane, words.sentence(self.message), TEXT_X, HEAD + 56, ROOM, ICE)
+    def _paint(self, layer: Layer) -> None:
+        words = self.context.words
+        sheet_title(layer, None, words("mat.refused"), ICE)
+        sign(layer.glow, "robot", *ICON, 76, ALARM)
+        y = write_lines(layer, words.sentence(self.message), TEXT_X, HEAD + 56, ROOM, ICE)
         lost = self.message.key in UNCALIBRATED
-        write(pane, words("mat.calibrate" if lost else "mat.anyway"), TEXT_X, y + 16, ROOM, MIST)
+        write_lines(layer, words("mat.calibrate" if lost else "mat.anyway"), TEXT_X, y + 16, ROOM, MIST)

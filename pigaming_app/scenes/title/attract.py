@@ -12,15 +12,15 @@ from pigaming_app.ai import STRENGTHS, seated
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, Turn
-from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.caption import caption
 
 MINUTES = 1.0  # of a match
 AFTER = 2.5  # seconds for which its end is shown
@@ -30,12 +30,10 @@ LEVELS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Three shows for each game, round and round, from a random game on. `house.idle` has brought it up; the title lies
-    below.
-    """
+    """Three shows for each game, round and round, from a random game on; opened over the title when nobody is there."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
+    def __init__(self, context: Context) -> None:
+        self.context = context
         self.age = 0.0
         names, first = list(games()), secrets.randbelow(len(games()))
         self.shows = (
@@ -48,14 +46,14 @@ class Attract:
 
     def entered(self) -> None:
         """Quiet: nobody is listening."""
-        self.house.sounds.music(False)
+        self.context.sounds.music(False)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Whatever is pressed, back to the title, where it counts for nothing; F4 shows what the AIs think."""
-        if press.act is Act.BRAIN and isinstance(self.show, Demonstration):
-            self.show.stage.brain.next()
+        if event.button is Button.BRAIN and isinstance(self.show, DemoMatch):
+            self.show.runner.brain.next()
             return None
-        return None if press.act is Act.LOST else Home()
+        return None if event.button is Button.LOST else Home()
 
     def update(self, seconds: float) -> Turn:
         """Let the show go on, or begin the next one."""
@@ -70,64 +68,64 @@ class Attract:
             self.show.draw(screen)
         level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
         color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
-        text = self.house.words("attract.press")
-        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, Demonstration) else (BODY, PAGE_PROMPT_Y)
-        plate(text, color, color, size, face="head").draw(screen, 960, y)
+        text = self.context.words("attract.press")
+        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, DemoMatch) else (BODY, PAGE_PROMPT_Y)
+        caption(text, color, color, size, face="head").draw(screen, 960, y)
 
     def _next(self) -> None:
         self.show = next(show for show in (make() for make in self.shows) if show)
         self.show.entered()
 
     def _match(self, game: str) -> Scene:
-        return Demonstration(self.house, game)
+        return DemoMatch(self.context, game)
 
     def _howto(self, game: str) -> Scene:
         from pigaming_app.scenes.howto.scene import HowTo
 
-        page = HowTo(self.house, game)
-        return Page(page, page.draw)
+        page = HowTo(self.context, game)
+        return TimedPage(page, page.draw)
 
     def _best(self, game: str) -> Scene | None:
         """Tables of the game in which somebody has scored."""
-        there = [one for one in contests(self.house.scores) if one.game == game]
+        there = [one for one in contests(self.context.scores) if one.game == game]
         if not there:
             return None
-        best = Best(self.house, secrets.choice(there))
-        return Page(best, best.paint)
+        best = HighScores(self.context, secrets.choice(there))
+        return TimedPage(best, best.paint)
 
 
-class Demonstration:
+class DemoMatch:
     """AIs play for a minute."""
 
-    def __init__(self, house: House, game: str) -> None:
+    def __init__(self, context: Context, game: str) -> None:
         rules = games()[game]
         teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.team_mode == FREE else rules.teams
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.variants[0], rules.default_goal)
-        self.stage = Stage(house, seated(setup), loud=False)
+        self.runner = MatchRunner(context, seated(setup), loud=False)
         self.warm = False
         self.over = 0.0
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Nobody is asked."""
 
     def update(self, seconds: float) -> Turn:
         """Play; then stand for a moment."""
-        self.warm = self.warm or self.stage.warm(3.0)
-        self.stage.advance(seconds)
-        self.over += seconds * self.stage.match.over
+        self.warm = self.warm or self.runner.warm(3.0)
+        self.runner.advance(seconds)
+        self.over += seconds * self.runner.match.over
         return Home() if self.over > AFTER else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The match."""
-        self.stage.draw(screen)
+        self.runner.draw(screen)
 
 
-class Page:
+class TimedPage:
     """A page that is only looked at."""
 
     def __init__(self, page: Scene, paint: Callable[[pygame.Surface], None]) -> None:
@@ -137,7 +135,7 @@ class Page:
         """Begin it."""
         self.page.entered()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Nobody is asked."""
 
     def update(self, seconds: float) -> Turn:

@@ -12,14 +12,14 @@ from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.stack import Home
 from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.title.attract import Attract, Demonstration
+from pigaming_app.scenes.title.attract import Attract, DemoMatch
 from pigaming_app.sim.record import digest
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.labels import text_width
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
@@ -41,60 +41,60 @@ def f4(arcade: Arcade) -> None:
     arcade.frame(draw=True)
 
 
-def stage_of(arcade: Arcade, game: str, seed: int = 1) -> Stage:
+def stage_of(arcade: Arcade, game: str, seed: int = 1) -> MatchRunner:
     brains = SEATS[game]
     wish = make_setup(game, brains, None, 1.0, seed, None, None, brains)
-    return Stage(arcade.house, seated(wish), loud=False)
+    return MatchRunner(arcade.context, seated(wish), loud=False)
 
 
 def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off hard", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human easy off hard", 1.0), KEYS[:1])
     arcade.open(match)
     shown = []
     for _ in range(4):
         f4(arcade)
-        shown.append(match.stage.brain.seat)
+        shown.append(match.runner.brain.seat)
     assert shown == [1, 3, None, 1]
     assert arcade.stack.top is match, "no pause, and the match went on to its countdown"
-    assert arcade.house.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
+    assert arcade.context.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
 
 
 def test_where_nobody_is_an_ai_that_is_said(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human human off off", 1.0), KEYS[:2])
+    match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS[:2])
     arcade.open(match)
     f4(arcade)
-    assert match.stage.brain.seat is None
+    assert match.runner.brain.seat is None
     assert match.notice is not None
     assert match.noticed > 0.0
 
 
 def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
     event = pygame.Event(pygame.KEYDOWN, key=pygame.K_F4, scancode=pygame.KSCAN_F4, mod=pygame.KMOD_LALT, unicode="")
-    assert arcade.house.controls.presses([event]) == []
+    assert arcade.context.controls.presses([event]) == []
 
 
 def test_somebody_who_takes_the_seat_is_not_looked_into(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off off", 1.0), [None])
+    match = MatchScene(arcade.context, setup("human easy off off", 1.0), [None])
     arcade.open(match)
     f4(arcade)
-    assert match.stage.brain.seat == 0, "an AI drives for somebody"
+    assert match.runner.brain.seat == 0, "an AI drives for somebody"
     match.hand(0, KEYS[0])
     arcade.frame(draw=True)
-    assert match.stage.brain.seat is None
+    assert match.runner.brain.seat is None
     f4(arcade)
-    assert match.stage.brain.seat == 1
+    assert match.runner.brain.seat == 1
 
 
 def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off off", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human easy off off", 1.0), KEYS[:1])
     arcade.open(match)
     arcade.wait(4.5)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     page = arcade.shown(Pause)
     assert any("F4" in label for label, _ in page.prompts.said)
     f4(arcade)
     assert arcade.shown(MatchScene) is match
-    assert match.stage.brain.seat == 1
+    assert match.runner.brain.seat == 1
 
 
 @pytest.mark.parametrize(
@@ -110,7 +110,7 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
     plain = kind == "Joystick"
     with VirtualPad(f"{kind} pad", usb, plain=plain) as pad:
         arcade.frame()
-        match = MatchScene(arcade.house, setup("human easy off off", 1.0), [Device("pad", pad.number)])
+        match = MatchScene(arcade.context, setup("human easy off off", 1.0), [Device("pad", pad.number)])
         arcade.open(match)
         arcade.wait(4.5)
         pad.tap("start" if not plain else 9)
@@ -120,25 +120,25 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
         pad.tap("y" if not plain else 3)
         arcade.wait(0.2)
         assert arcade.shown(MatchScene) is match
-        assert match.stage.brain.seat == 1
+        assert match.runner.brain.seat == 1
 
 
 def test_in_the_show_it_is_no_reason_to_leave(arcade: Arcade) -> None:
-    show = Attract(arcade.house)
-    assert isinstance(show.show, Demonstration)
+    show = Attract(arcade.context)
+    assert isinstance(show.show, DemoMatch)
     arcade.open(show)
     for seat in (0, 1):
         f4(arcade)
-        assert show.show.stage.brain.seat == seat
+        assert show.show.runner.brain.seat == seat
         assert arcade.stack.top is show
     show._next()
-    assert isinstance(show.on(press(Act.BRAIN)), Home), "over a page it counts like any other key"
+    assert isinstance(show.on(press(Button.BRAIN)), Home), "over a page it counts like any other key"
 
 
-def press(act: Act):
-    from pigaming_app.ui.input.events import Press
+def press(button: Button):
+    from pigaming_app.ui.input.events import InputEvent
 
-    return Press(act, KEYS[0])
+    return InputEvent(button, KEYS[0])
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -209,7 +209,7 @@ def test_the_petals_of_a_rose_turn_with_the_robot() -> None:
     pygame.display.set_mode((1920, 1080))
     ahead = [1.0] + [0.0] * 15
     for heading, (dx, dy) in ((0.0, (1, 0)), (1.5708, (0, 1)), (3.1416, (-1, 0))):
-        drawn = marks.Marks((960.0, 540.0, heading), [], (60, 160, 255), 0.0)
+        drawn = marks.FloorMarks((960.0, 540.0, heading), [], (60, 160, 255), 0.0)
         drawn.rose(ahead, [])
         screen = pygame.Surface((1920, 1080))
         screen.fblits(drawn.light, pygame.BLEND_RGB_ADD)
@@ -257,7 +257,7 @@ def test_a_seat_without_a_brain_that_explains_itself_is_passed_over(arcade: Arca
     stage.match.sit(0, make("pitanks", "idle", 1))
     kind = stage.match.brains[0].kind
     object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.reset))
-    overlay = BrainOverlay(stage.match, stage.view, arcade.house.words)
+    overlay = BrainOverlay(stage.match, stage.view, arcade.context.words)
     assert overlay.seats == [1, 2, 3]
 
 
@@ -270,7 +270,7 @@ def test_every_text_fits_its_box(language: str) -> None:
             said = text.format(player=4, count=12345, machine="A")
             size, face = (cards.BODY, "body") if "because" in key else (cards.LABEL, "head")
             room = 652 - cards.TEXT - 20
-            if fitted(said, size, room, face) < READABLE * size:
+            if fit_size(said, size, room, face) < READABLE * size:
                 small[key] = text_width(said, size, face)
     assert small == {}
 

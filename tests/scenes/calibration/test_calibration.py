@@ -25,15 +25,15 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.serial_line import ERRORS
 from pigaming_app.hardware.session import store
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
-from pigaming_app.scenes.calibration.drift_page import CheckPage
-from pigaming_app.scenes.calibration.height_page import OutlinesPage
-from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
+from pigaming_app.scenes.calibration.drift_page import DriftPage
+from pigaming_app.scenes.calibration.height_page import HeightPage
+from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.i18n import Words, texts
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from tests.scenes.operated import Operated
 
@@ -41,20 +41,20 @@ LONG = 30.0  # s after which a test gives up waiting
 
 
 @pytest.fixture(scope="module")
-def made() -> Iterator[Finding]:
+def made() -> Iterator[CalibrationResult]:
     """A calibration by the wizard, made once for the tests of what comes after it."""
     with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
         patch.setenv("PIGAMING_HOME", home)
         pygame.display.init()
         arcade = Operated(Controls(), EmulatedCalibrationSite(2))
-        arcade.open(CalibrationPage(arcade.house, arcade.site))
+        arcade.open(CalibrationPage(arcade.context, arcade.site))
         arcade.begin()
         yield arcade.pictures(ResultPage).finding
 
 
-def concluded(arcade: Operated, made: Finding) -> ResultPage:
+def concluded(arcade: Operated, made: CalibrationResult) -> ResultPage:
     """The page of a calibration that has been made, above the wizard's first."""
-    page = ResultPage(arcade.house, replace(made, site=arcade.site))
+    page = ResultPage(arcade.context, replace(made, site=arcade.site))
     arcade.open(page)
     return page
 
@@ -62,7 +62,7 @@ def concluded(arcade: Operated, made: Finding) -> ResultPage:
 @pytest.fixture
 def arcade(controls: Controls, _home: None) -> Operated:
     arcade = Operated(controls, EmulatedCalibrationSite(2))
-    arcade.open(CalibrationPage(arcade.house, arcade.site))
+    arcade.open(CalibrationPage(arcade.context, arcade.site))
     return arcade
 
 
@@ -72,16 +72,16 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
     first = arcade.shown(CalibrationPage)
     assert first.preview is not None
     assert first.preview.size == (1920, 1080)
-    assert first.state == arcade.house.words("hardware.none")
+    assert first.state == arcade.context.words("hardware.none")
     arcade.begin()
     result = arcade.pictures(ResultPage)
     assert result.finding.good
     assert result.finding.residuals.mean_mm < 1.5
     assert result.finding.residuals.max_mm < 3.0
     arcade.shown(ResultPage)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.stack.top is first
-    ground = store.load(store.calibration_file(arcade.site.name), arcade.house.canvas.projection, (1920, 1080))
+    ground = store.load(store.calibration_file(arcade.site.name), arcade.context.canvas.projection, (1920, 1080))
     assert ground.width_mm == arcade.site.measures.width
     for _ in range(5):
         arcade.picture()
@@ -92,7 +92,7 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
 def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
     arcade.begin()
     arcade.picture()
-    shown = pixels_of(arcade.house.canvas.screen)[:, :, 0].copy()
+    shown = pixels_of(arcade.context.canvas.screen)[:, :, 0].copy()
     plain = calibrating.BOARD.picture()
     assert np.array_equal(shown[:1044], plain[:1044])
     assert not np.array_equal(shown[1044:], plain[1044:]), "the progress is in the margin below"
@@ -101,11 +101,11 @@ def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
 @pytest.mark.long
 def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operated) -> None:
     arcade.go("by")
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.RIGHT)
     assert "height" not in [spot.name for spot in arcade.shown(CalibrationPage).focus.spots]
     arcade.begin()
-    arcade.pictures(OutlinesPage)
-    arcade.shown(OutlinesPage)
+    arcade.pictures(HeightPage)
+    arcade.shown(HeightPage)
     result = arcade.pictures(ResultPage)
     assert result.finding.good
     assert result.finding.ground.height == pytest.approx(arcade.site.arena.optics.lens.eye[2], rel=0.05)
@@ -123,56 +123,56 @@ def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operat
     assert result.picture is not None, "what the camera saw is shown"
     assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
     arcade.shown(ResultPage)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.pictures(ResultPage).finding.good
 
 
 def test_a_calibration_that_is_too_bad_cannot_be_saved(
-    arcade: Operated, made: Finding, monkeypatch: pytest.MonkeyPatch
+    arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("pigaming_app.hardware.calibration.solver.MEAN_MM", 0.001)
     result = concluded(arcade, made)
     assert result.finding.residuals is not None
     assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
     arcade.shown(ResultPage)
-    arcade.press(Act.RIGHT)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.FIRE)
     arcade.shown(CalibrationPage)
     with pytest.raises(CalibrationError):
-        store.load(store.calibration_file(arcade.site.name), arcade.house.canvas.projection, (1920, 1080))
+        store.load(store.calibration_file(arcade.site.name), arcade.context.canvas.projection, (1920, 1080))
 
 
 @pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root may write anywhere")
-def test_a_folder_that_cannot_be_written(arcade: Operated, made: Finding, tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_written(arcade: Operated, made: CalibrationResult, tmp_path: Path) -> None:
     (tmp_path / "config").mkdir()
     (tmp_path / "config").chmod(0o500)
     concluded(arcade, made)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
 
 
 def test_what_cannot_be_saved_is_said_and_nothing_is_lost(
-    arcade: Operated, made: Finding, monkeypatch: pytest.MonkeyPatch
+    arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(path: Path, text: str) -> None:
         raise NotSaved(f"{path} was not saved: the disk is full.")
 
     concluded(arcade, made)
     monkeypatch.setattr(store, "write_with_backup", full)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
     monkeypatch.undo()
 
 
-def test_the_way_back_leads_out_of_every_page(arcade: Operated, made: Finding) -> None:
+def test_the_way_back_leads_out_of_every_page(arcade: Operated, made: CalibrationResult) -> None:
     arcade.begin()
     arcade.picture()
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.shown(CalibrationPage)
     concluded(arcade, made)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.shown(CalibrationPage)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 
@@ -186,20 +186,22 @@ def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
     arcade.shown(ResultPage)
 
 
-def test_nobody_puts_a_robot_on_the_outline(arcade: Operated, made: Finding, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_puts_a_robot_on_the_outline(
+    arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
-    arcade.open(OutlinesPage(arcade.house, replace(made, site=arcade.site)))
+    arcade.open(HeightPage(arcade.context, replace(made, site=arcade.site)))
     result = arcade.pictures(ResultPage)
     assert result.finding.trouble.key == "nobody"
 
 
-def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made: Finding) -> None:
+def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made: CalibrationResult) -> None:
     concluded(arcade, made)
-    arcade.press(Act.FIRE)
-    arcade.press(Act.BACK)
-    arcade.open(CheckPage(arcade.house, arcade.site))
-    checking = arcade.shown(CheckPage).work
+    arcade.press(Button.FIRE)
+    arcade.press(Button.BACK)
+    arcade.open(DriftPage(arcade.context, arcade.site))
+    checking = arcade.shown(DriftPage).work
     for _ in range(24):
         arcade.picture()
     assert checking.mm is not None
@@ -209,13 +211,13 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made
     for _ in range(24):
         arcade.picture()
     assert checking.marker_mm == pytest.approx(50.0, rel=0.04), "the width of the mat was measured well"
-    canvas = arcade.house.canvas
+    canvas = arcade.context.canvas
     canvas.pin(CornerPin([8, 0, 1928, 0, 1928, 1080, 8, 1080]))  # somebody pushes the projector
     for _ in range(24):
         arcade.picture()
     assert checking.mm == pytest.approx(8 * checking.drift.ground.mm, abs=2.0)  # type: ignore[union-attr]
     canvas.pin(None)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 
@@ -224,7 +226,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made
 def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -> None:
     site = EmulatedCalibrationSite(1, live=True)
     arcade = Operated(controls, site)
-    arcade.open(CalibrationPage(arcade.house, site))
+    arcade.open(CalibrationPage(arcade.context, site))
     end = time.monotonic() + LONG
     first = arcade.shown(CalibrationPage)
     while first.preview is None or first.preview.small is None:
@@ -237,15 +239,15 @@ def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -
         time.sleep(0.01)
         assert time.monotonic() < end
     assert arcade.stack.top.finding.good
-    arcade.press(Act.BACK)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
+    arcade.press(Button.BACK)
     site.close()
 
 
 def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
     first = arcade.go("by")
     spot = first.focus.spot.rect
-    ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.house.words("calibrate.ruler"), "Robot")))
+    ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.context.words("calibrate.ruler"), "Robot")))
     for x, by_robot in ((ruler, False), (robot, True), (robot, True), (ruler, False), (-60, False)):
         arcade.click(spot.x + x, spot.centery)
         assert (first.measures.height == 0.0) == by_robot
@@ -258,10 +260,10 @@ def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
     arcade.shown(BoardsPage)
 
 
-def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Operated, made: Finding) -> None:
+def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Operated, made: CalibrationResult) -> None:
     assert made.ground is not None
     store.save(made.ground, store.calibration_file(arcade.site.name))
-    here = arcade.house.canvas.projection
+    here = arcade.context.canvas.projection
     for key, where, size in (("other_display", "2: 640 × 480", (1920, 1080)), ("other_camera", here, (1280, 720))):
         with pytest.raises(CalibrationError) as refused:
             store.load(store.calibration_file(arcade.site.name), where, size)
@@ -274,7 +276,7 @@ def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Oper
 
 
 def test_the_corner_pin_is_part_of_what_was_calibrated(arcade: Operated) -> None:
-    canvas = arcade.house.canvas
+    canvas = arcade.context.canvas
     straight = canvas.projection
     canvas.pin(CornerPin([0, 0, 1920, 9, 1920, 1080, 0, 1080]))
     assert canvas.projection != straight

@@ -12,12 +12,12 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision import markers
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.app import App, Options
-from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, PinPage, handle
+from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, CornerPinPage, handle
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
@@ -28,8 +28,8 @@ ASKEW = [40, 20, 1880, 60, 1900, 1060, 10, 1000]
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    arcade.open(PinPage(arcade.house))
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.open(CornerPinPage(arcade.context))
     return arcade
 
 
@@ -43,18 +43,18 @@ def shown(canvas: Canvas) -> pygame.Surface:
 
 
 def test_a_corner_moves_by_ten_or_by_one_and_the_picture_with_it(arcade: Arcade) -> None:
-    canvas = arcade.house.canvas
-    for act in (Act.RIGHT, Act.RIGHT, Act.DOWN):
-        arcade.press(act)
-    arcade.press(Act.EXTRA)
-    arcade.press(Act.DOWN)
+    canvas = arcade.context.canvas
+    for button in (Button.RIGHT, Button.RIGHT, Button.DOWN):
+        arcade.press(button)
+    arcade.press(Button.X)
+    arcade.press(Button.DOWN)
     assert canvas.corners[:2] == (20, 11)
     window = shown(canvas)
     assert window.get_at((10, 5))[:3] == (0, 0, 0)
     assert window.get_at((24, 15))[:3] == (255, 255, 255)
     assert window.get_at((1919, 0))[:3] == (255, 255, 255)
     assert canvas.at((20, 11)) == pytest.approx((0.0, 0.0), abs=0.01)
-    arcade.shown(PinPage)
+    arcade.shown(CornerPinPage)
 
 
 @pytest.mark.parametrize("corner", range(4))
@@ -72,9 +72,9 @@ def test_the_arrow_points_at_the_chosen_corner_of_the_picture(corner: int) -> No
 
 
 def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) -> None:
-    page = arcade.shown(PinPage)
+    page = arcade.shown(CornerPinPage)
     for corner in (1, 2, 3, 0):
-        arcade.press(Act.FIRE)
+        arcade.press(Button.FIRE)
         assert page.chosen == corner
     for at, corner in (((1700, 900), 2), ((100, 100), 0), ((1700, 60), 1), ((80, 1000), 3)):
         arcade.click(*at)
@@ -82,45 +82,45 @@ def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) 
 
 
 def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
-    for act in (Act.RIGHT, Act.DOWN, Act.FIRE, Act.LEFT, Act.START):
-        arcade.press(act)
+    for button in (Button.RIGHT, Button.DOWN, Button.FIRE, Button.LEFT, Button.START):
+        arcade.press(button)
     assert arcade.stack.top is arcade.setup
     settings, wrong = Settings.load(tmp_path / "config")
     assert not wrong
     assert settings.corners == [10, 10, 1910, 0, 1920, 1080, 0, 1080]
-    arcade.house.settings.corners = settings.corners
-    arcade.house.canvas.pin(None)
-    App(Options(headless=True), arcade.house, [])
-    assert list(arcade.house.canvas.corners) == settings.corners
+    arcade.context.settings.corners = settings.corners
+    arcade.context.canvas.pin(None)
+    App(Options(headless=True), arcade.context, [])
+    assert list(arcade.context.canvas.corners) == settings.corners
 
 
 def test_who_leaves_without_saving_leaves_it_as_it_was(arcade: Arcade) -> None:
-    arcade.press(Act.BACK)
-    arcade.house.canvas.pin(CornerPin(ASKEW))
-    arcade.open(PinPage(arcade.house))
-    for act in (Act.RIGHT, Act.DOWN, Act.ALT, Act.BACK):
-        arcade.press(act)
-    assert arcade.house.canvas.corners == tuple(ASKEW)
+    arcade.press(Button.BACK)
+    arcade.context.canvas.pin(CornerPin(ASKEW))
+    arcade.open(CornerPinPage(arcade.context))
+    for button in (Button.RIGHT, Button.DOWN, Button.Y, Button.BACK):
+        arcade.press(button)
+    assert arcade.context.canvas.corners == tuple(ASKEW)
 
 
 def test_reset_is_straight_and_costs_nothing(arcade: Arcade, tmp_path: Path) -> None:
-    arcade.house.canvas.pin(CornerPin(ASKEW))
-    arcade.press(Act.ALT)
-    assert arcade.house.canvas.corners == ()
-    arcade.press(Act.START)
+    arcade.context.canvas.pin(CornerPin(ASKEW))
+    arcade.press(Button.Y)
+    assert arcade.context.canvas.corners == ()
+    arcade.press(Button.START)
     assert Settings.load(tmp_path / "config")[0].corners == []
-    assert arcade.house.canvas.screen is pygame.display.get_surface()
+    assert arcade.context.canvas.screen is pygame.display.get_surface()
 
 
 def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
-    page = arcade.shown(PinPage)
+    page = arcade.shown(CornerPinPage)
     for _ in range(300):
-        arcade.press(Act.RIGHT)
-        arcade.press(Act.DOWN)
+        arcade.press(Button.RIGHT)
+        arcade.press(Button.DOWN)
     assert page.corners[0] <= FARTHEST
     assert page.said > 0.0 or page.corners[0] == FARTHEST
-    arcade.shown(PinPage)
-    arcade.house.canvas.flip()
+    arcade.shown(CornerPinPage)
+    arcade.context.canvas.flip()
 
 
 def test_a_full_disk_is_said_and_the_page_stays(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -128,9 +128,9 @@ def test_a_full_disk_is_said_and_the_page_stays(arcade: Arcade, monkeypatch: pyt
         raise NotSaved("the disk is full")
 
     monkeypatch.setattr(Settings, "save", full)
-    arcade.press(Act.RIGHT)
-    arcade.press(Act.START)
-    assert arcade.shown(PinPage).sentence == arcade.house.words("app.unsaved")
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.START)
+    assert arcade.shown(CornerPinPage).sentence == arcade.context.words("app.unsaved")
 
 
 def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
@@ -141,20 +141,20 @@ def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.corner_pin.opencv", none)
     assert markers.opencv is not none
-    arcade.press(Act.RIGHT)
-    page = arcade.shown(PinPage)
-    assert page.sentence == arcade.house.words("hardware.no_opencv")
+    arcade.press(Button.RIGHT)
+    page = arcade.shown(CornerPinPage)
+    assert page.sentence == arcade.context.words("hardware.no_opencv")
     assert page.corners == [0, 0, 1920, 0, 1920, 1080, 0, 1080]
     with pytest.raises(OpenCVMissing):
-        arcade.house.canvas.pin(CornerPin(ASKEW))
-    arcade.house.settings.corners = ASKEW
-    app = App(Options(headless=True), arcade.house, [])
-    assert arcade.house.words("app.pin") in app.notices.waiting
-    assert shown(arcade.house.canvas).get_at((0, 0))[:3] == (255, 255, 255)
+        arcade.context.canvas.pin(CornerPin(ASKEW))
+    arcade.context.settings.corners = ASKEW
+    app = App(Options(headless=True), arcade.context, [])
+    assert arcade.context.words("app.pin") in app.notices.waiting
+    assert shown(arcade.context.canvas).get_at((0, 0))[:3] == (255, 255, 255)
 
 
 def test_a_window_of_another_size_is_pinned_too_and_watchers_see_it(arcade: Arcade) -> None:
-    canvas = arcade.house.canvas
+    canvas = arcade.context.canvas
     seen: list[tuple[int, int]] = []
     canvas.watchers.append(lambda window: seen.append(window.get_size()))
     canvas.pin(CornerPin(ASKEW))
@@ -176,8 +176,8 @@ def test_a_setting_of_corners_that_makes_no_sense_is_said_and_ignored(tmp_path: 
 
 
 def test_corners_into_which_nothing_fits_are_said_at_the_start(arcade: Arcade) -> None:
-    arcade.press(Act.BACK)
-    arcade.house.settings.corners = [0, 0, 1920, 0, 0, 1080, 1920, 1080]
-    app = App(Options(headless=True), arcade.house, [])
-    assert arcade.house.words("app.pin") in app.notices.waiting
-    assert arcade.house.canvas.corners == ()
+    arcade.press(Button.BACK)
+    arcade.context.settings.corners = [0, 0, 1920, 0, 0, 1080, 1920, 1080]
+    app = App(Options(headless=True), arcade.context, [])
+    assert arcade.context.words("app.pin") in app.notices.waiting
+    assert arcade.context.canvas.corners == ()

@@ -12,7 +12,7 @@ pytest.importorskip("cv2")
 from pigaming_app.hardware.calibration.camera_task import SPOT
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.scenes.calibration.drift_page import CheckPage
+from pigaming_app.scenes.calibration.drift_page import DriftPage
 from pigaming_app.scenes.calibration.height_page import DISC
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
@@ -54,9 +54,9 @@ def test_no_sentence_runs_into_the_spot(
     controls: Controls, site: EmulatedCalibrationSite, monkeypatch: pytest.MonkeyPatch, language: str, state: str
 ) -> None:
     arcade = Operated(controls, site)
-    arcade.house.words = Words(language)
+    arcade.context.words = Words(language)
     with measuring(monkeypatch) as screen:
-        page = CheckPage(arcade.house, arcade.site)
+        page = DriftPage(arcade.context, arcade.site)
         for name, value in STATES[state].items():
             setattr(page.work, name, longest(language) if value == "longest" else value)
         page.draw(screen)

@@ -12,7 +12,7 @@ from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
 from pigaming_app.scenes.flow.access import ESCAPE, OWNED, TAKE
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.game_choice import GameChoice
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import HUMAN
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -23,13 +23,23 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import LATE, LEAVE, Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import PLAYSTATION, VirtualPad
 
 RUNNING = 4.0  # seconds until a match runs
 BUTTONS = ("b", "start", "x", "y", "up", "down", "left", "right", "rightshoulder")  # all but FIRE
-EVERY = (Act.BACK, Act.START, Act.EXTRA, Act.ALT, Act.UP, Act.DOWN, Act.LEFT, Act.RIGHT, Act.LEAVE)
+EVERY = (
+    Button.BACK,
+    Button.START,
+    Button.X,
+    Button.Y,
+    Button.UP,
+    Button.DOWN,
+    Button.LEFT,
+    Button.RIGHT,
+    Button.LEAVE_SEAT,
+)
 
 
 @pytest.fixture
@@ -65,7 +75,7 @@ def key(arcade: Arcade, scancode: int, seconds: float = 0.0) -> None:
 
 
 def running(arcade: Arcade, brains: str, devices: list[Device], minutes: float = 3.0) -> MatchScene:
-    match = MatchScene(arcade.house, setup(brains, minutes), devices)
+    match = MatchScene(arcade.context, setup(brains, minutes), devices)
     arcade.open(match)
     arcade.wait(RUNNING)
     return match
@@ -78,10 +88,10 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
     _, first = plug(arcade, pads)
     guest, device = plug(arcade, pads)
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
-    arcade.press(Act.FIRE, first)
-    arcade.press(Act.ALT, first)
+    arcade.press(Button.FIRE, first)
+    arcade.press(Button.Y, first)
     before = [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places]
     for _ in range(3):
         tap(arcade, guest, *BUTTONS[:1], *BUTTONS[2:])
@@ -99,37 +109,37 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
 
 def test_in_a_full_lobby_a_free_pad_hears_only_that_it_is_full(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
     for device in KEYS:
-        arcade.press(Act.FIRE, device)
+        arcade.press(Button.FIRE, device)
     seats = [place.device for place in page.seats.places]
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         page.now.message = ""
         arcade.press(act, Device("pad", 9))
         assert [place.device for place in page.seats.places] == seats
-        if act in (Act.FIRE, Act.START, Act.BACK):
-            assert page.now.message == arcade.house.words("lobby.full")
+        if act in (Button.FIRE, Button.START, Button.BACK):
+            assert page.now.message == arcade.context.words("lobby.full")
 
 
 def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
-    arcade.open(Lobby(arcade.house, "pitanks"))
-    arcade.press(Act.ALT, KEYS[2])
-    arcade.press(Act.ALT, KEYS[3])
-    arcade.press(Act.START, KEYS[1])
-    arcade.shown(SetupPage)
-    arcade.press(Act.BACK, KEYS[3])
+    arcade.open(Lobby(arcade.context, "pitanks"))
+    arcade.press(Button.Y, KEYS[2])
+    arcade.press(Button.Y, KEYS[3])
+    arcade.press(Button.START, KEYS[1])
+    arcade.shown(MatchSetupPage)
+    arcade.press(Button.BACK, KEYS[3])
     arcade.shown(Lobby)
-    arcade.press(Act.BACK, KEYS[0])
+    arcade.press(Button.BACK, KEYS[0])
     assert arcade.stack.top is arcade.title
 
 
 def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Arcade, pads: ExitStack) -> None:
     _, first = plug(arcade, pads)
     arcade.stack.scenes[1:] = []
-    arcade.open(Lobby(arcade.house, "pitanks"))
-    arcade.press(Act.FIRE, first)
+    arcade.open(Lobby(arcade.context, "pitanks"))
+    arcade.press(Button.FIRE, first)
     key(arcade, pygame.KSCAN_ESCAPE, 0.3)
     arcade.shown(Lobby)
     key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
@@ -138,7 +148,7 @@ def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Ar
 
 def test_a_shared_key_counts_for_the_seated_half_of_the_keyboard(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
     key(arcade, pygame.KSCAN_SPACE)
     key(arcade, pygame.KSCAN_SPACE)
@@ -153,8 +163,8 @@ def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arc
     plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
     plug(arcade, pads, plain=True)
     for language, space in (("en", "SPACE"), ("pt", "ESPAÇO")):
-        arcade.house.words.switch(language)
-        page = Lobby(arcade.house, "pitanks")
+        arcade.context.words.switch(language)
+        page = Lobby(arcade.context, "pitanks")
         assert page.page.invited == ("A", "Cross", "1", space, "R CTRL", "U", "0")
         assert len(lobby.card.rows_of(page.page.invited)) == 2, "they fit on a card"
         page.seats.join(xbox)
@@ -163,18 +173,18 @@ def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arc
 
 
 def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     page.seats.join(KEYS[0])
     page.seats.add()
-    scene = SetupPage(arcade.house, "pitanks", page.seats)
+    scene = MatchSetupPage(arcade.context, "pitanks", page.seats)
     arcade.open(scene)
     arcade.wait(1.0)
     before = (scene.chosen, scene.focus.name)
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         arcade.press(act, KEYS[1])
-        assert arcade.shown(SetupPage) is scene
+        assert arcade.shown(MatchSetupPage) is scene
         assert (scene.chosen, scene.focus.name) == before
-    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, KEYS[0])
     arcade.shown(MatchScene)
 
 
@@ -186,8 +196,8 @@ def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack
     guest, _ = plug(arcade, pads)
     match = running(arcade, "human easy off off", [first])
     tap(arcade, guest, *BUTTONS, "a")
-    arcade.press(Act.BACK, KEYS[0])
-    arcade.press(Act.START, KEYS[0])
+    arcade.press(Button.BACK, KEYS[0])
+    arcade.press(Button.START, KEYS[0])
     arcade.frame()
     assert arcade.shown(MatchScene) is match
     assert match.devices == [first, None, None, None]
@@ -220,26 +230,26 @@ def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack)
 
 def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
-    arcade.press(Act.START, KEYS[1])
+    arcade.press(Button.START, KEYS[1])
     page = arcade.shown(Pause)
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         for device in (KEYS[0], KEYS[3]):
             arcade.press(act, device)
             assert arcade.shown(Pause) is page
             assert page.focus.name == "continue"
-    arcade.press(Act.DOWN, KEYS[1])
-    arcade.press(Act.DOWN, KEYS[1])
-    arcade.press(Act.FIRE, KEYS[1])
-    arcade.press(Act.BACK, KEYS[0])
+    arcade.press(Button.DOWN, KEYS[1])
+    arcade.press(Button.DOWN, KEYS[1])
+    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.BACK, KEYS[0])
     arcade.shown(DeviceTable)
     arcade.wait(OWNED + 0.2)
-    arcade.press(Act.BACK, KEYS[3])
+    arcade.press(Button.BACK, KEYS[3])
     arcade.shown(DeviceTable)
-    arcade.press(Act.BACK, KEYS[0])
+    arcade.press(Button.BACK, KEYS[0])
     assert arcade.shown(Pause) is page
-    arcade.press(Act.START, KEYS[3])
+    arcade.press(Button.START, KEYS[3])
     assert arcade.shown(Pause) is page
-    arcade.press(Act.START, KEYS[0])
+    arcade.press(Button.START, KEYS[0])
     assert arcade.stack.top is match
 
 
@@ -249,7 +259,7 @@ def test_f4_of_the_keyboard_shows_thoughts_in_any_match_but_ends_no_pause_of_som
     pad, first = plug(arcade, pads)
     match = running(arcade, "human easy off off", [first])
     key(arcade, pygame.KSCAN_F4)
-    assert match.stage.brain.seats == [1]
+    assert match.runner.brain.seats == [1]
     tap(arcade, pad, "start")
     page = arcade.shown(Pause)
     key(arcade, pygame.KSCAN_F4)
@@ -261,32 +271,32 @@ def test_an_unplugged_pad_owns_no_pause(arcade: Arcade, pads: ExitStack) -> None
     running(arcade, "human human off off", [first, second])
     tap(arcade, two, "start")
     page = arcade.shown(Pause)
-    arcade.press(Act.START, first)
+    arcade.press(Button.START, first)
     assert arcade.shown(Pause) is page
     two.unplug()
     arcade.frame()
-    arcade.press(Act.START, first)
+    arcade.press(Button.START, first)
     assert arcade.stack.top is not page
 
 
 @pytest.mark.parametrize(("name", "downs"), [("restart", 1), ("end", 3)])
 def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None:
     match = running(arcade, "human easy off off", KEYS[:1])
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     page = arcade.shown(Pause)
     for _ in range(downs):
-        arcade.press(Act.DOWN)
+        arcade.press(Button.DOWN)
     assert page.focus.name == name
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.wait(SURE + 0.2, draw=True)
-    arcade.press(Act.FIRE)
-    arcade.press(Act.UP)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.UP)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
     assert arcade.shown(Pause) is page, "time and another item take the question back"
     assert not match.repeated
     assert not match.stopped
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert match.repeated or match.stopped
 
 
@@ -295,11 +305,11 @@ def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None
 
 def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    controls = arcade.house.controls
+    controls = arcade.context.controls
     for _ in range(2):
         pad.tap("a")
     pygame.time.wait(800)
-    assert [press.act for press in controls.presses(pygame.event.get())] == [Act.FIRE, Act.FIRE]
+    assert [event.button for event in controls.presses(pygame.event.get())] == [Button.FIRE, Button.FIRE]
     pygame.time.wait(200)
     assert [controls.drive(device).fire for _ in range(6)] == [True, False, True, False, False, False]
 
@@ -307,13 +317,13 @@ def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads:
 def test_a_tap_of_both_shoulders_in_one_frame_is_the_all_stop(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
     pad.tap("leftshoulder", "rightshoulder")
-    assert [press.act for press in arcade.house.controls.presses(pygame.event.get())] == [Act.STOP]
-    assert [arcade.house.controls.drive(device).turbo for _ in range(2)] == [True, False]
+    assert [event.button for event in arcade.context.controls.presses(pygame.event.get())] == [Button.STOP]
+    assert [arcade.context.controls.drive(device).turbo for _ in range(2)] == [True, False]
 
 
 def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitStack) -> None:
     (pad, device), (_, other) = plug(arcade, pads), plug(arcade, pads)
-    controls = arcade.house.controls
+    controls = arcade.context.controls
     for _ in range(50):
         pad.tap("a")
     controls.presses(pygame.event.get())
@@ -327,7 +337,7 @@ def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitS
 
 def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    match = MatchScene(arcade.house, setup("human easy off off", 1.0), [device])
+    match = MatchScene(arcade.context, setup("human easy off off", 1.0), [device])
     pad.tap("a")
     arcade.frame()
     arcade.open(match)
@@ -356,12 +366,12 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
     arcade.wait(REST - 1.0, fps=20)
-    assert not match.walkoff.asked()
-    arcade.until(lambda: bool(match.walkoff.asked()))
-    assert list(match.walkoff.asked()) == [1]
+    assert not match.idle_seats.asked()
+    arcade.until(lambda: bool(match.idle_seats.asked()))
+    assert list(match.idle_seats.asked()) == [1]
     arcade.stack.top.draw(arcade.screen)
     tap(arcade, two, "x")
-    assert not match.walkoff.asked(), "any button answers"
+    assert not match.idle_seats.asked(), "any button answers"
     arcade.wait(REST + 1.0, fps=20)
     before = match.match.state.tick
     arcade.until(lambda: isinstance(match.match.brains[1], BrainPlayer))
@@ -375,9 +385,9 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
 
 def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.wait(REST + ASK + 5.0, fps=10)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.wait(3.0)
     assert arcade.stack.top is match
     assert match.devices[:2] == KEYS[:2]
@@ -389,7 +399,7 @@ def test_when_all_have_gone_the_match_asks_as_before_and_the_first_press_brings_
     match = running(arcade, "human human off off", KEYS[:2], 5.0)
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.devices[:2] == [None, None]
-    arcade.press(Act.LEFT, KEYS[1])
+    arcade.press(Button.LEFT, KEYS[1])
     assert arcade.stack.top is match
     assert match.devices[:2] == [None, KEYS[1]]
 
@@ -410,7 +420,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
     tap(arcade, guest, "start")
     arcade.shown(Pause)
     match.restart()
-    arcade.press(Act.START, device)
+    arcade.press(Button.START, device)
     arcade.frame()
     again = arcade.shown(MatchScene)
     assert again.devices == [first, None, device, None]
@@ -421,7 +431,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
 
 
 def ended(arcade: Arcade, brains: str, devices: list[Device]) -> Results:
-    match = MatchScene(arcade.house, setup(brains, 0.02), devices, game_choice=game_choice)
+    match = MatchScene(arcade.context, setup(brains, 0.02), devices, game_choice=game_choice)
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, Results))
     return arcade.shown(Results)
@@ -460,7 +470,7 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
     arcade.wait(TAKE + 0.2, draw=True)
     guest.release("a")
     assert results.ballot.votes == {1}
-    arcade.press(Act.FIRE, first)
+    arcade.press(Button.FIRE, first)
     arcade.frame()
     match = arcade.shown(MatchScene)
     assert match.devices[:2] == [first, device]
@@ -470,15 +480,15 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
 def test_change_game_changes_the_game_and_keeps_everybodys_seat(arcade: Arcade) -> None:
     ended(arcade, "human off human hard", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
     arcade.wait(3.0)
-    arcade.press(Act.EXTRA, KEYS[1])
+    arcade.press(Button.X, KEYS[1])
     arcade.shown(Results)
-    arcade.press(Act.EXTRA, KEYS[0])
+    arcade.press(Button.X, KEYS[0])
     page = arcade.shown(GameChoice)
     assert page.focus.name != "pitanks"
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         arcade.press(act, KEYS[1])
     assert arcade.shown(GameChoice) is page
-    arcade.press(Act.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, KEYS[2])
     there = arcade.shown(Lobby)
     assert there.game == "factory"
     assert [place.device for place in there.seats.places] == [KEYS[2], None, KEYS[0], None]
@@ -488,11 +498,11 @@ def test_change_game_changes_the_game_and_keeps_everybodys_seat(arcade: Arcade) 
 
 def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
-    scene = Title(arcade.house)
+    scene = Title(arcade.context)
     arcade.open(scene)
     assert scene.asked == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")
-    assert arcade.house.controls.last == device
+    assert arcade.context.controls.last == device
     assert scene.asked == ("Lab: press {button}", "Cross")
     pad.unplug()
     arcade.frame()
@@ -505,9 +515,13 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
 def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) -> None:
     chance = random.Random(9)
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
-    acts = [act for act in Act if act not in (Act.START, Act.EXTRA, Act.POINT, Act.CLICK, Act.FOUND, Act.LOST)]
+    acts = [
+        act
+        for act in Button
+        if act not in (Button.START, Button.X, Button.POINT, Button.CLICK, Button.FOUND, Button.LOST)
+    ]
     for _ in range(4000):
         arcade.stack.scenes[1:] = [page]
         device, act = chance.choice([*KEYS, Device("pad", 7)]), chance.choice(acts)
@@ -524,20 +538,20 @@ def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) ->
 def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> None:
     chance = random.Random(4)
     arcade.stack.scenes[1:] = []
-    acts = [act for act in Act if act not in (Act.POINT, Act.CLICK, Act.FOUND, Act.LOST)]
+    acts = [act for act in Button if act not in (Button.POINT, Button.CLICK, Button.FOUND, Button.LOST)]
     seen = set()
     for i in range(3000):
         if len(arcade.stack.scenes) == 1:
-            arcade.open(Lobby(arcade.house, ("pitanks", "factory", "race")[i % 3]))
+            arcade.open(Lobby(arcade.context, ("pitanks", "factory", "race")[i % 3]))
         arcade.press(chance.choice(acts), chance.choice([*KEYS, Device("pad", 7)]))
         top = arcade.stack.top
         seen.add(type(top).__name__)
         if isinstance(top, MatchScene):
             driving = [device for device in top.devices if device]
             assert len(driving) == len(set(driving)), "nobody drives two seats"
-            assert Device("pad", 7) not in driving or top.house.controls.connected(Device("pad", 7))
+            assert Device("pad", 7) not in driving or top.context.controls.connected(Device("pad", 7))
             if chance.random() < 0.01:
                 top.stop()
         if i % 4 == 0:
             arcade.stack.turn(arcade.stack.top.update(chance.choice((0.02, 0.05, 0.4))))
-    assert {"Lobby", "SetupPage", "MatchScene", "Pause"} <= seen
+    assert {"Lobby", "MatchSetupPage", "MatchScene", "Pause"} <= seen

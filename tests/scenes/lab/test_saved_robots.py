@@ -7,12 +7,12 @@ import pytest
 
 from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.menu import LabMenu
-from pigaming_app.scenes.lab.name_page import Naming, middle
-from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, Shelf
+from pigaming_app.scenes.lab.name_page import NamePage, middle
+from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -22,7 +22,7 @@ OLD = Path(__file__).parents[2] / "data" / "1.3.0"
 @pytest.fixture
 def arcade(controls: Controls, home: Path) -> Arcade:
     arcade = Arcade(controls)
-    arcade.open(Lab(arcade.house, fast=False))
+    arcade.open(Lab(arcade.context, fast=False))
     arcade.wait(0.5)
     return arcade
 
@@ -32,21 +32,21 @@ def lab(arcade: Arcade) -> Lab:
 
 
 def menu(arcade: Arcade, item: str) -> None:
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(LabMenu).focus.go(item)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.wait(0.5)
 
 
 def save(arcade: Arcade, name: str) -> None:
     """Save the robot under a name, letter by letter."""
     menu(arcade, "save")
-    page = arcade.shown(Naming)
+    page = arcade.shown(NamePage)
     spell(page, name)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
 
 
-def spell(page: Naming, name: str) -> None:
+def spell(page: NamePage, name: str) -> None:
     page.picker.letters = [robots.LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
 
 
@@ -58,7 +58,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
         arcade.shown(LabMenu)
         pad.tap("a")
         arcade.wait(0.5)
-        page = arcade.shown(Naming)
+        page = arcade.shown(NamePage)
         spell(page, "A")
         pad.tap("down")
         arcade.wait(0.1)
@@ -71,18 +71,18 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
         arcade.wait(0.1)
     here = lab(arcade)
     assert here.name == "B9"
-    assert here.sentence == arcade.house.words("lab.saved", name="B9")
+    assert here.sentence == arcade.context.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
-    kept, _ = robots.fetch("B9", fast=False)
+    kept, _ = robots.load_robot("B9", fast=False)
     assert kept.experiences > 0
     here.begin()
     menu(arcade, "open")
-    arcade.shown(Shelf)
-    arcade.press(Act.FIRE)
+    arcade.shown(OpenPage)
+    arcade.press(Button.FIRE)
     assert lab(arcade) is here
-    assert (here.name, here.workshop.training.experiences) == ("B9", kept.experiences)
-    assert digest(here.workshop.training.table) == digest(kept.table)
-    assert here.workshop.recipe == kept.recipe
+    assert (here.name, here.trainer.training.experiences) == ("B9", kept.experiences)
+    assert digest(here.trainer.training.table) == digest(kept.table)
+    assert here.trainer.recipe == kept.recipe
 
 
 def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> None:
@@ -91,10 +91,10 @@ def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> N
     lab(arcade).begin()
     arcade.wait(0.5)
     save(arcade, "VOLT")
-    page = arcade.shown(Naming)
+    page = arcade.shown(NamePage)
     assert page.taken
     assert robots.file_of("VOLT").read_bytes() == before
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert lab(arcade).name == "VOLT"
     assert robots.file_of("VOLT").read_bytes() != before
 
@@ -102,22 +102,22 @@ def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> N
 def test_saving_again_under_the_same_name_needs_no_question(arcade: Arcade) -> None:
     save(arcade, "NEON")
     menu(arcade, "save")
-    assert arcade.shown(Naming).name == "NEON"
-    arcade.press(Act.START)
+    assert arcade.shown(NamePage).name == "NEON"
+    arcade.press(Button.START)
     assert lab(arcade).name == "NEON"
 
 
 def test_no_name_is_no_name(arcade: Arcade) -> None:
     save(arcade, " ")
-    arcade.shown(Naming)
+    arcade.shown(NamePage)
     assert robots.names() == []
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     lab(arcade)
 
 
 def test_a_mouse_spells_too(arcade: Arcade) -> None:
     menu(arcade, "save")
-    page = arcade.shown(Naming)
+    page = arcade.shown(NamePage)
     spell(page, "AB")
     arcade.click(middle(1), 510 + 160)
     assert (page.picker.slot, page.name) == (1, "AC")
@@ -136,13 +136,13 @@ def test_a_disk_that_takes_nothing_is_one_sentence_and_the_robot_lives_on(
     def fail(*_: object) -> None:
         raise OSError(number, "no")
 
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     monkeypatch.setattr("pigaming_app.scenes.lab.table_files.save", fail)
-    experiences = lab(arcade).workshop.training.experiences
+    experiences = lab(arcade).trainer.training.experiences
     save(arcade, "ROBI")
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (True, arcade.house.words(key))
-    assert here.workshop.training.experiences >= experiences > 0
+    assert (here.wrong, here.sentence) == (True, arcade.context.words(key))
+    assert here.trainer.training.experiences >= experiences > 0
     assert here.name == ""
 
 
@@ -150,7 +150,7 @@ def test_a_folder_that_cannot_be_made_is_one_sentence(arcade: Arcade, home: Path
     home.mkdir(exist_ok=True)
     (home / "data").write_text("in the way")
     save(arcade, "ROBI")
-    assert lab(arcade).sentence == arcade.house.words("lab.no_writing")
+    assert lab(arcade).sentence == arcade.context.words("lab.no_writing")
     assert robots.names() == []
 
 
@@ -158,30 +158,30 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     save(arcade, "PIXI")
     path = robots.file_of("PIXI")
     path.write_bytes(path.read_bytes()[:200])
-    before = lab(arcade).workshop.training
+    before = lab(arcade).trainer.training
     menu(arcade, "open")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (True, arcade.house.words("lab.broken"))
-    assert here.workshop.training is before
+    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.broken"))
+    assert here.trainer.training is before
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_a_robot_of_an_older_version_is_opened_and_that_is_said(arcade: Arcade, language: str) -> None:
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     robots.folder().mkdir(parents=True)
     robots.file_of("ROBI").write_bytes((OLD / "ROBI.npz").read_bytes())
     menu(arcade, "open")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (False, arcade.house.words("lab.opened_other", name="ROBI"))
-    assert here.workshop.training.matches >= 2
+    assert (here.wrong, here.sentence) == (False, arcade.context.words("lab.opened_other", name="ROBI"))
+    assert here.trainer.training.matches >= 2
 
 
 def test_an_empty_shelf_leads_back(arcade: Arcade) -> None:
     menu(arcade, "open")
-    arcade.shown(Shelf)
-    arcade.press(Act.FIRE)
+    arcade.shown(OpenPage)
+    arcade.press(Button.FIRE)
     lab(arcade)
 
 
@@ -191,11 +191,11 @@ def test_many_robots_fill_more_than_one_page(arcade: Arcade) -> None:
         robots.file_of(f"R{i}").write_bytes(b"")
     (robots.folder() / "not a name.npz").write_bytes(b"")
     menu(arcade, "open")
-    page = arcade.shown(Shelf)
+    page = arcade.shown(OpenPage)
     assert (len(page.names), page.pages) == (COLUMNS * ROWS + 2, 2)
-    arcade.press(Act.ALT)
-    assert len(arcade.shown(Shelf).focus.spots) == 2
-    arcade.press(Act.BACK)
+    arcade.press(Button.Y)
+    assert len(arcade.shown(OpenPage).focus.spots) == 2
+    arcade.press(Button.BACK)
     lab(arcade)
 
 

@@ -9,15 +9,15 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.match_choice import playable
+from pigaming_app.scenes.flow.match_choice import playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
-from pigaming_app.scenes.lobby.match_setup import SetupPage, rows
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, rows
 from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -29,32 +29,32 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     seats = Seats()
     seats.join(KEYS[0])
     seats.add()
-    arcade.open(SetupPage(arcade.house, "pitanks", seats))
+    arcade.open(MatchSetupPage(arcade.context, "pitanks", seats))
     return arcade
 
 
-def page(arcade: Arcade) -> SetupPage:
-    return arcade.shown(SetupPage)
+def page(arcade: Arcade) -> MatchSetupPage:
+    return arcade.shown(MatchSetupPage)
 
 
 def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
     seen = []
     for _ in arenas("pitanks"):
         seen.append(page(arcade).chosen.arena)
-        arcade.press(Act.RIGHT)
+        arcade.press(Button.RIGHT)
     assert sorted(seen) == sorted(arenas("pitanks"))
     assert page(arcade).chosen.arena == seen[0]
 
 
 def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
-    for act in (Act.RIGHT, Act.DOWN, Act.RIGHT, Act.DOWN, Act.RIGHT):
-        arcade.press(act)
+    for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.RIGHT):
+        arcade.press(button)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, games()["pitanks"].variants[1])
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
     arcade.wait(0.5)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
     assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
@@ -64,10 +64,13 @@ def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp
 
 
 def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
-    arcade.press(Act.DOWN)
-    for act, last in ((Act.RIGHT, max(games()["pitanks"].minutes)), (Act.LEFT, min(games()["pitanks"].minutes))):
+    arcade.press(Button.DOWN)
+    for button, last in (
+        (Button.RIGHT, max(games()["pitanks"].minutes)),
+        (Button.LEFT, min(games()["pitanks"].minutes)),
+    ):
         for _ in range(6):
-            arcade.press(act)
+            arcade.press(button)
         assert page(arcade).chosen.minutes == last
 
 
@@ -99,8 +102,8 @@ def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
 
 
 def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
-    arcade.house.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
-    fresh = SetupPage(arcade.house, "pitanks", Seats())
+    arcade.context.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
+    fresh = MatchSetupPage(arcade.context, "pitanks", Seats())
     rules = games()["pitanks"]
     assert fresh.chosen == Choice("classic", rules.default_minutes, rules.variants[0], 0)
 
@@ -114,7 +117,7 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
     setup.playable.cache_clear()
     setup.load_kept.cache_clear()
     try:
-        assert playable("pitanks") == ("classic",)
+        assert playable_arenas("pitanks") == ("classic",)
     finally:
         setup.playable.cache_clear()
         setup.load_kept.cache_clear()
@@ -126,18 +129,18 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
     seats = Seats(team_mode=rules.team_mode)
     seats.join(KEYS[0])
     seats.fill()
-    arcade.open(SetupPage(arcade.house, game, seats))
-    arcade.press(Act.DOWN)
-    for act, last in ((Act.RIGHT, max(rules.goals)), (Act.LEFT, min(rules.goals))):
+    arcade.open(MatchSetupPage(arcade.context, game, seats))
+    arcade.press(Button.DOWN)
+    for button, last in ((Button.RIGHT, max(rules.goals)), (Button.LEFT, min(rules.goals))):
         for _ in rules.goals:
-            arcade.press(act)
+            arcade.press(button)
         assert page(arcade).chosen.goal == last
     arcade.wait(0.5, draw=True)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert match.setup.goal == min(rules.goals)
-    assert arcade.house.settings.choice("pitanks") == Choice()
-    assert arcade.house.settings.choice(game).goal == min(rules.goals)
+    assert arcade.context.settings.choice("pitanks") == Choice()
+    assert arcade.context.settings.choice(game).goal == min(rules.goals)
 
 
 def test_only_what_can_be_chosen_is_a_row() -> None:

@@ -10,10 +10,10 @@ from pigaming_app.games.registry import games
 from pigaming_app.jobs.replay_files import load, save
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
-from pigaming_app.scenes.title.attract import PAGE, Attract, Demonstration, Page
+from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import Arcade, setup
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.title.test_attract import scores_of
@@ -28,27 +28,29 @@ def arcade(controls: Controls) -> Arcade:
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
     for game in games():
-        scores_of(arcade.house, game)
-    attract = Attract(arcade.house)
+        scores_of(arcade.context, game)
+    attract = Attract(arcade.context)
     arcade.open(attract)
-    assert isinstance(attract.show, Demonstration)
-    assert attract.show.stage.match.setup.minutes <= 2.0
-    arcade.until(lambda: not isinstance(attract.show, Demonstration), 125.0)
+    assert isinstance(attract.show, DemoMatch)
+    assert attract.show.runner.match.setup.minutes <= 2.0
+    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 125.0)
     first = attract.show
-    assert isinstance(first, Page)
+    assert isinstance(first, TimedPage)
     arcade.wait(0.5, draw=True)
     arcade.until(lambda: attract.show is not first, PAGE + 1)
-    assert isinstance(attract.show, Page)
+    assert isinstance(attract.show, TimedPage)
     arcade.wait(0.5, draw=True)
-    arcade.until(lambda: isinstance(attract.show, Demonstration), PAGE + 1)
+    arcade.until(lambda: isinstance(attract.show, DemoMatch), PAGE + 1)
     assert arcade.sounds.heard == [], "nobody is listening"
 
 
-@pytest.mark.parametrize("act", [Act.FIRE, Act.START, Act.LEFT, Act.BACK, Act.POINT, Act.CLICK, Act.FOUND])
-def test_any_input_ends_it(arcade: Arcade, act: Act) -> None:
-    arcade.open(Attract(arcade.house))
+@pytest.mark.parametrize(
+    "act", [Button.FIRE, Button.START, Button.LEFT, Button.BACK, Button.POINT, Button.CLICK, Button.FOUND]
+)
+def test_any_input_ends_it(arcade: Arcade, button: Button) -> None:
+    arcade.open(Attract(arcade.context))
     arcade.wait(0.2, draw=True)
-    arcade.press(act, Device("mouse") if act in (Act.POINT, Act.CLICK) else Device("keys"))
+    arcade.press(button, Device("mouse") if button in (Button.POINT, Button.CLICK) else Device("keys"))
     assert arcade.stack.top is arcade.title
 
 
@@ -62,33 +64,33 @@ def recorded(tmp_path: Path) -> tuple[Path, str]:
 
 
 def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     taken = arcade.until(lambda: scene.ended)
     assert taken == pytest.approx(6.0, abs=0.1)
-    assert digest(scene.stage.match.state) == recorded[1]
+    assert digest(scene.runner.match.state) == recorded[1]
     arcade.shown(ReplayScene)
 
 
 def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     arcade.wait(1.0, draw=True)
-    arcade.press(Act.FIRE)
-    before = scene.stage.match.state.tick
+    arcade.press(Button.FIRE)
+    before = scene.runner.match.state.tick
     arcade.wait(1.0, draw=True)
-    assert scene.stage.match.state.tick == before
-    for act in (Act.FIRE, Act.RIGHT, Act.RIGHT, Act.RIGHT):
-        arcade.press(act)
+    assert scene.runner.match.state.tick == before
+    for button in (Button.FIRE, Button.RIGHT, Button.RIGHT, Button.RIGHT):
+        arcade.press(button)
     arcade.wait(1.0, draw=True)
-    assert scene.stage.match.state.tick - before == pytest.approx(200, abs=5)
-    arcade.press(Act.EXTRA)
-    assert scene.stage.match.state.tick == 0
-    arcade.press(Act.LEFT)
+    assert scene.runner.match.state.tick - before == pytest.approx(200, abs=5)
+    arcade.press(Button.X)
+    assert scene.runner.match.state.tick == 0
+    arcade.press(Button.LEFT)
     arcade.until(lambda: scene.ended)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert not scene.ended
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 
@@ -97,32 +99,32 @@ def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple
 def test_the_bar_of_a_replay_stands_beside_the_arena(
     arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str, paused: bool
 ) -> None:
-    arcade.house.words.switch(language)
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arcade.context.words.switch(language)
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arena = pygame.Rect(160, 136, 1600, 908)
     with measuring(monkeypatch) as screen:
         if paused:
-            scene.on(Press(Act.FIRE, Device("keys")))
-        monkeypatch.setattr(scene.stage, "draw", lambda canvas: canvas.fill("black"))
-        monkeypatch.setattr(scene.stage, "captions", lambda *_: None)
+            scene.on(InputEvent(Button.FIRE, Device("keys")))
+        monkeypatch.setattr(scene.runner, "draw", lambda canvas: canvas.fill("black"))
+        monkeypatch.setattr(scene.runner, "captions", lambda *_: None)
         scene.draw(screen)
         assert len(screen.texts) >= 8, "it is measured"
         assert faults(screen, pygame.Rect(4, 16, 1912, 1048)) == []
         lit = pygame.mask.from_threshold(screen, "black", (12, 12, 12, 255))
         lit.invert()
         assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
-    for act, box in zip(scene.prompts.acts, boxes(scene.prompts.said), strict=True):
-        assert scene.hints.meant(Press(Act.CLICK, Device("mouse"), at=box.center)).act is act
+    for button, box in zip(scene.prompts.buttons, boxes(scene.prompts.said), strict=True):
+        assert scene.hints.as_button(InputEvent(Button.CLICK, Device("mouse"), at=box.center)).button is button
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_a_replay_of_another_engine_plays_with_a_notice(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
-    arcade.house.words.switch(language)
-    scene = ReplayScene(arcade.house, load(OLD / "pitanks.replay"))
+    arcade.context.words.switch(language)
+    scene = ReplayScene(arcade.context, load(OLD / "pitanks.replay"))
     arcade.open(scene)
-    notice = arcade.house.words("replay.other_engine")
+    notice = arcade.context.words("replay.other_engine")
     with measuring(monkeypatch) as screen:
         scene.draw(screen)
         assert notice in [text.text for text in screen.texts]
@@ -135,13 +137,13 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
 
 
 def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(ReplayScene)
     assert scene.prompts.said[0][1] == "Play"
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.until(lambda: scene.ended)
     arcade.shown(ReplayScene)
     assert [text for _, text in scene.prompts.said] == ["From the start", "Back"]

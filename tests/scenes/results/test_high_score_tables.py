@@ -9,12 +9,12 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.high_score_tables import (
     STRONG,
-    boards,
     contest,
     contests,
     counts,
     format_score,
-    older_boards,
+    high_score_tables,
+    older_tables,
 )
 from pigaming_app.storage.scores import Scores, ScoreTable
 
@@ -87,7 +87,7 @@ def test_minutes_count_where_a_match_is_played_for_time_and_the_goal_where_it_is
 
 
 def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
-    first, second = boards(contest(match("human normal off off", game="race", goal=3)))
+    first, second = high_score_tables(contest(match("human normal off off", game="race", goal=3)))
     assert [(one.table.feat, one.table.timed, one.days) for one in (first, second)] == [
         ("lap", True, None),
         ("race", True, None),
@@ -119,4 +119,4 @@ def test_older_tables_come_last_and_show_only_what_they_have():
     new, old = contests(scores)
     assert not new.older
     assert old.older
-    assert [board.table for board in older_boards(old, scores)] == [older]
+    assert [board.table for board in older_tables(old, scores)] == [older]

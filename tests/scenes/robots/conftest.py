@@ -36,5 +36,5 @@ def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
 def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
     """An arcade beside the arena."""
     arcade = Arcade(controls)
-    arcade.house.session = mat
+    arcade.context.session = mat
     return arcade

@@ -6,11 +6,11 @@ from math import hypot
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
-from pigaming_app.scenes.robots.fault_page import Trouble
+from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.start_match import match_of
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import begun, match_for, play, until
@@ -26,12 +26,12 @@ def _as_it_was(mat: EmulatedSession) -> Iterator[None]:
 
 
 def named(arcade: Arcade) -> list[tuple[str, int | None]]:
-    return [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
+    return [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults]
 
 
 def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
     """A match whose robots have yet to take their places."""
-    match = match_of(arcade.house, match_for("pitanks", "normal easy easy easy", 1.0), [], real)
+    match = match_of(arcade.context, match_for("pitanks", "normal easy easy easy", 1.0), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
     return match
@@ -39,7 +39,7 @@ def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
 
 def paired(arcade: Arcade) -> PairAgain:
     """Pair again from the page of the fault; the page, once it has said how that ended."""
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     page = arcade.shown(PairAgain)
     for _ in range(100):
         play(arcade, 0.2)
@@ -54,7 +54,7 @@ def test_a_fault_present_from_the_start_is_named_within_three_seconds(
 ) -> None:
     mat.arena.faults.switch(fault, True, 0)
     gathering(arcade)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
     names = named(arcade)
     assert names
@@ -70,12 +70,12 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
 ) -> None:
     match = begun(arcade)
     mat.arena.faults.switch(fault, True, 0)
-    until(arcade, Trouble, 6.0)
+    until(arcade, FaultPage, 6.0)
     play(arcade, 0.1)
     assert {name for name, _ in named(arcade)} == {"disobeys"}
     mat.arena.faults.switch(fault, False, 0)
     play(arcade, 3.0)
-    arcade.press(Act.ALT)
+    arcade.press(Button.Y)
     until(arcade, RealMatch)
     before = match.match.state.tick
     play(arcade, 2.5)
@@ -87,12 +87,12 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(
 ) -> None:
     match = gathering(arcade)
     mat.arena.faults.switch("lids_swapped", True, 0)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(PairAgain)
     until(arcade, RealMatch, 25.0)
-    assert arcade.house.settings.radios[:2] == [2, 1]
+    assert arcade.context.settings.radios[:2] == [2, 1]
     assert match.gathering is not None
 
 
@@ -100,25 +100,25 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(
 def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcade, mat: EmulatedSession) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
     page = paired(arcade)
     assert page.sentence.startswith("Robot 2 turns the wrong way")
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     play(arcade, 0.5)
     assert ("disobeys", 1) in named(arcade)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     until(arcade, RealMatch)
 
 
 def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedSession) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     play(arcade, 2.0)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     stopped = mat.arena.clock()
     play(arcade, 1.0)
     assert max(mat.arena.ran) - stopped < 0.3
@@ -130,7 +130,7 @@ def test_a_single_reversed_motor_drives_off_only_a_hand_wide_while_pairing(
 ) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motor_reversed", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.5)
     x, y, _ = mat.arena.poses()[1]
     page = paired(arcade)

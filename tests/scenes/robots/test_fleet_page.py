@@ -8,10 +8,10 @@ import pytest
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.scenes.robots.avoid_discs import hit
-from pigaming_app.scenes.robots.fleet_page import RobotsPage
+from pigaming_app.scenes.robots.fleet_page import FleetPage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import Arcade
 
 pytest.importorskip("cv2")
@@ -27,14 +27,14 @@ def mat() -> Iterator[EmulatedSession]:
 @pytest.fixture
 def arcade(controls: Controls, home: Path, mat: EmulatedSession) -> Iterator[Arcade]:
     arcade = Arcade(controls)
-    arcade.house.session = mat
-    arcade.open(RobotsPage(arcade.house))
+    arcade.context.session = mat
+    arcade.open(FleetPage(arcade.context))
     arcade.wait(2.0, fps=50)
     yield arcade
     mat.close()
 
 
-def idle(arcade: Arcade, page: RobotsPage) -> None:
+def idle(arcade: Arcade, page: FleetPage) -> None:
     """Wait until nothing moves any more."""
     for _ in range(60):
         arcade.wait(0.5, fps=50)
@@ -44,13 +44,13 @@ def idle(arcade: Arcade, page: RobotsPage) -> None:
 
 
 def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedSession) -> None:
-    arcade.house.settings.radio = "stock"
-    page = RobotsPage(arcade.house)
+    arcade.context.settings.radio = "stock"
+    page = FleetPage(arcade.context)
     arcade.open(page)
-    arcade.press(Act.UP)
+    arcade.press(Button.UP)
     assert page.focus.name == "radio"
     assert "no deadman" in page._line()
-    arcade.press(Act.LEFT)
+    arcade.press(Button.LEFT)
     assert "no deadman" not in page._line()
 
 
@@ -58,7 +58,7 @@ def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedSession
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
     arcade.wait(4.0, fps=50)
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     heard, _, seen, _ = page.lines[0]
     assert heard.startswith("5.")
     assert "V" in heard
@@ -70,35 +70,35 @@ def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedSession
 
 
 def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSession) -> None:
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     arcade.wait(1.0, fps=20, draw=True)
     assert page.discs is not None
     discs = page.discs.circles({0, 1, 2, 3})
     assert len(discs) == 12
     assert not hit(page.aside.placed, discs)
-    arcade.press(Act.DOWN)
+    arcade.press(Button.DOWN)
     assert page.focus.name == "latency"
     box = page.focus.spots[0].rect
     rows = page.aside.placed[0]
     at = [rows.at[i] + (box.center[i] - rows.home.topleft[i]) * rows.scale for i in (0, 1)]
-    page.on(Press(Act.POINT, Device("mouse"), at=(at[0], at[1])))
+    page.on(InputEvent(Button.POINT, Device("mouse"), at=(at[0], at[1])))
     assert page.focus.name == "pair", "the row is where it is shown"
 
 
 @pytest.mark.long
 def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedSession) -> None:
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     rig = page.check.rig
     assert rig is not None
     one, two = mat.arena.poses()[:2]
     heard = mat.arena.firmwares
     heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot  # each radio sits in the other robot
     try:
-        arcade.press(Act.FIRE)
+        arcade.press(Button.FIRE)
         assert page.check.busy
         idle(arcade, page)
         assert rig.channels[:2] == (1, 0)
-        assert arcade.house.settings.radios == [2, 1, 3, 4]
+        assert arcade.context.settings.radios == [2, 1, 3, 4]
         assert "From now on" in page.navigation.sentence
         assert Settings.load(folders().config)[0].radios == [2, 1, 3, 4]
     finally:
@@ -108,19 +108,19 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedS
 
 
 def test_any_press_stops_what_moves(arcade: Arcade, mat: EmulatedSession) -> None:
-    page = arcade.shown(RobotsPage)
-    arcade.press(Act.FIRE)
+    page = arcade.shown(FleetPage)
+    arcade.press(Button.FIRE)
     arcade.wait(1.2, fps=50)
     assert any(robot.left for robot in mat.arena.robots)
-    arcade.press(Act.BACK)
-    assert arcade.shown(RobotsPage) is page
+    arcade.press(Button.BACK)
+    assert arcade.shown(FleetPage) is page
     arcade.wait(0.3, fps=50)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)
     assert not page.check.busy
 
 
 def test_the_delay_of_the_whole_loop_is_measured(arcade: Arcade) -> None:
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     page.check.begin()
     page.check._todo = [0]
     assert page.check._next()
@@ -134,23 +134,23 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
     controls: Controls, home: Path
 ) -> None:
     arcade = Arcade(controls, "pt")
-    settings = arcade.house.settings
+    settings = arcade.context.settings
     settings.port = "/dev/nowhere"
-    arcade.house.session = mat = RealSession(settings, lambda: "1")
-    arcade.open(RobotsPage(arcade.house))
+    arcade.context.session = mat = RealSession(settings, lambda: "1")
+    arcade.open(FleetPage(arcade.context))
     try:
-        page = arcade.shown(RobotsPage)
+        page = arcade.shown(FleetPage)
         assert "calibra" in page._state()
         arcade.wait(0.5)
         arcade.until(lambda: mat.trouble is not None, 5.0)
         assert "Não há nenhuma porta /dev/nowhere" in str(page._trouble())
-        arcade.press(Act.UP)
-        arcade.press(Act.LEFT)
+        arcade.press(Button.UP)
+        arcade.press(Button.LEFT)
         assert settings.radio == "api2"
-        arcade.press(Act.RIGHT)
+        arcade.press(Button.RIGHT)
         assert settings.radio == "api1"
         assert Settings.load(folders().config)[0].radio == "api1"
         arcade.wait(1.5, draw=True)
     finally:
-        arcade.press(Act.BACK)
-    assert arcade.house.session.trouble is None
+        arcade.press(Button.BACK)
+    assert arcade.context.session.trouble is None

@@ -15,15 +15,15 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
-from pigaming_app.scenes.robots.fault_page import Trouble
+from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
-from pigaming_app.scenes.robots.unavailable import Refused
+from pigaming_app.scenes.robots.unavailable import UnavailablePage
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.cases import one_in
 from tests.hardware.sentences import sentence
 from tests.scenes.arcade import Arcade
@@ -45,7 +45,7 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
     for _ in range(round(seconds * FPS)):
         arcade.frame(1 / FPS, draw=lit)
         if lit:
-            mat = arcade.house.session
+            mat = arcade.context.session
             assert isinstance(mat, EmulatedSession)
             mat.show(lambda: pixels_of(arcade.screen))
 
@@ -61,7 +61,7 @@ def until(arcade: Arcade, kind: type, most: float = 8.0) -> float:
 
 def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealMatch:
     """A match of PiTanks whose robots may begin as they stand, running."""
-    match = match_of(arcade.house, match_for("pitanks", "normal easy off off", minutes), [], real)
+    match = match_of(arcade.context, match_for("pitanks", "normal easy off off", minutes), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
     started(arcade, match)
@@ -71,7 +71,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
 def started(arcade: Arcade, match: RealMatch) -> None:
     """Let the robots begin as they stand, and wait until they drive."""
     play(arcade, 1.0)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     for _ in range(round(5.0 * FPS)):
         if match.match.seconds > 0.5:
             return
@@ -80,7 +80,7 @@ def started(arcade: Arcade, match: RealMatch) -> None:
 
 
 def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedSession) -> None:
-    match = match_of(arcade.house, match_for("pitanks", "easy easy off off", 0.05), [], (0, 1))
+    match = match_of(arcade.context, match_for("pitanks", "easy easy off off", 0.05), [], (0, 1))
     assert isinstance(match, RealMatch)
     starts = [(robot.x, robot.y) for robot in match.match.state.robots[:2]]
     arcade.open(match)
@@ -104,11 +104,11 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
 @pytest.mark.long
 @pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
 def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: str) -> None:
-    match = match_of(arcade.house, match_for(game, "normal easy normal easy", 0.05), [], (0, 2))
+    match = match_of(arcade.context, match_for(game, "normal easy normal easy", 0.05), [], (0, 2))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     until(arcade, Results, 25.0)
     assert match.match.over
 
@@ -133,9 +133,9 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
 ) -> None:
     match = begun(arcade)
     mat.arena.faults.switch(fault, True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
-    page = arcade.shown(Trouble)
+    page = arcade.shown(FaultPage)
     assert page.faults[0].name == says
     assert page.faults[0].robot in (1, None)
     before = match.match.state.tick
@@ -157,18 +157,18 @@ def test_a_match_drives_with_the_drift_that_its_session_measures(arcade: Arcade,
     mat.arena.faults.switch("camera_bumped", True)
     play(arcade, 2.5, lit=True)
     assert match.plant.rig.drift() > PAUSE
-    assert arcade.shown(Trouble).faults[0].name == "drift"
+    assert arcade.shown(FaultPage).faults[0].name == "drift"
     mat.arena.camera.painter.refresh = before
 
 
 def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
-    arcade.press(Act.STOP)
-    arcade.shown(Trouble)
+    arcade.press(Button.STOP)
+    arcade.shown(FaultPage)
     pressed = mat.arena.clock()
     play(arcade, 3.0)
     assert max(mat.arena.ran) - pressed < 0.3
-    assert arcade.shown(Trouble).faults[0].name == "stopped"
+    assert arcade.shown(FaultPage).faults[0].name == "stopped"
     before = match.match.state.tick
     for kind in (pygame.KEYDOWN, pygame.KEYUP):
         pygame.event.post(pygame.Event(kind, key=pygame.K_SPACE, scancode=pygame.KSCAN_SPACE, mod=0))
@@ -185,16 +185,16 @@ def test_both_shoulders_of_a_pad_are_the_all_stop(controls: Controls) -> None:
         heard = []
         for button in ("leftshoulder", "rightshoulder"):
             pad.press(button)
-            heard.append([press.act for press in controls.presses(pygame.event.get())])
-    assert heard == [[], [Act.STOP]]
+            heard.append([event.button for event in controls.presses(pygame.event.get())])
+    assert heard == [[], [Button.STOP]]
 
 
 def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     mat.arena.faults.switch("robot_off", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     until(arcade, RealMatch)
     assert match.real == {0}
     before, x = match.match.state.tick, match.match.state.robots[1].x
@@ -206,19 +206,19 @@ def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade
 @pytest.mark.long
 def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(arcade: Arcade) -> None:
     match = begun(arcade, real=(0,))
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(Pause)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
     page = arcade.shown(SwapPage)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
     assert page.wanted == {0: True, 1: True}
-    arcade.press(Act.BACK)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
+    arcade.press(Button.BACK)
     assert arcade.shown(RealMatch).gathering is not None
     play(arcade, 1.0)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert match.plant.real == {0, 1}
     play(arcade, 4.5)
     assert match.gathering is None
@@ -244,10 +244,10 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
     begun(arcade)
     body = mat.arena.robots[1]
     before, body.battery = body.battery, 3.95
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     body.battery = 4.2  # cells recover at rest; the robot still refuses its motors
     play(arcade, 3.0)
-    assert [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults] == [("empty", 1)]
+    assert [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults] == [("empty", 1)]
     body.battery = 4.45
     until(arcade, RealMatch, 2.0)
     body.battery = before
@@ -262,9 +262,9 @@ def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     monkeypatch.setattr(mat.arena.firmwares[1], "_obey", lambda packet, now: None)
     play(arcade, 0.6)
     assert match.notice is not None
-    until(arcade, Trouble, 2.0)
+    until(arcade, FaultPage, 2.0)
     play(arcade, 1.0)
-    assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
+    assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults]
     assert caplog.text.count("Robot 2 has stopped by itself") == 1
     monkeypatch.undo()
     until(arcade, RealMatch, 2.0)
@@ -286,11 +286,11 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedSession) -
 def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.faults.switch("marker_covered", True, 1)
     mat.arena.faults.switch("robot_off", True, 2)
-    match = match_of(arcade.house, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
+    match = match_of(arcade.context, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 2.5, lit=True)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     assert match.real == {0}
     assert match.gathering is not None
     for _ in range(60):
@@ -317,17 +317,17 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedSes
     """Nor is one begun again, where the radio was changed meanwhile."""
     if again:
         match = begun(arcade)
-        arcade.house.settings.radio = "stock"
+        arcade.context.settings.radio = "stock"
         match.restart()
         play(arcade, 0.1)
     else:
-        arcade.house.settings.radio = "stock"
-        arcade.open(match_of(arcade.house, match_for("race", "normal easy off off", 0.1), [], (0,)))
-    page = arcade.shown(Refused)
+        arcade.context.settings.radio = "stock"
+        arcade.open(match_of(arcade.context, match_for("race", "normal easy off off", 0.1), [], (0,)))
+    page = arcade.shown(UnavailablePage)
     assert "no deadman" in sentence(page.message)
     arcade.frame(draw=True)
-    arcade.press(Act.EXTRA)
-    assert "no deadman" in sentence(arcade.shown(Refused).message)
+    arcade.press(Button.X)
+    assert "no deadman" in sentence(arcade.shown(UnavailablePage).message)
     assert mat._rig is None
     mat.arena.advance(0.3)
     assert mat.arena.clock() - max(mat.arena.ran) > 0.2
@@ -340,9 +340,9 @@ def test_what_cannot_be_used_is_said_and_simulated_robots_play(
         raise RobotsUnavailable(OperatorMessage("no_camera", number=3))
 
     monkeypatch.setattr(mat, "open", missing)
-    page = match_of(arcade.house, match_for("pitanks", "normal easy off off", 0.1), [], (0,))
-    assert isinstance(page, Refused)
+    page = match_of(arcade.context, match_for("pitanks", "normal easy off off", 0.1), [], (0,))
+    assert isinstance(page, UnavailablePage)
     arcade.open(page)
-    assert sentence(arcade.shown(Refused).message) == "There is no camera 3: plug one in."
-    arcade.press(Act.FIRE)
+    assert sentence(arcade.shown(UnavailablePage).message) == "There is no camera 3: plug one in."
+    arcade.press(Button.FIRE)
     assert type(arcade.shown(MatchScene)) is MatchScene

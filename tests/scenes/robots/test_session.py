@@ -9,13 +9,13 @@ import pytest
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Turn
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from tests.cases import one_in
 from tests.hardware.session.opened import HERE, calibrate, real_mat, soon, threads
 from tests.scenes.arcade import Arcade
@@ -28,9 +28,9 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
 ) -> None:
     calibrate(HERE)
     arcade = Arcade(controls, "pt")
-    arcade.house.session = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
+    arcade.context.session = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
-    match = match_of(arcade.house, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
+    match = match_of(arcade.context, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
     assert isinstance(match, RealMatch)
     arcade.open(match)
 
@@ -41,7 +41,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
     try:
         assert soon(told)
         assert {fault.name for fault in match.plant.faults} >= {"radio", "camera"}
-        arcade.press(Act.EXTRA)
+        arcade.press(Button.X)
         arcade.wait(6.0)
         assert match.match.seconds > 1.0
     finally:
@@ -58,30 +58,30 @@ class Failing(RealMatch):
             raise RuntimeError("on purpose")
         return turn
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
 
 @pytest.mark.parametrize("alone", one_in(2, [True, False]))
 def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, alone: bool) -> None:
-    houses: list[House] = []
+    contexts: list[Context] = []
 
-    def first(house: House) -> RealMatch:
-        houses.append(house)
-        assert isinstance(house.session, EmulatedSession)
+    def first(context: Context) -> RealMatch:
+        contexts.append(context)
+        assert isinstance(context.session, EmulatedSession)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
         return Failing(
-            house,
+            context,
             Setup("pitanks", "classic", seats, 0.1, 3, "plain"),
             [],
             (0, 1),
-            house.session,
-            partial(match_of, house),
+            context.session,
+            partial(match_of, context),
         )
 
     code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
     assert code == int(alone)
-    mat = houses[0].mat
+    mat = contexts[0].mat
     assert isinstance(mat, EmulatedSession)
     mat.arena.advance(0.1)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)

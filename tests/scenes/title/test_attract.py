@@ -7,12 +7,12 @@ import pytest
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.scenes.howto.scene import HowTo
-from pigaming_app.scenes.results.high_score_tables import boards
-from pigaming_app.scenes.results.high_scores import Best
-from pigaming_app.scenes.title.attract import Attract, Demonstration, Page
+from pigaming_app.scenes.results.high_score_tables import high_score_tables
+from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.title.attract import Attract, DemoMatch, TimedPage
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
@@ -28,7 +28,7 @@ FASTEST = 0.08  # s of a frame in which a match still runs at full speed
 @pytest.mark.parametrize("game", LESSONS)
 def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls, game: str, language: str) -> None:
     arcade = Arcade(controls, language)
-    lesson = HowTo(arcade.house, game)
+    lesson = HowTo(arcade.context, game)
     frames = set()
     for _ in range(round(LONGEST / PHASES)):
         lesson.update(PHASES)
@@ -49,10 +49,10 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
         follow(attract)
         shown.append(named(attract.show))
 
-    def first(house: House) -> Attract:
+    def first(context: Context) -> Attract:
         for game in games():
-            scores_of(house, game)
-        return Attract(house)
+            scores_of(context, game)
+        return Attract(context)
 
     monkeypatch.setattr(Attract, "_next", noted)
     chosen = {"language": language}
@@ -62,7 +62,7 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
     )
     assert run(options) == 0
     assert "a scene failed" not in (home / "data" / "pigaming.log").read_text()
-    assert shown[:3] == [(kind, shown[0][1]) for kind in ("Demonstration", "HowTo", "Best")]
+    assert shown[:3] == [(kind, shown[0][1]) for kind in ("DemoMatch", "HowTo", "HighScores")]
     assert {game for _, game in shown} == set(games())
     assert len(set(shown)) == whole - 1
     assert shown[-1] == shown[0], "and round again"
@@ -70,16 +70,16 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
 
 def named(show: object) -> tuple[str, str]:
     """What is shown, and of which game."""
-    if isinstance(show, Page):
-        assert isinstance(show.page, HowTo | Best)
+    if isinstance(show, TimedPage):
+        assert isinstance(show.page, HowTo | HighScores)
         return type(show.page).__name__, show.page.game
-    assert isinstance(show, Demonstration)
-    return "Demonstration", show.stage.match.setup.game
+    assert isinstance(show, DemoMatch)
+    return "DemoMatch", show.runner.match.setup.game
 
 
-def scores_of(house: House, game: str) -> None:
+def scores_of(context: Context, game: str) -> None:
     """Somebody has scored in a game's first arena."""
     rules = games()[game]
     contest = ScoreTable(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
-    for board in boards(contest):
-        house.scores.add(board.table, "ABC", 9)
+    for board in high_score_tables(contest):
+        context.scores.add(board.table, "ABC", 9)

@@ -15,7 +15,7 @@ from pigaming_app.scenes.title.kiosk_unlock import HOLD
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
@@ -25,8 +25,8 @@ from tests.ui.input.virtual_pad import VirtualPad
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.stack = Stack(Title(arcade.context))
     return arcade
 
 
@@ -35,9 +35,9 @@ def title(arcade: Arcade) -> Title:
 
 
 def test_fire_opens_the_lobby_of_the_game_and_back_returns(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.shown(Lobby).game == "pitanks"
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     title(arcade)
 
 
@@ -45,48 +45,48 @@ def test_the_row_below_leads_to_how_to_play_options_and_out(arcade: Arcade) -> N
     for name, kind in (("howto", HowTo), ("options", OptionsPage)):
         arcade.click(*title(arcade).focus.rect(name).center)
         arcade.shown(kind)
-        arcade.press(Act.BACK)
+        arcade.press(Button.BACK)
     arcade.click(*title(arcade).focus.rect("quit").center)
     assert arcade.stack.scenes == []
 
 
 def test_in_a_kiosk_nobody_can_quit(arcade: Arcade) -> None:
-    arcade.house.kiosk = True
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.context.kiosk = True
+    arcade.stack = Stack(Title(arcade.context))
     assert "quit" not in [spot.name for spot in title(arcade).focus.spots]
 
 
 def test_one_press_changes_the_language(arcade: Arcade) -> None:
-    arcade.press(Act.ALT)
-    assert (arcade.house.words.language, arcade.house.settings.language) == ("pt", "pt")
+    arcade.press(Button.Y)
+    assert (arcade.context.words.language, arcade.context.settings.language) == ("pt", "pt")
     arcade.click(*title(arcade).focus.rect("en").center)
-    assert arcade.house.words.language == "en"
+    assert arcade.context.words.language == "en"
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_nothing_on_the_title_lies_on_something_else(arcade: Arcade, language: str) -> None:
-    arcade.house.words.switch(language)
-    spots = Title(arcade.house).focus.spots
+    arcade.context.words.switch(language)
+    spots = Title(arcade.context).focus.spots
     safe = pygame.Rect(96, 54, 1728, 972)
     assert all(safe.contains(spot.rect) for spot in spots)
     assert not [(a.name, b.name) for a, b in combinations(spots, 2) if a.rect.colliderect(b.rect)]
 
 
 def test_when_nobody_is_there_a_match_begins_and_any_press_ends_it(arcade: Arcade) -> None:
-    arcade.house.settings.attract_seconds = 10.0
-    arcade.house.idle = 9.9
+    arcade.context.settings.attract_seconds = 10.0
+    arcade.context.idle = 9.9
     arcade.frame()
     title(arcade)
-    arcade.house.idle = 10.1
+    arcade.context.idle = 10.1
     arcade.frame()
     assert isinstance(arcade.stack.top, Attract)
-    arcade.press(Act.DOWN)
+    arcade.press(Button.DOWN)
     title(arcade)
-    assert arcade.house.idle == 0.0
+    assert arcade.context.idle == 0.0
 
 
 def test_an_operator_holds_ahead_and_turbo_for_long_and_a_child_does_not(arcade: Arcade) -> None:
-    arcade.house.kiosk = True
+    arcade.context.kiosk = True
     with VirtualPad() as pad:
         arcade.wait(0.1)
         pad.stick(0.0, -1.0)

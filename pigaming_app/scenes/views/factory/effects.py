@@ -1,4 +1,4 @@
-"""What a happening of Robot Factory looks and sounds like."""
+"""What an event of Robot Factory looks and sounds like."""
 
 from collections.abc import Iterable
 
@@ -13,17 +13,17 @@ from pigaming_app.scenes.views.factory.events import (
     SPOILED,
     STARTED,
     THAWED,
-    Happening,
+    FactoryEvent,
 )
-from pigaming_app.scenes.views.particles import Moments
+from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
-from pigaming_app.scenes.views.view import Heard, Taste
+from pigaming_app.scenes.views.view import Heard, ViewOptions
 from pigaming_app.ui.draw import ALARM
 
 POP = 0.12  # seconds in which a crate that was moved snaps to its size
 
 
-class Popping:
+class CratePops:
     """Crates that have just been lifted or set down are a little larger for a moment."""
 
     def __init__(self) -> None:
@@ -40,32 +40,32 @@ class Popping:
 
 
 def react(
-    happenings: Iterable[Happening], state: Factory, moments: Moments, popping: Popping, taste: Taste
+    events: Iterable[FactoryEvent], state: Factory, particles: Particles, popping: CratePops, options: ViewOptions
 ) -> list[Heard]:
     """Put what happened into the air; answers what is heard of it."""
     heard: list[Heard] = []
-    for one in happenings:
+    for one in events:
         x, y = LEFT + one.x, TOP + one.y
         if one.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
-            popping.begin(one.what, moments.clock)
+            popping.begin(one.what, particles.clock)
         match one.kind:
             case "delivered":
                 color = TEAMS[state.pallets[one.what].team]
-                moments.burst(x, y, color, 30, 30, 120)
-                if taste.flashes != "off":
-                    moments.shock(x, y, color)
-                if taste.flashes == "full":
-                    moments.glow(x, y, color)
+                particles.burst(x, y, color, 30, 30, 120)
+                if options.flashes != "off":
+                    particles.shock(x, y, color)
+                if options.flashes == "full":
+                    particles.glow(x, y, color)
                 if one.player is not None:
-                    moments.score(x, y - 70, "+1", one.player)
+                    particles.score(x, y - 70, "+1", one.player)
             case "spoiled":
-                moments.burst(x, y, ALARM, 24, 26, 100)
-                if taste.flashes == "full" and taste.shake:
-                    moments.shake()
+                particles.burst(x, y, ALARM, 24, 26, 100)
+                if options.flashes == "full" and options.shake:
+                    particles.shake()
             case "machine_done":
-                moments.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)
+                particles.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)
             case "freeze":
-                moments.burst(x, y, ALARM, 16, 50, 70)
+                particles.burst(x, y, ALARM, 16, 50, 70)
             case _:
                 pass
         if one.kind not in (THAWED, STARTED):

@@ -13,7 +13,7 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.pitanks.state import POWERS
-from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud_parts import EDGE, WIDE, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.scenes.views.sprites.pickups import small_icon
@@ -28,9 +28,9 @@ from pigaming_app.ui.draw import (
     SUB,
     THIN,
     WHITE,
-    Ink,
+    GlowCanvas,
     badge,
-    cut,
+    cut_box,
     dim,
     icon,
     mix,
@@ -44,7 +44,7 @@ CELL = 17.75  # px from one cell of the turbo bar to the next
 
 
 @dataclass(frozen=True)
-class Slot:
+class SeatPanel:
     """The panel of a seat."""
 
     seat: int
@@ -53,44 +53,44 @@ class Slot:
 
 
 @dataclass(frozen=True)
-class Sum:
+class TeamPanel:
     """The box with a team's points; `mates`: the slots linked to it."""
 
     team: int
     x: int
-    mates: tuple[Slot, ...]
+    mates: tuple[SeatPanel, ...]
 
 
-def layout(robots: Any) -> tuple[list[Slot], list[Sum]]:
+def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
     """Where the panels stand, and the sums of two teams. Absent seats have no panel."""
     seats = [i for i, robot in enumerate(robots) if robot.present]
     teams = list(dict.fromkeys(robots[i].team for i in seats))
     if len(teams) != 2 or len(seats) == 2:
         places = XS.get(len(seats), ())
-        return [Slot(seat, x, WIDE) for seat, x in zip(seats, places, strict=False)], []
-    slots: list[Slot] = []
-    sums: list[Sum] = []
+        return [SeatPanel(seat, x, WIDE) for seat, x in zip(seats, places, strict=False)], []
+    slots: list[SeatPanel] = []
+    sums: list[TeamPanel] = []
     for side, team in enumerate(teams):
         members = [i for i in seats if robots[i].team == team]
         w = min(WIDE, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
         total = len(members) * w + 8 * (len(members) - 1)
         first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
-        mates = tuple(Slot(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
+        mates = tuple(SeatPanel(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
         slots += mates
-        sums.append(Sum(team, 692 if side == 0 else 1112, mates))
+        sums.append(TeamPanel(team, 692 if side == 0 else 1112, mates))
     return slots, sums
 
 
-class Hud:
+class PiTanksHud:
     """Keeps the ground saying what the match says. `players`: who sits where; names in BRAINS are marked as AI."""
 
-    def __init__(self, ground: Ground, state: Any, players: list[str]) -> None:
-        self.ground, self.players = ground, players
+    def __init__(self, background: Background, state: Any, players: list[str]) -> None:
+        self.background, self.players = background, players
         self.slots, self.sums = layout(state.robots)
-        self.parts = HudParts(ground)
+        self.parts = HudParts(background)
         self.points: dict[int, int] = {}
 
-    def show(self, state: Any) -> list[Slot]:
+    def show(self, state: Any) -> list[SeatPanel]:
         """Bake what has changed; answers the panels whose points have."""
         points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
         totals = {one.team: sum(points[slot.seat] for slot in one.mates) for one in self.sums}
@@ -124,16 +124,16 @@ class Hud:
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]
 
-    def _bake_sum(self, one: Sum, points: int, leads: bool) -> None:
+    def _bake_sum(self, one: TeamPanel, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")
         size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
         bits: list[Bit] = [(sum_frame(leads, one is self.sums[1]), (one.x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, one.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
-        self.ground.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
+        self.background.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
         inner = one.x - 12 if one.x < 960 else one.x + SUM_W
         gaps = [inner, *(slot.x + slot.w for slot in one.mates[:-1])]
         for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
-            self.ground.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
+            self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
 
 
 def _ahead(points: dict[int, int]) -> int | None:
@@ -156,7 +156,7 @@ def _powers(state: Any, seat: int) -> tuple[tuple[int, int], ...]:
 
 
 def panel_bits(
-    slot: Slot, score: int, leads: bool, ai: bool, turbo: int | None, powers: tuple[tuple[int, int], ...]
+    slot: SeatPanel, score: int, leads: bool, ai: bool, turbo: int | None, powers: tuple[tuple[int, int], ...]
 ) -> list[Bit]:
     """The pieces of a panel."""
     x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
@@ -180,17 +180,17 @@ def panel_bits(
 @cached
 def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, the leader's crown and the sign of an AI."""
-    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
-    outline = cut(0, 0, w, H)
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    outline = cut_box(0, 0, w, H)
     if leads:
         ink.fill(outline, dim(color, 0.14))
     ink.line(outline, color, LINE if leads else THIN, True)
     badge(ink, player, 44, 38 if turbo else H / 2, 24)
     if leads:
-        ink.solid(cut(22, -22, 44, 32, 4))
+        ink.solid(cut_box(22, -22, 44, 32, 4))
         icon(ink, "crown", 44, -6, 16, color, THIN)
     if ai:
-        ink.solid(cut(100, -22, 48, 34, 4))
+        ink.solid(cut_box(100, -22, 48, 34, 4))
         icon(ink, "ai", 124, -4, 18, mix(color, WHITE, 0.5), 3)
     return ink.lit(0.7)
 
@@ -198,8 +198,8 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
 @cached
 def pulse(player: int, w: int) -> tuple[Sprite, ...]:
     """A panel that lights up when its points change, and how that fades; from its upper left corner."""
-    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
-    ink.fill(cut(0, 0, w, H), dim(color, 0.24))
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    ink.fill(cut_box(0, 0, w, H), dim(color, 0.24))
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
@@ -207,7 +207,7 @@ def pulse(player: int, w: int) -> tuple[Sprite, ...]:
 @cached
 def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
     """The cells of a turbo meter, all lit or all dark."""
-    ink = Ink(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
     for i in range(int((w - 32) / CELL + 0.01)):
         x = i * CELL
         cell = [(x + 3, 0), (x + 16, 0), (x + 13, 10), (x, 10)]
@@ -218,14 +218,14 @@ def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
 @cached
 def sum_frame(leads: bool, second: bool) -> pygame.Surface:
     """The box of a team's sum, with the bars that its robots wear: one, or two for the second team."""
-    ink = Ink(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     if leads:
-        ink.fill(cut(0, 0, SUM_W, H), dim(ICE, 0.10))
-    ink.line(cut(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
+        ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
+    ink.line(cut_box(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
     for a, b in ((-24, -5), (5, 24)) if second else ((-18, 18),):
         ink.line([(SUM_W / 2 + a, H - 13), (SUM_W / 2 + b, H - 13)], ICE, THIN)
     if leads:
-        ink.solid(cut(SUM_W / 2 - 22, -22, 44, 36, 4))
+        ink.solid(cut_box(SUM_W / 2 - 22, -22, 44, 36, 4))
         icon(ink, "crown", SUM_W / 2, -4, 16, ICE, THIN)
     return ink.lit(0.7)
 
@@ -233,7 +233,7 @@ def sum_frame(leads: bool, second: bool) -> pygame.Surface:
 @cached
 def link() -> pygame.Surface:
     """Two short bars between panels that belong together."""
-    ink = Ink(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     for y in (30, 62):
         ink.line([(-6, y), (18, y)], MIST, LINE)
     return ink.plain()

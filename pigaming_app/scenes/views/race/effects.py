@@ -1,4 +1,4 @@
-"""What a happening of a race looks and sounds like, and the words and times that rise over robots."""
+"""What an event of a race looks and sounds like, and the words and times that rise over robots."""
 
 import math
 from collections.abc import Sequence
@@ -6,17 +6,18 @@ from typing import NamedTuple
 
 from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.particles import MOST, Moments, Particle
+from pigaming_app.scenes.views.particles import MOST, Particle, Particles
 from pigaming_app.scenes.views.race import sprites as race_signs
-from pigaming_app.scenes.views.race.events import Happening
+from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
-from pigaming_app.scenes.views.view import Heard, Pose, Taste, Words, decimal
+from pigaming_app.scenes.views.view import Heard, Pose, ViewOptions, decimal
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
 from pigaming_app.ui.draw.text import glyph, number_width
+from pigaming_app.ui.i18n import Words
 
 SOUNDS = {
     "finish": "finish",
@@ -34,7 +35,7 @@ OVER = 70.0  # px from a robot to what rises
 HIGH = 76.0  # px from one that rises to another over it
 
 
-class Note(NamedTuple):
+class Announcement(NamedTuple):
     """Rises over the robot of a seat: a sprite, or a number after a star if it is the best."""
 
     born: float
@@ -44,15 +45,15 @@ class Note(NamedTuple):
     color: Color
 
 
-class Notes:
+class Announcements:
     """All that rises at the moment; what would lie over another stands above it."""
 
     def __init__(self) -> None:
-        self.notes: list[Note] = []
+        self.notes: list[Announcement] = []
 
     def say(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
         """Let something rise over a robot."""
-        self.notes.append(Note(now, seat, sprite, text, color))
+        self.notes.append(Announcement(now, seat, sprite, text, color))
 
     def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
         """Add what has not gone yet; over those who wear a sign, nothing."""
@@ -73,7 +74,7 @@ class Notes:
                 _number(light, note, x, y)
 
 
-def _number(light: Batch, note: Note, x: float, y: float) -> None:
+def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
     wide = number_width(note.text, SUB)
     if note.color == FOCUS:
         put(light, race_signs.gold_star(), x - wide / 2 - 12, y)
@@ -85,28 +86,28 @@ def _number(light: Batch, note: Note, x: float, y: float) -> None:
         x += advance
 
 
-def heard(happenings: Sequence[Happening], state: Race) -> list[Heard]:
+def heard(events: Sequence[RaceEvent], state: Race) -> list[Heard]:
     """What is heard: of every robot only what matters most."""
     loudest: dict[int, str] = {}
-    for one in happenings:
+    for one in events:
         if one.kind in SOUNDS:
             loudest[one.seat] = min(loudest.get(one.seat, one.kind), one.kind, key=BY_WEIGHT.index)
     return [(SOUNDS[kind], seat, state.robots[seat].x) for seat, kind in loudest.items()]
 
 
-class Reactions:
+class RaceEffects:
     """Puts what happened into the air."""
 
-    def __init__(self, moments: Moments, notes: Notes, taste: Taste, words: Words | None) -> None:
-        self.moments, self.notes, self.taste, self.words = moments, notes, taste, words
+    def __init__(self, particles: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
+        self.particles, self.notes, self.options, self.words = particles, notes, options, words
 
-    def show(self, one: Happening, state: Race, golden: Delta | None) -> None:
-        """Show one happening; `golden`: what the racer is away from the best lap ever."""
-        moments, robot, racer = self.moments, state.robots[one.seat], state.racers[one.seat]
+    def show(self, one: RaceEvent, state: Race, golden: Delta | None) -> None:
+        """Show one event; `golden`: what the racer is away from the best lap ever."""
+        particles, robot, racer = self.particles, state.robots[one.seat], state.racers[one.seat]
         x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[one.seat]
         match one.kind:
             case "line":
-                moments.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
+                particles.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
                 if int(one.number) != one.seat:
                     self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
             case "lap" if not racer.finished:
@@ -114,33 +115,33 @@ class Reactions:
             case "best":
                 if not racer.finished:
                     self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), FOCUS)
-                moments.burst(x, y, FOCUS, 16, 44, 80)
+                particles.burst(x, y, FOCUS, 16, 44, 80)
             case "last_lap" if self.words:
                 self._say(one.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
             case "missed" | "void":
-                moments.burst(x, y, ALARM, 12, 44, 60)
+                particles.burst(x, y, ALARM, 12, 44, 60)
             case "mud":
-                spray(moments, x, y, 0.0, 9, 3.2)
+                spray(particles, x, y, 0.0, 9, 3.2)
             case "finish":
                 self.celebrate(x, y, color)
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
         """A chequered cloud."""
-        moments = self.moments
+        particles = self.particles
         for tone in (color, WHITE):
-            for _ in range(min(22, MOST - len(moments.particles))):
-                _fly(moments, x, y, 210.0, race_signs.confetti(tone, moments.random.randrange(4)), 1.3)
-        moments.burst(x, y, FOCUS, 14, 46, 130)
-        if self.taste.flashes != "off":
-            moments.shock(x, y, color)
-        if self.taste.flashes == "full":
-            moments.glow(x, y, color)
+            for _ in range(min(22, MOST - len(particles.particles))):
+                _fly(particles, x, y, 210.0, race_signs.confetti(tone, particles.random.randrange(4)), 1.3)
+        particles.burst(x, y, FOCUS, 14, 46, 130)
+        if self.options.flashes != "off":
+            particles.shock(x, y, color)
+        if self.options.flashes == "full":
+            particles.glow(x, y, color)
 
     def record(self, x: float, y: float) -> None:
         """The best lap ever on this track."""
-        self.moments.burst(x, y, FOCUS, 40, 46, 150)
-        if self.taste.flashes != "off":
-            self.moments.shock(x, y, FOCUS)
+        self.particles.burst(x, y, FOCUS, 40, 46, 150)
+        if self.options.flashes != "off":
+            self.particles.shock(x, y, FOCUS)
 
     def _difference(self, seat: int, delta: float | None, golden: Delta | None) -> None:
         if delta is not None:
@@ -149,18 +150,18 @@ class Reactions:
             self._say(seat, decimal(self.words, signed(golden[0])), FOCUS)
 
     def _say(self, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
-        self.notes.say(self.moments.clock, seat, text, color, sprite)
+        self.notes.say(self.particles.clock, seat, text, color, sprite)
 
 
-def spray(moments: Moments, x: float, y: float, heading: float, count: int, spread: float) -> None:
+def spray(particles: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
     """Clods that fly up behind wheels."""
-    for _ in range(min(count, MOST - len(moments.particles))):
-        frames = race_signs.clods(moments.random.choice(race_signs.CLODS))
-        _fly(moments, x, y, 70.0, frames, 0.6, heading, spread)
+    for _ in range(min(count, MOST - len(particles.particles))):
+        frames = race_signs.clods(particles.random.choice(race_signs.CLODS))
+        _fly(particles, x, y, 70.0, frames, 0.6, heading, spread)
 
 
 def _fly(
-    moments: Moments,
+    particles: Particles,
     x: float,
     y: float,
     reach: float,
@@ -169,7 +170,7 @@ def _fly(
     heading: float = 0.0,
     spread: float = 3.2,
 ) -> None:
-    a = heading + moments.random.uniform(-spread, spread)
-    c, s, far = math.cos(a), math.sin(a), reach * moments.random.uniform(0.3, 1.0)
-    life *= moments.random.uniform(0.6, 1.0)
-    moments.particles.append(Particle(moments.clock, life, x + 34 * c, y + 34 * s, far * c, far * s, frames))
+    a = heading + particles.random.uniform(-spread, spread)
+    c, s, far = math.cos(a), math.sin(a), reach * particles.random.uniform(0.3, 1.0)
+    life *= particles.random.uniform(0.6, 1.0)
+    particles.particles.append(Particle(particles.clock, life, x + 34 * c, y + 34 * s, far * c, far * s, frames))
