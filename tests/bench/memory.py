@@ -37,7 +37,7 @@ def main(arguments: Sequence[str]) -> int:
         return soak(round(seconds * 30), 1 / 30, lambda: None, ATTRACT_MB)
     count, seed = (int(number) for number in (*numbers, *("200000", "1")[len(numbers) :]))
     rng = random.Random(seed)
-    return soak(count // A_FRAME, 1 / 20, lambda: event(rng, A_FRAME), PRESSES_MB)
+    return soak(count // A_FRAME, 1 / 20, lambda: press(rng, A_FRAME), PRESSES_MB)
 
 
 def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int:

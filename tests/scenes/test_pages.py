@@ -117,7 +117,7 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
 
     true_size = texts.fit_size
     for module in (card, choice, dials, gadgets, game_tile, howto, page, player_card, texts):
-        monkeypatch.setattr(module, "fitted", measured)
+        monkeypatch.setattr(module, "fit_size", measured)
     surfaces.clear()
     scene = top(arcade, name)
     walk(arcade, scene)

@@ -45,7 +45,7 @@ log = logging.getLogger("pigaming")
 
 
 class FleetPage:
-    """The page of a house whose mat may be used."""
+    """The page, where robots may be used."""
 
     def __init__(self, context: Context) -> None:
         assert context.session is not None

@@ -282,7 +282,7 @@ def attract(walker: TourWalker) -> None:
     for _ in range(3 * len(games())):
         show = walker.top.show
         walker.wait(4.0)
-        if hasattr(show, "stage"):
+        if hasattr(show, "runner"):
             state = show.runner.match.state
             state.rules.ticks = min(state.rules.ticks, state.tick + HZ)
         walker.until(partial(other_show, walker, show))

@@ -8,7 +8,7 @@ MOST = 8  # edges kept for a button: four taps
 
 
 class TapQueue:
-    """A queue for each button of each device; `button` is Act.FIRE or None, the turbo."""
+    """A queue for each button of each device; `button` is Button.FIRE or None, the turbo."""
 
     def __init__(self) -> None:
         self._queues: dict[tuple[Device, Button | None], deque[bool]] = {}

@@ -176,7 +176,7 @@ def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls
     arcade.press(Button.RIGHT, Device("pad", 0))
     assert first.measures.width == before + 1
     for _ in range(60):
-        arcade.stack.top.on(page.Press(Button.RIGHT, Device("pad", 0), repeat=True))
+        arcade.stack.top.on(page.InputEvent(Button.RIGHT, Device("pad", 0), repeat=True))
     assert first.measures.width > before + 1000
     arcade.go("lid")
     for _ in range(3):
