@@ -133,7 +133,7 @@ def replay(arguments: argparse.Namespace) -> int:
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.play.replay import ReplayScene
 
-    return _open(Options(first=lambda house: ReplayScene(house, found), alone=True))
+    return _open(Options(first=lambda context: ReplayScene(context, found), alone=True))
 
 
 def duel(arguments: argparse.Namespace) -> int:

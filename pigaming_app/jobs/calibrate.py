@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace, show: Callable[[Any], int]) -> int:
     from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 
     display = None if arguments.display is None else arguments.display - 1
-    first = lambda house: CalibrationPage(house, camera=arguments.camera)  # noqa: E731
+    first = lambda context: CalibrationPage(context, camera=arguments.camera)  # noqa: E731
     return show(Options(first=first, alone=True, display=display, emulate=arguments.emulate))
 
 

@@ -15,7 +15,7 @@ from pigaming_app.hardware.emulator.site import EmulatedSite
 from pigaming_app.hardware.session import store as kept
 from pigaming_app.scenes.calibration.result_page import ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
@@ -39,8 +39,8 @@ class Operator:
         pygame.font.init()
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         canvas.watchers.append(lambda window: self.site.see(pixels_of(window)))
-        self.house = House(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
-        self.page = CalibrationPage(self.house, self.site)
+        self.context = Context(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
+        self.page = CalibrationPage(self.context, self.site)
         self.stack = Stack(self.page)
 
     def press(self, act: Act) -> None:
@@ -51,8 +51,8 @@ class Operator:
         """One picture."""
         pygame.event.pump()
         self.stack.turn(self.stack.top.update(FRAME))
-        self.stack.top.draw(self.house.canvas.screen)
-        self.house.canvas.flip()
+        self.stack.top.draw(self.context.canvas.screen)
+        self.context.canvas.flip()
 
     def go(self, row: str) -> None:
         """Put the focus on a row of the first page."""
@@ -76,7 +76,7 @@ class Operator:
         """Go home."""
         self.stack.clear()
         self.site.close()
-        self.house.canvas.close()
+        self.context.canvas.close()
 
 
 def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:

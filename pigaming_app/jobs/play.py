@@ -197,7 +197,7 @@ def _on_screen(
 ) -> int:
     """In a window; or, with emulated robots, without one and as fast as this machine can."""
     from pigaming_app.scenes.app import Options
-    from pigaming_app.scenes.flow.context import House
+    from pigaming_app.scenes.flow.context import Context
     from pigaming_app.scenes.flow.stack import Scene
     from pigaming_app.scenes.lobby.scene import game_choice
     from pigaming_app.scenes.play.scene import MatchScene
@@ -207,18 +207,18 @@ def _on_screen(
     made: list[MatchScene] = []
     began, shot = perf_counter(), False
 
-    def scene(house: House) -> Scene:
+    def scene(context: Context) -> Scene:
         """People take the pads that are there, then the key clusters."""
         nonlocal began
         began = perf_counter()
-        free = [*house.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
+        free = [*context.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
         people = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         devices = dict(zip(people, free, strict=False))
         seats = [devices.get(i) for i in range(ROBOTS)]
         if real:
-            shown = match_of(house, setup, seats, real, speed, game_choice)
+            shown = match_of(context, setup, seats, real, speed, game_choice)
         else:
-            shown = MatchScene(house, setup, seats, speed, plant, game_choice)
+            shown = MatchScene(context, setup, seats, speed, plant, game_choice)
         if isinstance(shown, MatchScene):
             made.append(shown)
         return shown

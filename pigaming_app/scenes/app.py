@@ -22,7 +22,7 @@ import pygame
 from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.hardware.session.real import NoMat, RealMat
 from pigaming_app.scenes.camera_window import CameraWindow
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.storage.log import log_file, require_file
 from pigaming_app.storage.parsing import reason
@@ -53,7 +53,7 @@ log = logging.getLogger("pigaming")
 class Options:
     """What the command line may ask of the arcade. `frames`: close after so many; `shot`: a picture, taken when due."""
 
-    first: Callable[[House], Scene] | None = None  # a scene on top of the title
+    first: Callable[[Context], Scene] | None = None  # a scene on top of the title
     alone: bool = False  # close when that scene has gone
     kiosk: bool = False
     display: int | None = None
@@ -89,22 +89,22 @@ def opened(options: Options) -> "Iterator[App]":
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
     crash_file = _keep_log(where.data)
     pygame.font.init()
-    house = House(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
-    house.sounds.volume(settings.music, settings.sounds)
-    house.mat = mat = _mat(options, settings, canvas)
-    house.stops.append(mat.close)
-    house.backstage.then = house.compiler.start
+    context = Context(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
+    context.sounds.volume(settings.music, settings.sounds)
+    context.mat = mat = _mat(options, settings, canvas)
+    context.emergency_stops.append(mat.close)
+    context.preloader.then = context.compiler.start
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
     try:
-        yield App(options, house, [*said, *more])
+        yield App(options, context, [*said, *more])
     finally:
         signal.signal(signal.SIGTERM, before)
-        house.stand_still()
-        house.backstage.end()
-        house.compiler.end()
+        context.stop_all_robots()
+        context.preloader.end()
+        context.compiler.end()
         gc.unfreeze()
         mat.end()
-        house.sounds.close()
+        context.sounds.close()
         _keep(settings, where.config)
         if scores.unsaved:
             _keep(scores, where.data)
@@ -115,16 +115,16 @@ def opened(options: Options) -> "Iterator[App]":
 class App:
     """A running arcade; `troubles` are sentences about what was wrong with its files."""
 
-    def __init__(self, options: Options, house: House, troubles: list[str]) -> None:
-        self.options, self.house = options, house
+    def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
+        self.options, self.context = options, context
         self.notices, self.gauge = Notices(), Gauge()
-        mat = house.mat
+        mat = context.mat
         self.window = CameraWindow(mat) if isinstance(mat, EmulatedMat) and mat.live else None
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
         if troubles:
-            self.notices.say(house.words("app.settings"))
+            self.notices.say(context.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
         self.exempt = False  # whether what was loaded is left out by the garbage collector
@@ -147,7 +147,7 @@ class App:
             self.frames += 1
             self.seconds += seconds
             if self.frames == 1 and not self.options.headless:
-                self.house.sounds.open()
+                self.context.sounds.open()
             if self.frames == self.options.frames:
                 break
             if self.options.step is None:
@@ -157,19 +157,19 @@ class App:
 
     def _begin(self) -> Stack:
         if self.options.first and self.options.alone:
-            return Stack(self.options.first(self.house))
-        stack = Stack(_title(self.house))
+            return Stack(self.options.first(self.context))
+        stack = Stack(_title(self.context))
         if self.options.first:
-            stack.turn(Push(self.options.first(self.house)))
+            stack.turn(Push(self.options.first(self.context)))
         return stack
 
     def _pin(self) -> None:
         """Draw the picture into the corners that the operator has set."""
         try:
-            self.house.canvas.pin(self.house.settings.corners)
+            self.context.canvas.pin(self.context.settings.corners)
         except NoPin as trouble:
             log.warning("%s", trouble)
-            self.notices.say(self.house.words("app.pin"))
+            self.notices.say(self.context.words("app.pin"))
 
     def _failed(self, seconds: float) -> bool:
         """Show one picture; whether a scene failed at it, which goes to the log."""
@@ -185,7 +185,7 @@ class App:
         began, started = clock(), perf_counter()
         freed = self._free_scenes()
         events = pygame.event.get()
-        if any(self._closes(event) for event in events) and not self.house.kiosk:
+        if any(self._closes(event) for event in events) and not self.context.kiosk:
             self.stack.clear()
             return False
         for event in events:
@@ -197,7 +197,7 @@ class App:
             played = perf_counter()
             if not self.stack.scenes or not self._paint(began):
                 return False
-        self._say(self.house.canvas.screen, seconds)
+        self._say(self.context.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
             self._prepare()
         self.gauge.note(seconds, played - started, perf_counter() - played)
@@ -205,7 +205,7 @@ class App:
 
     def _paint(self, began: float) -> bool:
         """Paint the top scene in what is left of a frame that has begun then; false: it is not complete yet."""
-        screen = self.house.canvas.screen
+        screen = self.context.canvas.screen
         limited = self.options.step is None and self.shown and self.unfinished < LATEST
         try:
             with budget.until(began + PAINTING if limited else math.inf):
@@ -222,10 +222,10 @@ class App:
     def _prepare(self) -> None:
         """While the title is shown alone: begin the work behind it, and when that is done, exempt all that is there now
         from the collection of garbage. It stays, and looking through it would take 15 ms whenever a scene is freed."""
-        backstage = self.house.backstage
-        if not backstage.begun:
-            backstage.start()
-        elif not backstage.busy and not self.exempt:
+        preloader = self.context.preloader
+        if not preloader.begun:
+            preloader.start()
+        elif not preloader.busy and not self.exempt:
             self.exempt = True
             gc.collect()
             gc.freeze()
@@ -253,7 +253,7 @@ class App:
             self.stack.clear()
             return
         if painted:
-            self.house.canvas.flip()
+            self.context.canvas.flip()
         if self.window:
             self.window.update(seconds)
         if self.options.over():
@@ -262,7 +262,7 @@ class App:
     def _shoot(self, path: Path) -> int:
         """Save the picture that was asked for; the exit code."""
         try:
-            self.house.canvas.screenshot(path)
+            self.context.canvas.screenshot(path)
         except NotSaved as trouble:
             log.warning("%s", trouble)
             print(f"PiGaming: {trouble}", file=sys.stderr)
@@ -279,11 +279,11 @@ class App:
 
     def _play(self, events: list[pygame.Event], seconds: float) -> None:
         """Let the scenes hear what was pressed, and let time pass for the top one."""
-        controls, stack = self.house.controls, self.stack
+        controls, stack = self.context.controls, self.stack
         presses = [*controls.presses(events), *controls.repeats(seconds)]
         if self.seconds < SETTLING:
             presses = [press for press in presses if press.act is not Act.POINT]
-        self.house.idle = 0.0 if presses else self.house.idle + seconds
+        self.context.idle = 0.0 if presses else self.context.idle + seconds
         before = stack.scenes[-1:]
         for press in presses:
             if stack.scenes:
@@ -295,13 +295,13 @@ class App:
     def _recovered(self) -> bool:
         """After a scene has failed: undo all that it may have left behind and begin again at the title; false: it is
         hopeless."""
-        self.house.stand_still()
+        self.context.stop_all_robots()
         self.failures = self.failures + 1 if self.seconds - self.failed_at < QUIET else 1
         self.failed_at = self.seconds
         if self.failures >= TROUBLES or self.options.alone or not self.stack.scenes or not self._begun_again():
             print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
             return False
-        self.notices.say(self.house.words("app.error"))
+        self.notices.say(self.context.words("app.error"))
         return True
 
     def _begun_again(self) -> bool:
@@ -311,10 +311,10 @@ class App:
         except Exception:
             log.exception("a scene failed when it was taken off the stack")
         surfaces.clear()  # any of them may have been painted on
-        self.house.canvas.restore()
+        self.context.canvas.restore()
         self._pin()
         try:
-            self.stack = Stack(_title(self.house))
+            self.stack = Stack(_title(self.context))
         except Exception:
             log.exception("a scene failed")
             return False
@@ -322,27 +322,27 @@ class App:
 
     def _function_key(self, key: int) -> None:
         """F3 shows numbers; F11 and F12 change the window and take a picture, but not in a kiosk."""
-        house = self.house
+        context = self.context
         if key == pygame.K_F3:
             self.gauge.shown = not self.gauge.shown
-        elif key == pygame.K_F11 and not house.kiosk:
-            house.settings.fullscreen = house.canvas.toggle_fullscreen()
-        elif key == pygame.K_F12 and not house.kiosk:
+        elif key == pygame.K_F11 and not context.kiosk:
+            context.settings.fullscreen = context.canvas.toggle_fullscreen()
+        elif key == pygame.K_F12 and not context.kiosk:
             path = folders().data / "pictures" / f"pigaming-{datetime.now():%Y%m%d-%H%M%S}.png"
             try:
-                house.canvas.screenshot(path)
-                self.notices.say(f"{house.words('app.picture')}: {path.name}")
+                context.canvas.screenshot(path)
+                self.notices.say(f"{context.words('app.picture')}: {path.name}")
             except NotSaved as trouble:
                 log.warning("%s", trouble)
-                self.notices.say(house.words("app.unsaved"))
+                self.notices.say(context.words("app.unsaved"))
 
     def _say(self, screen: pygame.Surface, seconds: float) -> None:
         """Paint what has to be said over any scene."""
-        if self.house.canvas.notices:
-            for line in self.house.canvas.notices:
+        if self.context.canvas.notices:
+            for line in self.context.canvas.notices:
                 log.warning(line)
-            self.house.canvas.notices.clear()
-            self.notices.say(self.house.words("app.display"))
+            self.context.canvas.notices.clear()
+            self.notices.say(self.context.words("app.display"))
         self.notices.draw(screen, seconds)
         self.gauge.draw(screen)
 
@@ -362,10 +362,10 @@ def _mat(options: Options, settings: Settings, canvas: Canvas) -> EmulatedMat | 
     return mat
 
 
-def _title(house: House) -> Scene:
+def _title(context: Context) -> Scene:
     from pigaming_app.scenes.title.scene import Title  # what `play` and `replay` show first need not wait for it
 
-    return Title(house)
+    return Title(context)
 
 
 def _keep(kept: Settings | Scores, folder: Path) -> None:

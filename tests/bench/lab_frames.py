@@ -33,7 +33,7 @@ def main(seconds: float) -> int:
     pygame.display.init()
     arcade = Arcade(Controls())
     began = perf_counter()
-    lab = Lab(arcade.house)
+    lab = Lab(arcade.context)
     arcade.open(lab)
     arcade.frame(draw=True)
     print(f"way in: {1000 * (perf_counter() - began):.0f} ms")
@@ -44,7 +44,7 @@ def main(seconds: float) -> int:
             good &= measured("compiled", arcade, lab, seconds)
     lab.workshop.close()
     lab.workshop.join()
-    plain = Lab(arcade.house, fast=False)
+    plain = Lab(arcade.context, fast=False)
     arcade.open(plain)
     for plain.workshop.speed in range(len(SPEEDS)):
         good &= measured("plain", arcade, plain, seconds)

@@ -6,7 +6,7 @@ from typing import TypeVar, cast
 import pygame
 
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Stack, Turn
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
@@ -55,7 +55,7 @@ class Arcade:
         self.screen = pygame.display.set_mode((1920, 1080))
         self.sounds = Noted()
         nowhere = cast(Canvas, None)
-        self.house = House(Settings(), Scores(), Words(language), controls, self.sounds, nowhere)
+        self.context = Context(Settings(), Scores(), Words(language), controls, self.sounds, nowhere)
         self.title, self.setup = Floor(), Floor()
         self.stack = Stack(self.title)
         self.stack.scenes.append(self.setup)
@@ -72,7 +72,7 @@ class Arcade:
 
     def frame(self, seconds: float = 1 / 30, draw: bool = False) -> None:
         """One turn of the loop of the real arcade."""
-        controls = self.house.controls
+        controls = self.context.controls
         for press in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
             self.stack.turn(self.stack.top.on(press))
         self.stack.turn(self.stack.top.update(seconds))

@@ -23,19 +23,19 @@ class Operated(Arcade):
 
     def __init__(self, controls: Controls, site: Any) -> None:
         super().__init__(controls)
-        self.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+        self.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         self.site = site
         if isinstance(site, EmulatedSite):
-            self.house.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
+            self.context.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
 
     def picture(self, covered: bool = False) -> None:
         """One picture, on the mat too; `covered`: somebody stands in the light of its right half."""
         self.frame()
-        screen = self.house.canvas.screen
+        screen = self.context.canvas.screen
         self.stack.top.draw(screen)
         if covered:
             screen.fill((20, 20, 20), (700, 0, 1220, 1080))
-        self.house.canvas.flip()
+        self.context.canvas.flip()
 
     def pictures(self, kind: type[Scene], most: int = 400, covered: bool = False) -> Any:
         """Pictures until a scene of this kind is on top."""

@@ -55,7 +55,7 @@ class Ending:
         arena = max(arenas(self.game), key=len)
         setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, game.variants[-1], goal)
         devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
-        scene = Results(arcade.house, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
+        scene = Results(arcade.context, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
         scene.age = 9.0
         return scene
 
@@ -82,7 +82,7 @@ ENDINGS = {
 
 def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
-        scene = Lobby(arcade.house, game)
+        scene = Lobby(arcade.context, game)
         for device in KEYS[:people]:
             scene.on(Press(Act.FIRE, device))
         for _ in range(ais):
@@ -104,7 +104,7 @@ def seats(game: str) -> Seats:
 def match(arcade: Arcade) -> MatchScene:
     one, two, three, four = (Seat("human", i) for i in range(4))
     setup = Setup("pitanks", "classic", (one, two, three, four), 2.0, 3, "plain")
-    return MatchScene(arcade.house, setup, [*KEYS[:3], Device("pad", 77)])
+    return MatchScene(arcade.context, setup, [*KEYS[:3], Device("pad", 77)])
 
 
 def best(game: str) -> Callable[[Arcade], Scene]:
@@ -113,8 +113,8 @@ def best(game: str) -> Callable[[Arcade], Scene]:
         conditions = Table(game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4)
         for board in boards(conditions):
             for score in (999, 599_990, -100):
-                arcade.house.scores.add(board.table, "WWW", score)
-        scene = Best(arcade.house, conditions)
+                arcade.context.scores.add(board.table, "WWW", score)
+        scene = Best(arcade.context, conditions)
         scene.age = 9.0
         return scene
 
@@ -122,23 +122,23 @@ def best(game: str) -> Callable[[Arcade], Scene]:
 
 
 def lesson(game: str) -> Callable[[Arcade], Scene]:
-    return lambda arcade: HowTo(arcade.house, game)
+    return lambda arcade: HowTo(arcade.context, game)
 
 
 def choice(game: str) -> Callable[[Arcade], Scene]:
-    return lambda arcade: SetupPage(arcade.house, game, seats(game))
+    return lambda arcade: SetupPage(arcade.context, game, seats(game))
 
 
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
-    "title": lambda arcade: Title(arcade.house),
-    "options": lambda arcade: OptionsPage(arcade.house),
-    "operator": lambda arcade: OptionsPage(arcade.house, operator=True),
-    "robots menu": lambda arcade: RobotsMenu(arcade.house),
-    "pad test": lambda arcade: PadTest(arcade.house),
+    "title": lambda arcade: Title(arcade.context),
+    "options": lambda arcade: OptionsPage(arcade.context),
+    "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
+    "robots menu": lambda arcade: RobotsMenu(arcade.context),
+    "pad test": lambda arcade: PadTest(arcade.context),
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
     "still there": lambda arcade: StillThere(match(arcade)),
-    "devices": lambda arcade: DeviceTable(arcade.house, KEYS, Access(arcade.house, lambda: KEYS)),
+    "devices": lambda arcade: DeviceTable(arcade.context, KEYS, Access(arcade.context, lambda: KEYS)),
     **{f"how to play {game}": lesson(game) for game in GAMES},
     **{f"setup {game}": choice(game) for game in GAMES},
     **{f"lobby {game}": lobby(game, 0, 0) for game in GAMES},

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.app import App, Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Turn
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.events import Press
@@ -27,8 +27,8 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 class Quiet:
     """A scene on which nothing happens; what it does in each frame can be said."""
 
-    def __init__(self, house: House) -> None:
-        self.house, self.frames = house, 0
+    def __init__(self, context: Context) -> None:
+        self.context, self.frames = context, 0
 
     def entered(self) -> None:
         pass
@@ -95,9 +95,9 @@ def test_a_title_that_fails_for_ever_ends_the_arcade_in_one_line(
 def test_robots_stand_still_when_a_scene_fails_and_when_the_arcade_ends() -> None:
     stopped: list[int] = []
 
-    def first(house: House) -> Scene:
-        house.stops += [lambda: stopped.append(1), lambda: 1 / 0, lambda: stopped.append(2)]
-        return Broken(house)
+    def first(context: Context) -> Scene:
+        context.emergency_stops += [lambda: stopped.append(1), lambda: 1 / 0, lambda: stopped.append(2)]
+        return Broken(context)
 
     assert run(Options(headless=True, first=first, frames=3, step=STEP)) == 0
     assert stopped == [1, 2, 1, 2]
@@ -142,8 +142,8 @@ def test_closing_the_window_ends_it_but_not_in_a_kiosk(kiosk: bool, frames: int)
             pygame.event.post(pygame.Event(pygame.QUIT))
             return super().update(seconds)
 
-    def closing(house: House) -> Scene:
-        scenes.append(Closing(house))
+    def closing(context: Context) -> Scene:
+        scenes.append(Closing(context))
         return scenes[0]
 
     assert run(Options(headless=True, first=closing, frames=10, step=STEP, kiosk=kiosk)) == 0
@@ -165,8 +165,8 @@ def test_f12_takes_a_picture_but_not_in_a_kiosk(home: Path, kiosk: bool) -> None
 def test_a_pointer_that_lies_there_does_not_take_the_focus() -> None:
     titles: list[Title] = []
 
-    def title(house: House) -> Scene:
-        titles.append(Title(house))
+    def title(context: Context) -> Scene:
+        titles.append(Title(context))
         pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=(960, 600), rel=(0, 0), buttons=(0, 0, 0)))
         return titles[0]
 

@@ -22,8 +22,8 @@ from tests.ui.input.virtual_pad import VirtualPad
 def test_two_friends_and_a_loose_cable(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.settings.choice("pitanks").minutes = 1
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.context.settings.choice("pitanks").minutes = 1
+    arcade.stack = Stack(Title(arcade.context))
 
     def tap(pad: VirtualPad, *buttons: str) -> None:
         for button in buttons:

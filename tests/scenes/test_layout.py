@@ -20,7 +20,7 @@ LISTS = ("options", "operator", "robots menu", "setup")  # each of their rows is
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     return arcade
 
 
@@ -29,7 +29,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def test_texts_keep_off_each_other_and_off_frames(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, name: str, language: str
 ) -> None:
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     with measuring(monkeypatch) as screen:
         scene = SCREENS[name](arcade)
         for _ in range(12 if name.startswith(LISTS) else 1):

@@ -49,13 +49,13 @@ def filled() -> Seats:
 
 
 PAGES: dict[str, Callable[[Arcade], Scene]] = {
-    "title": lambda arcade: Title(arcade.house),
-    "lobby": lambda arcade: Lobby(arcade.house, "pitanks"),
-    "setup": lambda arcade: SetupPage(arcade.house, "pitanks", filled()),
-    "options": lambda arcade: OptionsPage(arcade.house),
-    "operator": lambda arcade: OptionsPage(arcade.house, operator=True),
-    "padtest": lambda arcade: PadTest(arcade.house),
-    "howto": lambda arcade: HowTo(arcade.house),
+    "title": lambda arcade: Title(arcade.context),
+    "lobby": lambda arcade: Lobby(arcade.context, "pitanks"),
+    "setup": lambda arcade: SetupPage(arcade.context, "pitanks", filled()),
+    "options": lambda arcade: OptionsPage(arcade.context),
+    "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
+    "padtest": lambda arcade: PadTest(arcade.context),
+    "howto": lambda arcade: HowTo(arcade.context),
 }
 
 
@@ -65,13 +65,13 @@ def arcade(
 ) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls, request.param)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     return arcade
 
 
 def top(arcade: Arcade, name: str) -> Scene:
     """Put a page on a stack of its own."""
-    arcade.house.kiosk = name == "operator"
+    arcade.context.kiosk = name == "operator"
     arcade.stack = Stack(PAGES[name](arcade))
     return arcade.stack.top
 
@@ -139,7 +139,7 @@ def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: s
             pad = plugged.enter_context(VirtualPad(f"{kind} pad", usb, plain=kind == "Joystick"))
             arcade.frame()
             device = Device("pad", pad.number)
-        arcade.house.controls.last = device
+        arcade.context.controls.last = device
         scene = top(arcade, name)
         for prompts in hints(scene, device):
             ends = places(prompts.said, prompts.room)

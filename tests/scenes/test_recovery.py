@@ -8,21 +8,21 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Turn
 from pigaming_app.scenes.title import scene as title
 from pigaming_app.ui.input.events import Press
 
 STEP = 1 / 30
 QUARTER = pygame.Rect(0, 0, 960, 540)
-Damage = Callable[[House, pygame.Surface], object]
+Damage = Callable[[Context, pygame.Surface], object]
 
 
 class Failing:
     """A scene that does some damage to the screen and fails while it paints."""
 
-    def __init__(self, house: House, damage: Damage) -> None:
-        self.house, self.damage = house, damage
+    def __init__(self, context: Context, damage: Damage) -> None:
+        self.context, self.damage = context, damage
 
     def entered(self) -> None:
         pass
@@ -35,7 +35,7 @@ class Failing:
 
     def draw(self, screen: pygame.Surface) -> None:
         screen.fill("black")
-        kept = self.damage(self.house, screen)
+        kept = self.damage(self.context, screen)
         raise ValueError(f"on purpose, with {type(kept)}")
 
 
@@ -53,7 +53,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     pygame.display.quit()
 
 
-def pictures(first: Callable[[House], Scene], frames: int = 4) -> list[bytes]:
+def pictures(first: Callable[[Context], Scene], frames: int = 4) -> list[bytes]:
     """Every picture that the arcade shows in the window from the start on; the pointer is free to leave it."""
     shown: list[bytes] = []
 
@@ -69,44 +69,44 @@ def pictures(first: Callable[[House], Scene], frames: int = 4) -> list[bytes]:
 @cache
 def whole() -> list[bytes]:
     """The pictures after a scene that failed without any damage."""
-    return pictures(lambda house: Failing(house, lambda house, screen: None))
+    return pictures(lambda context: Failing(context, lambda context, screen: None))
 
 
-def clip(house: House, screen: pygame.Surface) -> None:
+def clip(context: Context, screen: pygame.Surface) -> None:
     screen.set_clip(QUARTER)
 
 
-def clip_twice_removed(house: House, screen: pygame.Surface) -> pygame.Surface:
+def clip_twice_removed(context: Context, screen: pygame.Surface) -> pygame.Surface:
     screen.set_clip(QUARTER)
     part = screen.subsurface(QUARTER)
     part.set_clip((0, 0, 10, 10))
     return part
 
 
-def locks(house: House, screen: pygame.Surface) -> None:
+def locks(context: Context, screen: pygame.Surface) -> None:
     for _ in range(3):
         screen.lock()
 
 
-def pixels(house: House, screen: pygame.Surface) -> object:
-    return [house, pygame.PixelArray(screen)]
+def pixels(context: Context, screen: pygame.Surface) -> object:
+    return [context, pygame.PixelArray(screen)]
 
 
-def transparency(house: House, screen: pygame.Surface) -> None:
+def transparency(context: Context, screen: pygame.Surface) -> None:
     screen.set_alpha(80)
     screen.set_colorkey("black")
 
 
-def cached_picture(house: House, screen: pygame.Surface) -> None:
+def cached_picture(context: Context, screen: pygame.Surface) -> None:
     title.ground().fill("red", QUARTER)
     title.ground().set_clip(QUARTER)
 
 
-def pinned(house: House, screen: pygame.Surface) -> None:
-    house.canvas.pin((100, 100, 1800, 80, 1820, 1000, 80, 1020))
+def pinned(context: Context, screen: pygame.Surface) -> None:
+    context.canvas.pin((100, 100, 1800, 80, 1820, 1000, 80, 1020))
 
 
-def grabbed(house: House, screen: pygame.Surface) -> None:
+def grabbed(context: Context, screen: pygame.Surface) -> None:
     pygame.event.set_grab(True)
 
 
@@ -114,16 +114,16 @@ def grabbed(house: House, screen: pygame.Surface) -> None:
     "damage", [clip, clip_twice_removed, locks, pixels, transparency, cached_picture, pinned, grabbed]
 )
 def test_the_title_is_painted_as_if_nothing_had_been_done(damage: Damage) -> None:
-    assert pictures(lambda house: Failing(house, damage)) == whole()
+    assert pictures(lambda context: Failing(context, damage)) == whole()
     assert not pygame.display.get_init() or not pygame.event.get_grab()
 
 
 def test_a_picture_in_pinned_corners_is_whole_too(home: Path) -> None:
     (home / "config").mkdir()
     (home / "config" / "settings.toml").write_text("corners = [96, 54, 1824, 60, 1800, 1026, 90, 1020]\n")
-    expected = pictures(lambda house: Failing(house, lambda house, screen: None))
+    expected = pictures(lambda context: Failing(context, lambda context, screen: None))
     assert expected != whole()
-    assert pictures(lambda house: Failing(house, clip)) == expected
+    assert pictures(lambda context: Failing(context, clip)) == expected
 
 
 @pytest.mark.parametrize("under", [False, True])
@@ -132,13 +132,13 @@ def test_a_scene_that_does_not_let_go_does_not_stop_recovery(home: Path, under: 
         """A scene that puts one on top of itself."""
 
         def update(self, seconds: float) -> Turn:
-            return Push(Failing(self.house, clip))
+            return Push(Failing(self.context, clip))
 
         def left(self) -> None:
             raise RuntimeError("it does not let go")
 
-    def first(house: House) -> Scene:
-        return Opening(house, clip) if under else Clinging(house, clip)
+    def first(context: Context) -> Scene:
+        return Opening(context, clip) if under else Clinging(context, clip)
 
     assert pictures(first) == whole()
     log = (home / "data" / "pigaming.log").read_text()
@@ -155,19 +155,19 @@ def test_all_scenes_let_go_even_if_one_of_them_fails_to() -> None:
 
     class Bottom(Holding):
         def update(self, seconds: float) -> Turn:
-            return Push(Clinging(self.house, clip))
+            return Push(Clinging(self.context, clip))
 
-    pictures(lambda house: Bottom(house, clip))
+    pictures(lambda context: Bottom(context, clip))
     assert gone == ["low"]
 
 
 def test_a_title_that_cannot_be_made_again_ends_the_arcade_in_one_line(
     home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def broken(house: House, screen: pygame.Surface) -> None:
+    def broken(context: Context, screen: pygame.Surface) -> None:
         monkeypatch.setattr(title.Title, "entered", lambda self: 1 / 0)
 
-    assert run(Options(headless=True, first=lambda house: Failing(house, broken), frames=9, step=STEP)) == 1
+    assert run(Options(headless=True, first=lambda context: Failing(context, broken), frames=9, step=STEP)) == 1
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert "pigaming.log" in error

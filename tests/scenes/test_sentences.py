@@ -81,10 +81,10 @@ def test_the_race_says_how_many_laps_it_has(
     assert tagline(Words("pt"), "race", 5) == "5 voltas. Partida!"
     assert tagline(Words("pt"), "race", 1) == "1 volta. Partida!"
     arcade = Arcade(controls)
-    arcade.house.settings.choice("race").goal = 7
+    arcade.context.settings.choice("race").goal = 7
     one, two, three, four = (Seat("human", i) for i in range(4))
     setup = Setup("race", "classic", (one, two, three, four), 10.0, 1, "standard", 7)
-    for scene in (Title(arcade.house), MatchScene(arcade.house, setup, KEYS)):
+    for scene in (Title(arcade.context), MatchScene(arcade.context, setup, KEYS)):
         with measuring(monkeypatch) as screen:
             scene.draw(screen)
             assert "7 laps. Go!" in " ".join(mark.text for mark in screen.texts)
@@ -117,11 +117,11 @@ def test_the_page_of_a_game_shows_its_limits(
     controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
     arcade = Arcade(controls, language)
-    arcade.house.settings.choice("factory").minutes = 8
+    arcade.context.settings.choice("factory").minutes = 8
     with measuring(monkeypatch) as screen:
-        HowTo(arcade.house, "factory").draw(screen)
+        HowTo(arcade.context, "factory").draw(screen)
         shown = [mark.text for mark in screen.texts]
-    assert limits(arcade.house.words, "factory", 8) in shown
+    assert limits(arcade.context.words, "factory", 8) in shown
     assert any("8 min" in text for text in shown)
 
 
@@ -131,11 +131,11 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
 ) -> None:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls, language)
-    words = arcade.house.words
+    words = arcade.context.words
     for variant in GAMES["pitanks"].variants:
-        arcade.house.settings.choice("pitanks").variant = variant
+        arcade.context.settings.choice("pitanks").variant = variant
         with measuring(monkeypatch) as screen:
-            SetupPage(arcade.house, "pitanks", seats("pitanks")).draw(screen)
+            SetupPage(arcade.context, "pitanks", seats("pitanks")).draw(screen)
             shown = " ".join(mark.text for mark in screen.texts)
         assert words(f"setup.{variant}_line") in shown
 
@@ -143,7 +143,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
 def test_the_button_follows_the_question(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:
     arcade = Arcade(controls)
     with measuring(monkeypatch) as screen:
-        asked("SPACE", arcade.house.words("lobby.if_ready"), LEVELS).draw(screen, 200, 200)
+        asked("SPACE", arcade.context.words("lobby.if_ready"), LEVELS).draw(screen, 200, 200)
         ready, space = sorted(screen.texts, key=lambda mark: mark.box[0])
     assert (ready.text, space.text) == ("Ready?", "SPACE")
 

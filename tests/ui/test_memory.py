@@ -14,7 +14,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.jobs.bench import memory as bench_memory
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, Swap, Turn
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
@@ -34,7 +34,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     surfaces.clear()
     arcade = Arcade(controls)
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.stack = Stack(Title(arcade.context))
     return arcade
 
 
@@ -44,7 +44,7 @@ def match(arcade: Arcade, game: str) -> MatchScene:
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(game, arenas(game)[0], (one, two, three, four), 2.0, 1, rules.variants[0], goal)
-    return MatchScene(arcade.house, setup)
+    return MatchScene(arcade.context, setup)
 
 
 def warmed(arcade: Arcade, game: str) -> None:
@@ -136,7 +136,7 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
     scenes: list[weakref.ref[Leaving]] = []
     alive: list[bool] = []
 
-    def first(house: House) -> Leaving:
+    def first(context: Context) -> Leaving:
         gc.disable()
         scene = Leaving(turn)
         scenes.append(weakref.ref(scene))

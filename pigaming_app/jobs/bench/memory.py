@@ -18,7 +18,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 
 if TYPE_CHECKING:
-    from pigaming_app.scenes.flow.context import House
+    from pigaming_app.scenes.flow.context import Context
     from pigaming_app.scenes.flow.stack import Scene
 
 STATES = ("title", "lobby", *GAMES)
@@ -72,15 +72,15 @@ def visit(state: str) -> float | None:
         found.append(None if len(found) < frames - 1 else resident_mb())
         return len(found) == frames
 
-    run(Options(first=lambda house: Tour(house, state, way), headless=True, step=STEP, over=over))
+    run(Options(first=lambda context: Tour(context, state, way), headless=True, step=STEP, over=over))
     return found[-1]
 
 
 class Tour:
     """One scene after the other, each for some seconds; whatever a scene asks of the stack is ignored."""
 
-    def __init__(self, house: "House", state: str, way: "Way") -> None:
-        self.house, self.state, self.way = house, state, list(way)
+    def __init__(self, context: "Context", state: str, way: "Way") -> None:
+        self.context, self.state, self.way = context, state, list(way)
         self._next()
 
     def entered(self) -> None:
@@ -102,25 +102,25 @@ class Tour:
 
     def _next(self) -> None:
         self.remaining, make = self.way.pop(0)
-        self.scene = make(self.house, self.state)
+        self.scene = make(self.context, self.state)
         self.scene.entered()
 
 
-def title(house: "House", state: str) -> "Scene":
+def title(context: "Context", state: str) -> "Scene":
     """The title."""
     from pigaming_app.scenes.title.scene import Title
 
-    return Title(house)
+    return Title(context)
 
 
-def lobby(house: "House", state: str) -> "Scene":
+def lobby(context: "Context", state: str) -> "Scene":
     """The lobby of a game, of the first one if the state is none."""
     from pigaming_app.scenes.lobby.scene import Lobby
 
-    return Lobby(house, state if state in GAMES else next(iter(GAMES)))
+    return Lobby(context, state if state in GAMES else next(iter(GAMES)))
 
 
-def match(house: "House", state: str) -> "Scene":
+def match(context: "Context", state: str) -> "Scene":
     """A match of four normal AIs in a game's first arena."""
     from pigaming_app.scenes.play.scene import MatchScene
 
@@ -128,11 +128,11 @@ def match(house: "House", state: str) -> "Scene":
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     return MatchScene(
-        house, Setup(state, arenas(state)[0], (one, two, three, four), MINUTES, 1, rules.variants[0], goal)
+        context, Setup(state, arenas(state)[0], (one, two, three, four), MINUTES, 1, rules.variants[0], goal)
     )
 
 
-Way = tuple[tuple[float, Callable[["House", str], "Scene"]], ...]  # seconds, and the scene in which they pass
+Way = tuple[tuple[float, Callable[["Context", str], "Scene"]], ...]  # seconds, and the scene in which they pass
 WAY: dict[str, Way] = {
     "title": ((SECONDS["title"], title),),
     "lobby": ((2.0, title), (SECONDS["lobby"], lobby)),

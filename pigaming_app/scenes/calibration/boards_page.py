@@ -12,7 +12,7 @@ from pigaming_app.hardware.messages import said
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.calibration.height_page import OutlinesPage
 from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.surface_cache import cached
@@ -25,14 +25,14 @@ GREY, DONE = (150, 150, 150), (20, 20, 20)
 class BoardsPage:
     """One calibration."""
 
-    def __init__(self, house: House, site: Site, number: int, measures: Measures) -> None:
-        self.house, self.site, self.number, self.measures = house, site, number, measures
-        self.work = Calibration(site, number, measures, house.canvas.projection)
+    def __init__(self, context: Context, site: Site, number: int, measures: Measures) -> None:
+        self.context, self.site, self.number, self.measures = context, site, number, measures
+        self.work = Calibration(site, number, measures, context.canvas.projection)
         self.work.begin()
 
     def entered(self) -> None:
         """Quiet: nothing may move."""
-        self.house.sounds.music(False)
+        self.context.sounds.music(False)
 
     def left(self) -> None:
         """Let go of the camera."""
@@ -41,7 +41,7 @@ class BoardsPage:
     def on(self, press: Press) -> Turn:
         """Only the way back."""
         if press.act is Act.BACK:
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             self.left()
             return Pop()
         return None
@@ -55,10 +55,10 @@ class BoardsPage:
         self.left()
         work = self.work
         finding = Finding(self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small)
-        self.house.sounds.play("accept" if finding.good else "back")
+        self.context.sounds.play("accept" if finding.good else "back")
         if finding.good and not self.measures.height:
-            return Swap(OutlinesPage(self.house, finding, self._again))
-        return Swap(ResultPage(self.house, finding, self._again))
+            return Swap(OutlinesPage(self.context, finding, self._again))
+        return Swap(ResultPage(self.context, finding, self._again))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the board, pure light, and how far it is."""
@@ -77,7 +77,7 @@ class BoardsPage:
 
     def _again(self) -> Scene:
         """The same calibration once more."""
-        return BoardsPage(self.house, self.site, self.number, self.measures)
+        return BoardsPage(self.context, self.site, self.number, self.measures)
 
     def _draw_progress(self, screen: pygame.Surface) -> None:
         """A box for every picture; what has been taken is filled."""

@@ -10,7 +10,7 @@ import pygame
 from pigaming_app.hardware.calibration.corner_pin import STRAIGHT
 from pigaming_app.hardware.messages import said
 from pigaming_app.scenes.calibration.messages import tell
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -56,13 +56,13 @@ log = logging.getLogger("pigaming")
 class PinPage:
     """The page. What is pinned stays as it was unless it is saved."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
-        self.before = house.canvas.corners
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.before = context.canvas.corners
         self.corners = [round(value) for value in self.before or STRAIGHT]
         self.chosen = self.step = 0
         self.sentence, self.said = "", 0.0
-        self.prompts = house.prompts(
+        self.prompts = context.prompts(
             [
                 (Act.FIRE, "pin.hint_next"),
                 (Act.EXTRA, "pin.hint_step"),
@@ -87,20 +87,20 @@ class PinPage:
         press = self.prompts.meant(press)
         match press.act:
             case Act.BACK:
-                self.house.sounds.play("back")
+                self.context.sounds.play("back")
                 self._restore()
                 return Pop()
             case Act.START:
                 return self._save()
             case Act.FIRE:
                 self.chosen = (self.chosen + 1) % 4
-                self.house.sounds.play("move")
+                self.context.sounds.play("move")
             case Act.EXTRA:
                 self.step = 1 - self.step
-                self.house.sounds.play("move")
+                self.context.sounds.play("move")
             case Act.ALT:
                 self.corners = [round(value) for value in STRAIGHT]
-                self.house.sounds.play("accept")
+                self.context.sounds.play("accept")
                 self._pin()
             case Act.CLICK if press.at:
                 self._take(press.at)
@@ -111,14 +111,14 @@ class PinPage:
     def update(self, seconds: float) -> Turn:
         """Let a sentence fade."""
         self.said -= seconds
-        if self.house.idle > IDLE:
+        if self.context.idle > IDLE:
             self._restore()
             return Home()
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the grid, and in its middle which corner is moved by how much."""
-        words, x, y = self.house.words, BOX.centerx, BOX.y
+        words, x, y = self.context.words, BOX.centerx, BOX.y
         screen.blit(grid(), (0, 0))
         handle(self.chosen).draw(screen)
         text(words("pin.title", corner=self.chosen + 1), SUB, FOCUS, "head").draw(screen, x, y + 76)
@@ -148,42 +148,42 @@ class PinPage:
         """A click takes the corner in whose quarter it is."""
         right, low = at[0] > 960, at[1] > 540
         self.chosen = (2 if right else 3) if low else int(right)
-        self.house.sounds.play("move")
+        self.context.sounds.play("move")
 
     def _pin(self) -> bool:
         """Show the picture in these corners; false: it cannot be, and a sentence says why."""
         straight = self.corners == [round(value) for value in STRAIGHT]
         try:
-            self.house.canvas.pin([] if straight else self.corners)
+            self.context.canvas.pin([] if straight else self.corners)
             return True
         except NoPin as trouble:
             log.warning("%s", trouble)
-            self._say(tell(self.house.words, said(trouble)))
+            self._say(tell(self.context.words, said(trouble)))
             return False
 
     def _restore(self) -> None:
         try:
-            self.house.canvas.pin(self.before)
+            self.context.canvas.pin(self.before)
         except NoPin as trouble:
             log.warning("%s", trouble)
 
     def _save(self) -> Turn:
         """Keep it for good, or say that it cannot be kept."""
-        canvas, settings = self.house.canvas, self.house.settings
+        canvas, settings = self.context.canvas, self.context.settings
         settings.corners = [round(value) for value in canvas.corners]
         try:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self._say(self.house.words("app.unsaved"))
+            self._say(self.context.words("app.unsaved"))
             return None
         self.before = canvas.corners
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         return Pop()
 
     def _say(self, sentence: str) -> None:
         self.sentence, self.said = sentence, SAID
-        self.house.sounds.play("back")
+        self.context.sounds.play("back")
 
 
 def signed(number: int) -> str:

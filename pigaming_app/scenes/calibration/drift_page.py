@@ -15,7 +15,7 @@ from pigaming_app.scenes.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.calibration.result_page import OFF
 from pigaming_app.scenes.calibration.setup_page import site_of
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
@@ -33,17 +33,17 @@ IDLE = 300.0  # seconds without a press until the title
 class CheckPage:
     """The page, for the camera of the settings."""
 
-    def __init__(self, house: House, site: Site | None = None) -> None:
-        self.house, self.site = house, site or site_of(house)
-        number = house.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
-        self.work = Checking(self.site, number, partial(kept.load, house.canvas.projection, self.site))
+    def __init__(self, context: Context, site: Site | None = None) -> None:
+        self.context, self.site = context, site or site_of(context)
+        number = context.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
+        self.work = Checking(self.site, number, partial(kept.load, context.canvas.projection, self.site))
         self.clock = 0.0
-        self.prompts = house.prompts([(Act.BACK, "calibrate.hint_back")])
+        self.prompts = context.prompts([(Act.BACK, "calibrate.hint_back")])
 
     def entered(self) -> None:
         """Look."""
-        if self.house.mat is not None:
-            self.house.mat.close()
+        if self.context.mat is not None:
+            self.context.mat.close()
         self.work.begin()
 
     def left(self) -> None:
@@ -53,7 +53,7 @@ class CheckPage:
     def on(self, press: Press) -> Turn:
         """Any button leads back."""
         if self.prompts.meant(press).act in (Act.BACK, Act.FIRE, Act.START):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             self.left()
             return Pop()
         return None
@@ -63,11 +63,11 @@ class CheckPage:
         self.clock += seconds
         self.site.advance(seconds)
         self.work.pump()
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the markers, and between them what is known."""
-        words, work = self.house.words, self.work
+        words, work = self.context.words, self.work
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
         if work.trouble is not None:
@@ -86,7 +86,7 @@ class CheckPage:
 
     def _draw_spot(self, screen: pygame.Surface) -> None:
         """A robot here shows by its marker whether the width of the mat was measured well."""
-        words, work = self.house.words, self.work
+        words, work = self.context.words, self.work
         x, y = LEFT + SPOT[0], TOP + SPOT[1]
         pygame.draw.circle(screen, GREY, (x, y), DISC)
         said, color = words("calibrate.put"), MIST
@@ -100,11 +100,11 @@ class CheckPage:
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
-        text(self.house.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
+        text(self.context.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
         bar().draw(screen)
         share = min(1.0, mm / MOST)
         pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
-        text(self.house.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
+        text(self.context.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
 
 
 @cached

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, Standing
 from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
@@ -24,13 +24,13 @@ NEAR, FAR = 86, 128  # px from the middle, of the four lines that help to aim
 class OutlinesPage:
     """The page. `finding`: a calibration that lacks only the camera's place; `again`: the page that repeats it."""
 
-    def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
+    def __init__(self, context: Context, finding: Finding, again: Callable[[], Scene]) -> None:
         assert finding.ground is not None
-        self.house, self.finding, self.again = house, finding, again
+        self.context, self.finding, self.again = context, finding, again
         self.work = Standing(finding.site, finding.number, finding.ground)
         self.work.begin()
         self.known = 0
-        self.prompts = house.prompts([(Act.BACK, "calibrate.hint_stop")], 1040)
+        self.prompts = context.prompts([(Act.BACK, "calibrate.hint_stop")], 1040)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -42,7 +42,7 @@ class OutlinesPage:
     def on(self, press: Press) -> Turn:
         """Only the way back."""
         if self.prompts.meant(press).act is Act.BACK:
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             self.left()
             return Pop()
         return None
@@ -54,17 +54,17 @@ class OutlinesPage:
         work.pump()
         if len(work.seen) != self.known:
             self.known = len(work.seen)
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
         if work.place is not None:
             return None
         self.left()
         ground = work.found or self.finding.ground
         found = replace(self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small)
-        return Swap(ResultPage(self.house, found, self.again))
+        return Swap(ResultPage(self.context, found, self.again))
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the spots, and what to do."""
-        place, words = self.work.place, self.house.words
+        place, words = self.work.place, self.context.words
         screen.fill((0, 0, 0))
         for i, (x, y) in enumerate(PLACES):
             if i == place:

@@ -16,7 +16,7 @@ from pigaming_app.hardware.session import store as kept
 from pigaming_app.hardware.signals import Image
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.storage.safe_files import NotSaved
@@ -59,13 +59,13 @@ class Finding:
 class ResultPage:
     """The page: save, again, or back. `again`: makes the page that repeats the calibration."""
 
-    def __init__(self, house: House, finding: Finding, again: Callable[[], Scene]) -> None:
-        self.house, self.finding, self.again = house, finding, again
+    def __init__(self, context: Context, finding: Finding, again: Callable[[], Scene]) -> None:
+        self.context, self.finding, self.again = context, finding, again
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
         self.arrows: tuple[Lit, int] | None = None
         hints = [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")]
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
@@ -89,7 +89,7 @@ class ResultPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words, finding = self.house.words, self.finding
+        words, finding = self.context.words, self.finding
         screen.blit(backdrop(), (0, 0))
         title = "good" if finding.good else "failed" if finding.residuals is None or finding.trouble else "bad"
         heading(words(f"calibrate.{title}"), color=ICE if finding.good else ALARM).draw(screen)
@@ -114,7 +114,7 @@ class ResultPage:
         return pygame.Rect(AREA.x + 388 * i, FOOT, 368, HIGH)
 
     def _draw_errors(self, screen: pygame.Surface, residuals: Residuals) -> None:
-        words, finding = self.house.words, self.finding
+        words, finding = self.context.words, self.finding
         self.arrows = self.arrows or arrows(residuals)
         lit, times = self.arrows
         lit.draw(screen)
@@ -140,7 +140,7 @@ class ResultPage:
 
     def _marker(self) -> list[Lit]:
         """How large a robot's marker seems: it says whether the mat was measured well."""
-        finding, words = self.finding, self.house.words
+        finding, words = self.finding, self.context.words
         if not finding.marker_mm or finding.ground is None:
             return []
         true = finding.ground.marker
@@ -150,7 +150,7 @@ class ResultPage:
         return [*paragraph(said, SIDE.w, 3, ALARM if off else ICE)]
 
     def _draw_failure(self, screen: pygame.Surface) -> None:
-        words = self.house.words
+        words = self.context.words
         for i, line in enumerate(paragraph(tell(words, self.finding.trouble or ""), SIDE.w, 9)):
             line.draw(screen, SIDE.x, SIDE.y + 40 + 52 * i)
         key = "unseen" if self.picture is None else "sees"
@@ -168,10 +168,10 @@ class ResultPage:
     def _do(self, name: str) -> Turn:
         finding = self.finding
         if name == "leave":
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if name == "again":
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
             return Swap(self.again())
         if finding.ground is None:
             return None
@@ -179,9 +179,9 @@ class ResultPage:
             kept.save(finding.ground, finding.site)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             path = kept.path(finding.site)
-            self.navigation.say(self.house.words("calibrate.unsaved", path=path))
+            self.navigation.say(self.context.words("calibrate.unsaved", path=path))
             return None
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         return Pop()

@@ -12,7 +12,7 @@ from pigaming_app.hardware.session import store as kept
 from pigaming_app.hardware.session.real import NoMat
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.calibration.messages import tell
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.storage.safe_files import NotSaved
@@ -39,10 +39,10 @@ PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 log = logging.getLogger("pigaming")
 
 
-def site_of(house: House) -> Site:
+def site_of(context: Context) -> Site:
     """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
     try:
-        site: Site | None = getattr(house.mat, "site", None)
+        site: Site | None = getattr(context.mat, "site", None)
     except NoMat:
         site = None  # without OpenCV there is nothing; the page says so
     return site or RealSite()
@@ -51,9 +51,9 @@ def site_of(house: House) -> Site:
 class CalibrationPage:
     """The page. `camera`: one to begin with, else the one of the settings."""
 
-    def __init__(self, house: House, site: Site | None = None, camera: int | None = None) -> None:
-        self.house, self.site = house, site or site_of(house)
-        self.number = house.settings.camera if camera is None else camera
+    def __init__(self, context: Context, site: Site | None = None, camera: int | None = None) -> None:
+        self.context, self.site = context, site or site_of(context)
+        self.number = context.settings.camera if camera is None else camera
         self.measures = self._measured()
         self.preview: Preview | None = None
         self.known = self.site.cameras()
@@ -66,7 +66,7 @@ class CalibrationPage:
         self.focus = Focus(dials.spots(self._rows()))
         hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok")]
         hints.append((Act.BACK, "calibrate.hint_back"))
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look through the camera, also after a calibration."""
@@ -109,12 +109,12 @@ class CalibrationPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("calibrate.title"), self.state).draw(screen)
         blacked(screen, dials.PANEL)
         dials.draw(
-            screen, self.house.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
+            screen, self.context.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
         )
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         self._draw_camera(screen)
@@ -132,7 +132,7 @@ class CalibrationPage:
 
     def _draw_camera(self, screen: pygame.Surface) -> None:
         """The camera's picture, or why there is none."""
-        preview, words = self.preview, self.house.words
+        preview, words = self.preview, self.context.words
         if preview is None:
             return
         room, below = dials.PANEL.w - 40, PICTURE.bottom + 40
@@ -153,9 +153,9 @@ class CalibrationPage:
 
     def _look_up(self, size: tuple[int, int]) -> None:
         """Whether there is a calibration for this camera and display."""
-        self._state_of, words = size, self.house.words
+        self._state_of, words = size, self.context.words
         try:
-            ground = kept.load(self.house.canvas.projection, self.site, size)
+            ground = kept.load(self.context.canvas.projection, self.site, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
         except NoGround as trouble:
             log.warning("%s", trouble)
@@ -167,10 +167,10 @@ class CalibrationPage:
         return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
 
     def _value(self, name: str) -> Value:
-        words, measures = self.house.words, self.measures
+        words, measures = self.context.words, self.measures
         match name:
             case "display":
-                return Value("arrows", tuple(self.house.canvas.displays()), self.house.canvas.display)
+                return Value("arrows", tuple(self.context.canvas.displays()), self.context.canvas.display)
             case "camera":
                 return Value("arrows", (self._camera(),))
             case "by":
@@ -182,7 +182,7 @@ class CalibrationPage:
         return Value("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
 
     def _camera(self) -> str:
-        words = self.house.words
+        words = self.context.words
         if not self.known:
             return words("calibrate.no_cameras")
         name = next((known.name for known in self.known if known.number == self.number), "")
@@ -197,8 +197,8 @@ class CalibrationPage:
 
     def _change(self, name: str, by: int, around: bool = False) -> None:
         """The next value of a row, or the one before it."""
-        measures, canvas = self.measures, self.house.canvas
-        self.house.sounds.play("move")
+        measures, canvas = self.measures, self.context.canvas
+        self.context.sounds.play("move")
         match name:
             case "display":
                 count = len(canvas.displays())
@@ -226,7 +226,7 @@ class CalibrationPage:
 
     def _show(self, display: int, fullscreen: bool) -> None:
         """Move the picture; a calibration belongs to where it is."""
-        canvas, settings = self.house.canvas, self.house.settings
+        canvas, settings = self.context.canvas, self.context.settings
         canvas.show(display, fullscreen)
         settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
         self._state_of = (0, 0)
@@ -243,31 +243,31 @@ class CalibrationPage:
     def _look(self) -> None:
         """Look through the camera that is chosen, once the one before is free."""
         self._state_of = (0, 0)
-        if self.house.mat is not None:
-            self.house.mat.close()
+        if self.context.mat is not None:
+            self.context.mat.close()
         self.left()
         self.preview = Preview(self.site, self.number)
         self.preview.begin()
 
     def _begin(self) -> Turn:
         """Show the boards on the whole display."""
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         self.left()
-        canvas = self.house.canvas
+        canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)
         self._keep()
-        return Push(BoardsPage(self.house, self.site, self.number, self.measures))
+        return Push(BoardsPage(self.context, self.site, self.number, self.measures))
 
     def _measured(self) -> Measures:
-        settings = self.house.settings
+        settings = self.context.settings
         if self.site.name != "real":
             return self.site.measures
         return Measures(settings.arena_mm, settings.camera_mm, settings.lid_mm)
 
     def _keep(self) -> None:
         """Remember what is chosen; an emulated arena is not worth it."""
-        settings, measures = self.house.settings, self.measures
+        settings, measures = self.context.settings, self.measures
         if self.site.name != "real":
             return
         settings.camera = self.number
@@ -276,4 +276,4 @@ class CalibrationPage:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.house.words("app.unsaved"))
+            self.navigation.say(self.context.words("app.unsaved"))

@@ -21,7 +21,7 @@ pause over, and leaves any other screen.
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.input.hold import Holds
 
@@ -36,9 +36,9 @@ Devices = Sequence[Device | None]
 class Access:
     """Admits the presses that count on a page. `devices`: who sits on each seat, asked anew for every press."""
 
-    def __init__(self, house: House, devices: Callable[[], Devices]) -> None:
-        self.controls, self.devices = house.controls, devices
-        self.escape = Holds(house.controls, ESCAPE)
+    def __init__(self, context: Context, devices: Callable[[], Devices]) -> None:
+        self.controls, self.devices = context.controls, devices
+        self.escape = Holds(context.controls, ESCAPE)
 
     @property
     def seated(self) -> list[Device]:
@@ -80,8 +80,8 @@ class Access:
 class Ownership(Access):
     """A pause belongs to the device that asked for it, for a while and as long as it is plugged in."""
 
-    def __init__(self, house: House, devices: Callable[[], Devices], owner: Device) -> None:
-        super().__init__(house, devices)
+    def __init__(self, context: Context, devices: Callable[[], Devices], owner: Device) -> None:
+        super().__init__(context, devices)
         self.owner, self.left = owner, OWNED
 
     @property

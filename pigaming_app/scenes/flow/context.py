@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.scenes.flow.preload import Backstage
+from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass
-class House:
+class Context:
     """One of each, made once, handed to every scene."""
 
     settings: Settings
@@ -34,8 +34,8 @@ class House:
     idle: float = 0.0  # seconds since anyone pressed anything
     mat: "Mat | None" = None  # where real robots drive
     compiler: Compiler = field(default_factory=Compiler)  # of the Lab's training
-    backstage: Backstage = field(default_factory=Backstage)
-    stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
+    preloader: Preloader = field(default_factory=Preloader)
+    emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
 
     @property
     def robots(self) -> bool:
@@ -53,9 +53,9 @@ class House:
         """The row of hints of a page, see `Prompts`."""
         return Prompts(self.words, self.controls, items, y, room, solid, voice)
 
-    def stand_still(self) -> None:
+    def stop_all_robots(self) -> None:
         """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""
-        for stop in self.stops:
+        for stop in self.emergency_stops:
             try:
                 stop()
             except Exception:

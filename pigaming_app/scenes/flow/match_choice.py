@@ -5,7 +5,7 @@ from functools import lru_cache
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.storage.settings import Choice
@@ -37,9 +37,9 @@ def title(arena: Arena, language: str) -> str:
     return arena.title.get(language, arena.name)
 
 
-def chosen(house: House, game: str) -> Choice:
+def chosen(context: Context, game: str) -> Choice:
     """What was chosen last, or the game's own where that is not there (any more)."""
-    rules, last, names = GAMES[game], house.settings.choice(game), playable(game)
+    rules, last, names = GAMES[game], context.settings.choice(game), playable(game)
     return Choice(
         arena=last.arena if last.arena in names else names[0],
         minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
@@ -48,8 +48,8 @@ def chosen(house: House, game: str) -> Choice:
     )
 
 
-def summary(house: House, game: str) -> str:
+def summary(context: Context, game: str) -> str:
     """Game, minutes or goal, and arena in one line."""
-    words, now = house.words, chosen(house, game)
+    words, now = context.words, chosen(context, game)
     where = title(load_kept(game, now.arena), words.language)
     return "  ·  ".join((words(f"games.{game}"), measure(words, GAMES[game], now.minutes, now.goal), where))

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.focus import Focus
@@ -13,15 +13,15 @@ class Navigation:
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         focus: Focus,
         hints: Sequence[tuple[Act, str]],
         idle: float,
         stay: float = 0.0,
         voice: Callable[[], Device] | None = None,
     ) -> None:
-        self.house, self.focus, self.idle, self.stay = house, focus, idle, stay
-        self.prompts = house.prompts(hints, voice=voice)
+        self.context, self.focus, self.idle, self.stay = context, focus, idle, stay
+        self.prompts = context.prompts(hints, voice=voice)
         self._sentence, self._left = "", 0.0
 
     @property
@@ -36,14 +36,14 @@ class Navigation:
     def on(self, press: Press) -> Turn:
         """BACK leaves the page; directions and the mouse move the focus."""
         if press.act is Act.BACK:
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if self.focus.on(press):
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         return None
 
     def update(self, seconds: float) -> Turn:
         """Let focus and sentence move on; back to the title after a while without a press."""
         self.focus.update(seconds)
         self._left -= seconds
-        return Home() if self.house.idle > self.idle else None
+        return Home() if self.context.idle > self.idle else None

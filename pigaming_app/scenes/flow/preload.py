@@ -35,7 +35,7 @@ SWITCH = 0.001  # s for which the thread may keep the interpreter from the frame
 log = logging.getLogger("pigaming")
 
 
-class Backstage:
+class Preloader:
     """The thread; `then`, set before it starts, is called in it when all else is done."""
 
     def __init__(self) -> None:
@@ -47,7 +47,7 @@ class Backstage:
     def start(self) -> None:
         """Begin, once."""
         if self._thread is None:
-            self._thread = threading.Thread(target=self._work, name="backstage", daemon=True)
+            self._thread = threading.Thread(target=self._work, name="preloader", daemon=True)
             self._thread.start()
 
     def end(self) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import FIRES, kept_minutes, limits
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.howto.lessons import LESSONS
@@ -37,8 +37,8 @@ LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
 class HowTo:
     """The page of one game; left and right, or a click on a name, show another's, almost any other press leaves."""
 
-    def __init__(self, house: House, game: str = "pitanks") -> None:
-        self.house, self.game = house, game
+    def __init__(self, context: Context, game: str = "pitanks") -> None:
+        self.context, self.game = context, game
         self.clock = 0.0
 
     def entered(self) -> None:
@@ -54,18 +54,18 @@ class HowTo:
         elif press.act is Act.CLICK and named:
             self._show(named)
         elif press.act in LEAVE:
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
         """Let the pictures move."""
         self.clock += seconds
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint panels, pictures and keys."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("title.howto")).draw(screen)
         for game, box in self._names():
@@ -81,27 +81,27 @@ class HowTo:
             if said:
                 text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
-        said = limits(words, self.game, kept_minutes(self.house.settings, self.game))
+        said = limits(words, self.game, kept_minutes(self.context.settings, self.game))
         text(said, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
         keys(self._keys()).draw(screen)
 
     def _show(self, game: str) -> None:
         if game != self.game:
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
             self.game, self.clock = game, 0.0
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
         """The games by name and where these stand, at the right end of the heading."""
         boxes, right = [], RIGHT
         for game in reversed(LESSONS):
-            w = chip_width(self.house.words(f"games.{game}"))
+            w = chip_width(self.context.words(f"games.{game}"))
             boxes.append((game, pygame.Rect(right - w, 80, w, 64)))
             right -= w + 16
         return boxes[::-1]
 
     def _keys(self) -> tuple[tuple[str, str], ...]:
         """What is printed on the device used last, and what it does; the last one stands at the right end."""
-        words, controls = self.house.words, self.house.controls
+        words, controls = self.context.words, self.context.controls
         device = controls.last
         turbo = Act.LEAVE if device.kind == "keys" else Act.BACK
         found = [

@@ -4,7 +4,7 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.lab.trainer import Workshop
 
 IDLE = 90.0  # seconds without a press until the Lab
@@ -14,7 +14,7 @@ DARK = 72  # of 255: how bright the Lab is behind a page
 class Bench(Protocol):
     """The Lab below a page."""
 
-    house: House
+    context: Context
     workshop: Workshop
     name: str
 

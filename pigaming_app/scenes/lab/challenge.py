@@ -6,7 +6,7 @@ from pigaming_app.ai.brain.kind import Kind, Thinker
 from pigaming_app.ai.experiments.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
@@ -26,11 +26,11 @@ IDLE = 60.0  # seconds without a press until the Lab
 class Fight:
     """One match of a person against the robot."""
 
-    def __init__(self, house: House, kind: Kind, device: Device, arena: str = ARENA) -> None:
-        self.house, self.kind, self.device, self.arena = house, kind, device, arena
+    def __init__(self, context: Context, kind: Kind, device: Device, arena: str = ARENA) -> None:
+        self.context, self.kind, self.device, self.arena = context, kind, device, arena
         off = Seat("off", 2), Seat("off", 3)
         setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
-        self.inner = MatchScene(house, setup, [device])
+        self.inner = MatchScene(context, setup, [device])
         self.inner.open = False  # nobody else takes the robot's seat
         self.inner.match.sit(ROBOT, Thinker(kind, setup.seed))
         self.inner.stage.players[ROBOT] = kind.name
@@ -62,26 +62,26 @@ class Fight:
 
     def again(self, device: Device | None) -> "Fight":
         """Once more, driven with this device, or with the same one."""
-        return Fight(self.house, self.kind, device or self.device, self.arena)
+        return Fight(self.context, self.kind, device or self.device, self.arena)
 
 
 class Verdict:
     """Who won, and whether once more."""
 
     def __init__(self, fight: Fight) -> None:
-        self.fight, self.house = fight, fight.house
+        self.fight, self.context = fight, fight.context
         self.scores = [robot.score for robot in fight.inner.match.state.robots][:2]
         self.age = self.idle = 0.0
         self.picture: pygame.Surface | None = None
-        self.access = Access(self.house, lambda: [fight.inner.devices[0]])
-        self.leaving = Holds(self.house.controls, LEAVE)
+        self.access = Access(self.context, lambda: [fight.inner.devices[0]])
+        self.leaving = Holds(self.context.controls, LEAVE)
         hints = [(Act.FIRE, "results.again"), (Act.BACK, "lab.hint_lab")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
         mine, its = self.scores
-        self.house.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
+        self.context.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
 
     def on(self, press: Press) -> Turn:
         """FIRE plays again, with whatever device presses it; BACK leads to the Lab, held as after every match."""
@@ -93,7 +93,7 @@ class Verdict:
         if self.age < DEAF:
             return None
         if press.act in (Act.FIRE, Act.START):
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
             return Swap(self.fight.again(None if press.device.kind == "mouse" else press.device))
         if admitted and press.act is Act.BACK:
             if press.device.kind == "mouse":
@@ -103,7 +103,7 @@ class Verdict:
         return None
 
     def _leave(self) -> Turn:
-        self.house.sounds.play("back")
+        self.context.sounds.play("back")
         return Pop()
 
     def update(self, seconds: float) -> Turn:
@@ -126,7 +126,7 @@ class Verdict:
             filled(screen, self.leaving.share)
 
     def _paint(self, pane: Pane) -> None:
-        words = self.house.words
+        words = self.context.words
         mine, its = self.scores
         name = self.fight.kind.name.upper()
         if mine == its:

@@ -55,8 +55,8 @@ class Compare:
     """The league of one training."""
 
     def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
-        words, workshop = self.house.words, lab.workshop
+        self.lab, self.context = lab, lab.context
+        words, workshop = self.context.words, lab.workshop
         kept = workshop.checkpoints()
         self.players = [Player(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
         now = workshop.moment.matches
@@ -68,7 +68,7 @@ class Compare:
         self.pairs = list(combinations(self.players, 2))
         self.whole = len(self.pairs)
         self.exam: Exam | None = None
-        self.prompts = self.house.prompts([(Act.BACK, "lab.hint_lab")])
+        self.prompts = self.context.prompts([(Act.BACK, "lab.hint_lab")])
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -77,13 +77,13 @@ class Compare:
         """Any button leads back."""
         press = self.prompts.meant(press)
         if press.act in (Act.BACK, Act.FIRE, Act.START):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
         """Play on for some milliseconds, and let the rows glide."""
-        if self.house.idle > IDLE:
+        if self.context.idle > IDLE:
             return Pop()
         end = perf_counter() + SLICE
         while self.pairs and perf_counter() < end:
@@ -95,7 +95,7 @@ class Compare:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the table."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("lab.compare_title")).draw(screen)
         for key, right in COLUMNS:
@@ -129,7 +129,7 @@ class Compare:
             one.won, one.tied, one.lost = one.won + exam.wins, one.tied + exam.ties, one.lost + exam.losses
             other.won, other.tied, other.lost = other.won + exam.losses, other.tied + exam.ties, other.lost + exam.wins
             if not self.pairs:
-                self.house.sounds.play("win")
+                self.context.sounds.play("win")
 
     def _bar(self, screen: pygame.Surface) -> None:
         """How much has been played."""

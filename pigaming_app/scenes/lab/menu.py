@@ -22,11 +22,11 @@ class LabMenu:
     """The menu over the Lab, which rests."""
 
     def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
+        self.lab, self.context = lab, lab.context
         self.sure = False  # the next press on it forgets everything
         self.picture: pygame.Surface | None = None
         self.focus = Focus(items(ITEMS))
-        self.prompts = self.house.prompts([(Act.FIRE, "pause.hint_ok"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+        self.prompts = self.context.prompts([(Act.FIRE, "pause.hint_ok"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -35,18 +35,18 @@ class LabMenu:
         """FIRE takes what has the focus; START and BACK lead back."""
         press = self.prompts.meant(press)
         if press.act in (Act.START, Act.BACK):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if self.focus.on(press):
             self.sure = False
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         chosen = self.focus.chosen(press)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
         """Only the focus moves."""
         self.focus.update(seconds)
-        return Pop() if self.house.idle > IDLE else None
+        return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The page, painted once, and the item in focus."""
@@ -54,14 +54,14 @@ class LabMenu:
             self.picture = overlay(behind(self.lab), ICE, self._paint)
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen, ALARM if self.sure else FOCUS)
-        said = self.house.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
+        said = self.context.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
         if self.sure:
             pygame.draw.rect(screen, (0, 0, 0), self.focus.spot.rect)
         word(said, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
         self.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         match name:
             case "save":
                 return Swap(Naming(self.lab))
@@ -77,7 +77,7 @@ class LabMenu:
                 return None
 
     def _paint(self, pane: Pane) -> None:
-        words = self.house.words
+        words = self.context.words
         title(pane, None, words("lab.title"), ICE)
         for spot in self.focus.spots:
             pane.page.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")

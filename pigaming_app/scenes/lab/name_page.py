@@ -33,11 +33,11 @@ class Naming:
     """Asks for a name and saves the robot under it."""
 
     def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
+        self.lab, self.context = lab, lab.context
         self.picker = LetterPicker(LETTERS, (lab.name or proposal()).ljust(LENGTH))
         self.age = 0.0
         self.taken = False  # the name belongs to another robot; START again replaces it
-        self.prompts = self.house.prompts(
+        self.prompts = self.context.prompts(
             [(Act.FIRE, "results.next_letter"), (Act.BACK, "lab.hint_back"), (Act.START, "lab.hint_save")],
         )
 
@@ -64,7 +64,7 @@ class Naming:
             case Act.LEFT:
                 self._play(self.picker.move(-1))
             case Act.BACK if self.picker.slot == 0:
-                self.house.sounds.play("back")
+                self.context.sounds.play("back")
                 return Pop()
             case Act.BACK:
                 self._play(self.picker.move(-1))
@@ -80,12 +80,12 @@ class Naming:
         """Let a letter roll."""
         self.age += seconds
         self.picker.update(seconds)
-        return Pop() if self.house.idle > IDLE else None
+        return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the question and the letters."""
         screen.blit(backdrop(), (0, 0))
-        words = self.house.words
+        words = self.context.words
         heading(words("lab.name_title")).draw(screen)
         xs = [middle(i) for i in range(LENGTH)]
         for x in xs:
@@ -99,14 +99,14 @@ class Naming:
     # ---- inside
 
     def _said(self) -> tuple[str, Color]:
-        words = self.house.words
+        words = self.context.words
         if self.taken:
             return words("lab.taken", name=self.name), ALARM
         return words("lab.name_how"), MIST
 
     def _play(self, sound: str | None) -> None:
         if sound:
-            self.house.sounds.play(sound)
+            self.context.sounds.play(sound)
 
     def _click(self, at: tuple[float, float]) -> None:
         """The upper half of a letter's column goes one letter back, the lower one on."""
@@ -120,13 +120,13 @@ class Naming:
         """Save it, unless the name is another robot's and this is the first time that START was pressed."""
         name = self.name
         if not name:
-            self.house.sounds.play("refused")
+            self.context.sounds.play("refused")
             return None
         if name != self.lab.name and name in names() and not self.taken:
             self.taken = True
-            self.house.sounds.play("refused")
+            self.context.sounds.play("refused")
             return None
-        words = self.house.words
+        words = self.context.words
         try:
             self.lab.workshop.hold(lambda training: keep(training, name))
             self.lab.name = name

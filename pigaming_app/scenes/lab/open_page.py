@@ -24,11 +24,11 @@ class Shelf:
     """Cards of the robots, the last saved first; those of one page at a time."""
 
     def __init__(self, lab: Bench) -> None:
-        self.lab, self.house = lab, lab.house
+        self.lab, self.context = lab, lab.context
         self.names = names()
         self.page, self.age = 0, 0.0
         self.focus = Focus(self._spots())
-        self.prompts = self.house.prompts(self._hints())
+        self.prompts = self.context.prompts(self._hints())
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -37,15 +37,15 @@ class Shelf:
         """FIRE opens, BACK leads to the Lab, ALT shows the next page."""
         press = self.prompts.meant(press)
         if press.act is Act.BACK or (not self.names and press.act in (Act.FIRE, Act.START)):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if press.act is Act.ALT and self.pages > 1:
             self.page = (self.page + 1) % self.pages
             self.focus = Focus(self._spots())
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         elif self.names:
             if self.focus.on(press):
-                self.house.sounds.play("move")
+                self.context.sounds.play("move")
             chosen = self.focus.chosen(press)
             return self._open(chosen) if chosen and self.age > DEAF else None
         return None
@@ -54,11 +54,11 @@ class Shelf:
         """Let the focus glide."""
         self.age += seconds
         self.focus.update(seconds)
-        return Pop() if self.house.idle > IDLE else None
+        return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the cards."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         count = f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
         heading(words("lab.open_title"), count).draw(screen)
@@ -89,7 +89,7 @@ class Shelf:
         return ([(Act.FIRE, "lab.hint_open")] if self.names else []) + more + [(Act.BACK, "lab.hint_lab")]
 
     def _open(self, name: str) -> Turn:
-        words, workshop = self.house.words, self.lab.workshop
+        words, workshop = self.context.words, self.lab.workshop
         try:
             workshop.take(fetch(name, workshop.fast))
             self.lab.name = name

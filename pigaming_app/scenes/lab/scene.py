@@ -11,7 +11,7 @@ import pygame
 
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.lab.knob import MOST
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
@@ -38,9 +38,9 @@ TURNS = {Act.LEFT: -1, Act.DOWN: -1, Act.RIGHT: 1, Act.UP: 1}
 class Lab:
     """A robot that learns, from an empty table on. `fast`: compiled; left out: if numba is there."""
 
-    def __init__(self, house: House, fast: bool | None = None) -> None:
-        self.house = house
-        self.workshop = Workshop(FIRST, new_seed(), fast, house.compiler)
+    def __init__(self, context: Context, fast: bool | None = None) -> None:
+        self.context = context
+        self.workshop = Workshop(FIRST, new_seed(), fast, context.compiler)
         self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
         self.cheered: Progress | None = None  # in which that was over
         self.name = ""  # under which it was saved or opened
@@ -52,7 +52,7 @@ class Lab:
         self.sentence, self.wrong = "", False
         self.focus = Focus([Spot("speed", SPEED), Spot("play", PLAY)]
                            + [Spot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
-        self.prompts = house.prompts(
+        self.prompts = context.prompts(
             [
                 (Act.FIRE, "lab.hint_choose"),
                 (Act.EXTRA, "lab.hint_play"),
@@ -62,15 +62,15 @@ class Lab:
             ],
             PROMPTS_Y,
         )
-        self.turning = house.prompts([(Act.RIGHT, "lab.hint_turn"), (Act.FIRE, "lab.hint_done")], PROMPTS_Y)
+        self.turning = context.prompts([(Act.RIGHT, "lab.hint_turn"), (Act.FIRE, "lab.hint_done")], PROMPTS_Y)
 
     # ---- what happens to it
 
     def entered(self) -> None:
         """Begin, or go on."""
         self.age, self.held = 0.0, ""
-        self.house.sounds.music(True)
-        if self.page and self.page.language != self.house.words.language:
+        self.context.sounds.music(True)
+        if self.page and self.page.language != self.context.words.language:
             self.page = None
 
     def on(self, press: Press) -> Turn:
@@ -87,14 +87,14 @@ class Lab:
             case Act.START:
                 return self._menu()
             case Act.BACK:
-                self.house.sounds.play("back")
+                self.context.sounds.play("back")
                 return self.leave(Pop())
             case Act.FIRE | Act.CLICK:
                 self.focus.on(press)
                 return self._choose(press) if self.age > DEAF else None
             case _:
                 if self.focus.on(press):
-                    self.house.sounds.play("move")
+                    self.context.sounds.play("move")
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -105,7 +105,7 @@ class Lab:
         self.workshop.feed(seconds)
         self.compiling = self.compiling + seconds if self.workshop.compiling else 0.0
         self._follow(seconds)
-        if self.house.idle > IDLE:
+        if self.context.idle > IDLE:
             self.workshop.recipe, self.workshop.speed = FIRST, 0
             self.begin()
             return self.leave(Home())
@@ -114,16 +114,16 @@ class Lab:
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
         if self.page is None:
-            self.page, self.seen = LabPage(self.house), -1
+            self.page, self.seen = LabPage(self.context), -1
         self.page.draw(screen, self.shown)
         if not self.held:
             self.focus.draw(screen)
-        words = self.house.words
+        words = self.context.words
         if self.said > 0.0:
             plate(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
         else:
             (self.turning if self.held else self.prompts).draw(screen)
-        if self.house.idle > IDLE - LAST:
+        if self.context.idle > IDLE - LAST:
             plate(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > PATIENT:
             warming(words("lab.warming")).draw(screen)
@@ -137,17 +137,17 @@ class Lab:
     def say(self, sentence: str, wrong: bool = False) -> None:
         """Show a sentence for a while."""
         self.sentence, self.wrong, self.said = sentence, wrong, SAID
-        self.house.sounds.play("error" if wrong else "accept")
+        self.context.sounds.play("error" if wrong else "accept")
 
     def play(self, device: Device) -> Turn:
         """A match against what the robot is now."""
         from pigaming_app.scenes.lab.challenge import Fight
 
-        self.house.sounds.play("accept")
-        driver = self.house.controls.last if device.kind == "mouse" else device
-        robot = self.workshop.checkpoint(self.name or self.house.words("lab.robot"))
+        self.context.sounds.play("accept")
+        driver = self.context.controls.last if device.kind == "mouse" else device
+        robot = self.workshop.checkpoint(self.name or self.context.words("lab.robot"))
         self.workshop.close()
-        return Push(Fight(self.house, robot.kind, driver, self.workshop.training.arena))
+        return Push(Fight(self.context, robot.kind, driver, self.workshop.training.arena))
 
     def begin(self) -> None:
         """Everything from an empty table."""
@@ -173,7 +173,7 @@ class Lab:
             self._set(chosen, self._value(chosen) + (1 if press.at[0] > self.focus.rect(chosen).centerx else -1))
         elif chosen:
             self.held = chosen
-            self.house.sounds.play("lift")
+            self.context.sounds.play("lift")
         return None
 
     def _turn(self, press: Press) -> Turn:
@@ -182,17 +182,17 @@ class Lab:
             self._set(self.held, self._value(self.held) + TURNS[press.act])
         elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.CLICK):
             self.held = ""
-            self.house.sounds.play("set_down")
+            self.context.sounds.play("set_down")
         return None
 
     def _hurry(self, speed: int) -> None:
         self.workshop.speed = speed
-        self.house.sounds.play("move")
+        self.context.sounds.play("move")
 
     def _menu(self) -> Turn:
         from pigaming_app.scenes.lab.menu import LabMenu
 
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         return self.leave(Push(LabMenu(self)))
 
     def _value(self, knob: str) -> int:
@@ -203,7 +203,7 @@ class Lab:
         value = max(-MOST, min(MOST, value))
         if value != self._value(knob):
             self.workshop.recipe = turned(self.workshop.recipe, knob, value)
-            self.house.sounds.play("tick")
+            self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
         """Tell the page what is so."""
@@ -229,8 +229,8 @@ class Lab:
             self.lagged = progress
         elif share is not None and share > HANDMADE and self.lagged is progress is not self.cheered:
             self.cheered = progress
-            self.say(self.house.words("lab.outdone"))
-            self.house.sounds.play("win")
+            self.say(self.context.words("lab.outdone"))
+            self.context.sounds.play("win")
 
 
 def level(share: float) -> int:

@@ -7,7 +7,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.brain.rose import LEVELS, PETALS, draw_petals, draw_signs, tone
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.lab.arena_view import Arena
 from pigaming_app.scenes.lab.knob import dial
 from pigaming_app.scenes.lab.layout import (
@@ -87,9 +87,9 @@ class Shown:
 class LabPage:
     """The page; `draw` is told what is so."""
 
-    def __init__(self, house: House) -> None:
-        self.words, self.language = house.words, house.words.language
-        self.ground = ground(house.words.language)
+    def __init__(self, context: Context) -> None:
+        self.words, self.language = context.words, context.words.language
+        self.ground = ground(context.words.language)
         self.arena = Arena(self.ground)
         self.curve = Curve(self.ground)
         self.levels = [0] * PETALS  # on their way

@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import kept_goal, tagline
 from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Turn
 from pigaming_app.scenes.views.game_tile import TILE_H, tile, tile_rect
@@ -19,20 +19,20 @@ from pigaming_app.ui.widgets.labels import blacked, heading
 IDLE = 60.0  # seconds without a press until the title
 DOWN = (1080 - TILE_H) // 2 - tile_rect(0).y + 20  # px by which the tiles stand lower than on the title
 
-LobbyOf = Callable[[House, str, Sequence[Device | str | None]], Scene]  # for a game, with these drivers
+LobbyOf = Callable[[Context, str, Sequence[Device | str | None]], Scene]  # for a game, with these drivers
 
 
 class GameChoice:
     """The page after a match of `setup`, whose seats were driven with `devices`; the next game has the focus."""
 
-    def __init__(self, house: House, setup: Setup, devices: Sequence[Device | None], lobby: LobbyOf) -> None:
-        self.house, self.setup, self.devices, self.lobby = house, setup, list(devices), lobby
-        self.access = Access(house, lambda: self.devices)
+    def __init__(self, context: Context, setup: Setup, devices: Sequence[Device | None], lobby: LobbyOf) -> None:
+        self.context, self.setup, self.devices, self.lobby = context, setup, list(devices), lobby
+        self.access = Access(context, lambda: self.devices)
         games = list(GAMES)
         after = games[(games.index(setup.game) + 1) % len(games)]
         self.focus = Focus([Spot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(games)], after)
         hints = [(Act.FIRE, "choice.hint_ok"), (Act.BACK, "choice.hint_back")]
-        self.prompts = house.prompts(hints, voice=lambda: self.access.voice)
+        self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -43,10 +43,10 @@ class GameChoice:
         if admitted is None:
             return None
         if admitted.act is Act.BACK:
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if self.focus.on(admitted):
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         game = self.focus.chosen(admitted)
         return self._open(game) if game else None
 
@@ -54,19 +54,19 @@ class GameChoice:
         """The focus moves; leave when nobody is there."""
         self.focus.update(seconds)
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("choice.title")).draw(screen)
         blacked(screen, *(spot.rect for spot in self.focus.spots))
         for spot in self.focus.spots:
             game = spot.name
-            line = tagline(words, game, kept_goal(self.house.settings, game))
+            line = tagline(words, game, kept_goal(self.context.settings, game))
             lit = tile(game, words(f"games.{game}"), line, game == self.focus.name)
             lit.draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
@@ -74,9 +74,9 @@ class GameChoice:
 
     def _open(self, game: str) -> Turn:
         """The lobby of a game, with everybody seated whose device is there, and the AIs."""
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         drivers: list[Device | str | None] = []
         for device, seat in zip(self.devices, self.setup.seats, strict=True):
-            here = device if device and self.house.controls.connected(device) else None
+            here = device if device and self.context.controls.connected(device) else None
             drivers.append(here or (None if seat.brain in ("human", "off") else seat.brain))
-        return Home(self.lobby(self.house, game, drivers))
+        return Home(self.lobby(self.context, game, drivers))

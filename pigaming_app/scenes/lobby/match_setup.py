@@ -13,7 +13,7 @@ import pygame
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import chosen, load_kept, playable, title
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, Turn
@@ -50,22 +50,22 @@ log = logging.getLogger(__name__)
 class SetupPage:
     """The choice of the match that `seats` are going to play. `game_choice`: see `Results`."""
 
-    def __init__(self, house: House, game: str, seats: Seats, game_choice: After | None = None) -> None:
-        self.house, self.game, self.seats, self.game_choice = house, GAMES[game], seats, game_choice
+    def __init__(self, context: Context, game: str, seats: Seats, game_choice: After | None = None) -> None:
+        self.context, self.game, self.seats, self.game_choice = context, GAMES[game], seats, game_choice
         self.arenas = playable(game)
-        self.chosen = chosen(house, game)
+        self.chosen = chosen(context, game)
         self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
-        self.access = Access(house, seats.devices)
+        self.access = Access(context, seats.devices)
         self.going = False  # a match was asked for
         hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
         self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
-        self.navigation = Navigation(house, self.focus, hints, IDLE, voice=lambda: self.access.voice)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Shown, or come back to from the results."""
         self.clock, self.going = 0.0, False
-        self.house.sounds.music(True)
+        self.context.sounds.music(True)
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
@@ -88,10 +88,10 @@ class SetupPage:
     def update(self, seconds: float) -> Turn:
         """Let the picture slide in; go back when a seat has lost its device, and leave when nobody is there."""
         self.clock += seconds
-        if any(device and not self.house.controls.connected(device) for device in self.seats.devices()):
+        if any(device and not self.context.controls.connected(device) for device in self.seats.devices()):
             return Pop()
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         self.slid = min(SLIDE, self.slid + seconds)
         turn = self.navigation.update(seconds)
@@ -99,7 +99,7 @@ class SetupPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("setup.title")).draw(screen)
         choice.lineup(self._signs()).draw(screen, RIGHT, 112)
@@ -116,7 +116,7 @@ class SetupPage:
 
     def _go(self) -> Turn:
         self._keep()
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         self.going = True
         return self._begin()
 
@@ -125,10 +125,12 @@ class SetupPage:
         from pigaming_app.scenes.play.scene import new_seed
         from pigaming_app.scenes.robots.start_match import match_of
 
-        if not self.house.backstage.ready(self.game.name, self.chosen.arena):
+        if not self.context.preloader.ready(self.game.name, self.chosen.arena):
             return None
         setup = replace(self._setup(), seed=new_seed())
-        return Push(match_of(self.house, setup, self.seats.devices(), self.seats.real(), game_choice=self.game_choice))
+        return Push(
+            match_of(self.context, setup, self.seats.devices(), self.seats.real(), game_choice=self.game_choice)
+        )
 
     def _setup(self) -> Setup:
         """The match as it is chosen now, without a seed."""
@@ -139,13 +141,13 @@ class SetupPage:
     def _keep(self) -> None:
         """Remember the choice for the next time, also after a power cut."""
         try:
-            self.house.settings.save(folders().config)
+            self.context.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
 
     def _row(self, name: str) -> Lit:
         """What a row says."""
-        words, now, game = self.house.words, self.chosen, self.game
+        words, now, game = self.context.words, self.chosen, self.game
         if name == "arena":
             place = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
             where = title(load_kept(game.name, now.arena), words.language)
@@ -173,8 +175,8 @@ class SetupPage:
         elif name == "rules":
             now.variant = game.variants[(game.variants.index(now.variant) + by) % len(game.variants)]
         if now != before:
-            self.house.sounds.play("move")
-        self.house.settings.games[game.name] = now
+            self.context.sounds.play("move")
+        self.context.settings.games[game.name] = now
 
     def _click(self, press: Press) -> Turn:
         """The arrows and chips of a row, the picture (the next arena), the button."""
@@ -199,10 +201,10 @@ class SetupPage:
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
         for feat in self.game.feats:
-            best = self.house.scores.best(table_of(contest(self._setup()), feat))
+            best = self.context.scores.best(table_of(contest(self._setup()), feat))
             if best:
-                name = self.house.words(f"setup.best_{feat.name}")
-                lines.append((name, self.house.words.decimal(told(best[0].score, feat)), best[0].initials))
+                name = self.context.words(f"setup.best_{feat.name}")
+                lines.append((name, self.context.words.decimal(told(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 

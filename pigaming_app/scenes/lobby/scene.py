@@ -16,7 +16,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.hardware.session.real import unfit
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import chosen, summary
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.lobby import seat_card as card
@@ -39,29 +39,29 @@ POINTED = 4.0  # seconds after the mouse moved in which its focus shows
 class Lobby:
     """Who plays a game. `drivers`: who sits there already, for each seat a device, the strength of an AI, or None."""
 
-    def __init__(self, house: House, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
-        self.house, self.game = house, game
-        self.seats = Seats(house.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game], mat=house.robots)
+    def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
+        self.context, self.game = context, game
+        self.seats = Seats(context.settings.strength, sides=GAMES[game].sides, rivals=RIVALS[game], mat=context.robots)
         for seat, place in enumerate(self.seats.places):
-            place.real = seat + 1 in house.settings.real and not unfit(house.settings)
+            place.real = seat + 1 in context.settings.real and not unfit(context.settings)
         for seat, driver in enumerate(drivers):
             if driver is not None:
                 self.seats.seat(seat, driver)
         self.now = Moment()
-        self.access = Access(house, self.seats.devices)
-        self.page = LobbyPage(house, self.seats, self.now, lambda: summary(house, game), self.access)
+        self.access = Access(context, self.seats.devices)
+        self.page = LobbyPage(context, self.seats, self.now, lambda: summary(context, game), self.access)
         self.focus = Focus(spots(self.seats))
         self.ahead = Ahead(card.ahead())
         self.rehearsal: Stage | None = None
 
     def entered(self) -> None:
         """Shown, or come back to from the choice of the arena: everyone says again that they are ready."""
-        self.house.sounds.music(True)
+        self.context.sounds.music(True)
         self.now.starting = None
         self.seats.unready()
         for seat in self.seats.like(HUMAN):
             device = self.seats.places[seat].device
-            if device and not self.house.controls.connected(device):
+            if device and not self.context.controls.connected(device):
                 self._unplugged(device)
 
     def on(self, press: Press) -> Turn:
@@ -86,7 +86,7 @@ class Lobby:
                 self._ais()
             case Act.EXTRA if self.seats.sides == FREE:
                 self.seats.teams = not self.seats.teams
-                self.house.sounds.play("move")
+                self.context.sounds.play("move")
             case Act.LEFT | Act.RIGHT | Act.UP | Act.DOWN:
                 self._steer(device, press.act)
             case Act.LOST:
@@ -103,14 +103,14 @@ class Lobby:
         self.now.pass_by(seconds)
         self.focus.update(seconds)
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if self.now.starting is not None:
             self.now.starting -= seconds
             if self.now.starting <= 0.0:
                 return self._go()
         self._make_ahead()
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
@@ -122,11 +122,11 @@ class Lobby:
         """While people think: first what this page will need, then the sprites of the match."""
         if not self.ahead.work(AHEAD):
             return
-        now = chosen(self.house, self.game)
-        if self.rehearsal is None and self.house.backstage.ready(self.game, now.arena):
+        now = chosen(self.context, self.game)
+        if self.rehearsal is None and self.context.preloader.ready(self.game, now.arena):
             one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
-            self.rehearsal = Stage(self.house, Match(setup), loud=False)
+            self.rehearsal = Stage(self.context, Match(setup), loud=False)
         elif self.rehearsal:
             self.rehearsal.warm(AHEAD)
 
@@ -137,10 +137,10 @@ class Lobby:
         if press.act in (Act.FIRE, Act.START):
             self._fire(press.device)
         elif press.act in (Act.BACK, Act.EXTRA, Act.ALT):
-            words = self.house.words
+            words = self.context.words
             full = len(self.seats.like(HUMAN)) == PLACES
             self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
-            self.now.label = words.printed(self.house.controls.label(press.device, Act.FIRE))
+            self.now.label = words.printed(self.context.controls.label(press.device, Act.FIRE))
             self.now.said = SAID
 
     def _fire(self, device: Device) -> None:
@@ -151,14 +151,14 @@ class Lobby:
         seat = self.seats.of(device)
         if seat is not None:
             self.seats.places[seat].ready = True
-            self.house.sounds.play("ready", seat)
+            self.context.sounds.play("ready", seat)
             return
         seat = self.seats.join(device)
         if seat is None:
-            self._say(self.house.words("lobby.full"), "error")
+            self._say(self.context.words("lobby.full"), "error")
         else:
             self.now.since[seat] = 0.0
-            self.house.sounds.play("join", seat)
+            self.context.sounds.play("join", seat)
 
     def _begin(self, device: Device) -> Turn:
         """START: everybody counts as ready. In an empty lobby it joins."""
@@ -166,19 +166,19 @@ class Lobby:
             self._fire(device)
             return None
         self._fill()
-        if trouble := problem(self.seats, self.house.words):
+        if trouble := problem(self.seats, self.context.words):
             self._say(trouble, "error")
             return None
         return self._go()
 
     def _go(self) -> Turn:
         self.now.starting = None
-        self.house.sounds.play("accept")
-        return Push(SetupPage(self.house, self.game, self.seats, game_choice))
+        self.context.sounds.play("accept")
+        return Push(SetupPage(self.context, self.game, self.seats, game_choice))
 
     def _back(self, device: Device) -> Turn:
         """Not ready after all; then out of the seat; then back to the title."""
-        self.house.sounds.play("back")
+        self.context.sounds.play("back")
         seat = self.seats.of(device)
         if seat is None:
             return Pop()
@@ -193,17 +193,17 @@ class Lobby:
         seat = self.seats.of(device)
         if seat is not None:
             self.seats.leave(seat)
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
 
     def _ais(self) -> None:
         """One more AI; when all seats are taken, none."""
         seat = self.seats.add()
         if seat is None:
             self.seats.clear()
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
         else:
             self.now.since[seat] = 0.0
-            self.house.sounds.play("join", seat)
+            self.context.sounds.play("join", seat)
 
     def _steer(self, device: Device, act: Act) -> None:
         """Left and right choose one's own team where there are teams, up and down one's own robot where there is a mat;
@@ -216,31 +216,31 @@ class Lobby:
             self._change_team(seat)
         elif self.seats.strengthen(1 if act in (Act.RIGHT, Act.UP) else -1):
             self._remember()
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
 
     def _remember(self) -> None:
         """The next lobby, of any game, begins with AIs of this strength; one that only one game has is not kept."""
         if self.seats.strength in STRENGTHS:
-            self.house.settings.strength = self.seats.strength
+            self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:
         """A real robot for a simulated one, or the other way round; the next lobby begins like this."""
-        if reason := unfit(self.house.settings):
-            self._say(tell(self.house.words, reason), "error")
+        if reason := unfit(self.context.settings):
+            self._say(tell(self.context.words, reason), "error")
             return
         self.seats.swap(seat)
-        self.house.settings.real = [i + 1 for i, place in enumerate(self.seats.places) if place.real]
-        self.house.sounds.play("move")
+        self.context.settings.real = [i + 1 for i, place in enumerate(self.seats.places) if place.real]
+        self.context.sounds.play("move")
 
     def _change_team(self, seat: int) -> None:
         self.seats.change_team(seat)
-        self.house.sounds.play("move")
+        self.context.sounds.play("move")
 
     def _unplugged(self, device: Device) -> None:
         seat = self.seats.of(device)
         if seat is not None:
             self.seats.leave(seat)
-            self._say(self.house.words("lobby.unplugged", player=seat + 1), "back")
+            self._say(self.context.words("lobby.unplugged", player=seat + 1), "back")
 
     def _mouse(self, press: Press) -> None:
         self.now.pointed = POINTED
@@ -257,17 +257,17 @@ class Lobby:
         elif what in ("weaker", "stronger"):
             self.seats.strengthen(1 if what == "stronger" else -1, seat)
             self._remember()
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         elif kind == AI:
             self.seats.leave(seat)
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
         elif kind == EMPTY:
             self.seats.add(seat)
             self.now.since[seat] = 0.0
-            self.house.sounds.play("join", seat)
+            self.context.sounds.play("join", seat)
         else:
             self.seats.places[seat].ready = not self.seats.places[seat].ready
-            self.house.sounds.play("ready", seat)
+            self.context.sounds.play("ready", seat)
 
     def _watch(self) -> None:
         """Begin the last moment when all are ready, and give it up when somebody is not."""
@@ -277,7 +277,7 @@ class Lobby:
             self.now.starting = None
         elif self.now.starting is None:
             self._fill()
-            if not problem(self.seats, self.house.words):
+            if not problem(self.seats, self.context.words):
                 self.now.starting = self.now.whole = ALONE if alone else ALL
 
     def _fill(self) -> None:
@@ -286,9 +286,9 @@ class Lobby:
 
     def _say(self, message: str, sound: str) -> None:
         self.now.message, self.now.label, self.now.said = message, "", SAID
-        self.house.sounds.play(sound)
+        self.context.sounds.play(sound)
 
 
-def game_choice(house: House, setup: Setup, devices: Sequence[Device | None]) -> GameChoice:
+def game_choice(context: Context, setup: Setup, devices: Sequence[Device | None]) -> GameChoice:
     """The choice of another game after a match; it leads to a lobby."""
-    return GameChoice(house, setup, devices, Lobby)
+    return GameChoice(context, setup, devices, Lobby)

@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.games.game import FREE, PAIRS
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, PLACES, Seats
 from pigaming_app.ui.draw import FOCUS, LABEL, dim
@@ -49,13 +49,13 @@ class Moment:
 class LobbyPage:
     """The page of these seats; `now` is what moves on it."""
 
-    def __init__(self, house: House, seats: Seats, now: Moment, fact: Callable[[], str], access: Access) -> None:
-        self.house, self.seats, self.now, self.fact, self.access = house, seats, now, fact, access
+    def __init__(self, context: Context, seats: Seats, now: Moment, fact: Callable[[], str], access: Access) -> None:
+        self.context, self.seats, self.now, self.fact, self.access = context, seats, now, fact, access
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page; `fact` tells what stands beside its title."""
         screen.blit(backdrop(), (0, 0))
-        heading(self.house.words("lobby.title"), self.fact()).draw(screen)
+        heading(self.context.words("lobby.title"), self.fact()).draw(screen)
         blacked(screen, *map(card_rect, range(PLACES)))
         for seat in range(PLACES):
             self._card(screen, seat)
@@ -74,17 +74,17 @@ class LobbyPage:
         ]
         if self.seats.sides == FREE:
             hints.append((Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
-        return self.house.prompts([*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
+        return self.context.prompts([*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
 
     @property
     def invited(self) -> tuple[str, ...]:
         """The button of each device that could join, each once: of the pads, then of the keyboard's clusters."""
-        controls, words = self.house.controls, self.house.words
+        controls, words = self.context.controls, self.context.words
         free = [device for device in controls.players() if self.seats.of(device) is None]
         return tuple(dict.fromkeys(words.printed(controls.label(device, Act.FIRE)) for device in free))
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
-        words, place, (x, y) = self.house.words, self.seats.places[seat], card_rect(seat).topleft
+        words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
         said = words("lobby.seat", player=seat + 1)
         if place.kind == EMPTY:
             card.empty(seat, said).draw(screen, x, y)
@@ -99,7 +99,7 @@ class LobbyPage:
             else:
                 card.team(words("lobby.team", team=place.team + 1), place.team).draw(screen, x, y)
         if place.device:
-            controls = self.house.controls
+            controls = self.context.controls
             name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")
             card.driver("pad" if place.device.kind == "pad" else "keys", name).draw(screen, x, y)
         else:
@@ -111,13 +111,13 @@ class LobbyPage:
         self._bar(screen, seat)
 
     def _bar(self, screen: pygame.Surface, seat: int) -> None:
-        words, place, (x, y) = self.house.words, self.seats.places[seat], card_rect(seat).topleft
+        words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
         if place.kind == AI:
             card.strength(words(f"lobby.{place.strength}"), self.seats.teams).draw(screen, x, y)
         elif place.ready:
             ready(seat, words("lobby.ready")).draw(screen, x, y)
         else:
-            label = words.printed(self.house.controls.label(place.device, Act.FIRE))
+            label = words.printed(self.context.controls.label(place.device, Act.FIRE))
             asked(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
 
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
@@ -134,7 +134,7 @@ class LobbyPage:
         stamp(screen, sprite, x + MIDDLE, y + middle_y + 120 * coming - hop)
 
     def _message(self, screen: pygame.Surface) -> None:
-        words, waiting = self.house.words, self.seats.waiting
+        words, waiting = self.context.words, self.seats.waiting
         if self.now.starting is not None:
             calling(words("lobby.starting"), "", LABEL).draw(screen, 960, MESSAGE_Y)
             reach = round(864 * (1.0 - max(0.0, self.now.starting) / self.now.whole))
@@ -147,7 +147,7 @@ class LobbyPage:
         if waiting:
             place = self.seats.places[waiting[0]]
             said = words("lobby.wait", player=waiting[0] + 1, button="{button}")
-            label = words.printed(self.house.controls.label(place.device, Act.FIRE))
+            label = words.printed(self.context.controls.label(place.device, Act.FIRE))
         else:
             said, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
         calling(said, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)

@@ -8,7 +8,7 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.options import controls_pictures as gadgets
 from pigaming_app.scenes.views.sprites import effects
@@ -33,8 +33,8 @@ BUTTONS = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT, Act.START)
 class PadTest:
     """The page. `lit`: seconds for which a button of a device still shows that it was pressed."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
+    def __init__(self, context: Context) -> None:
+        self.context = context
         self.holding: Device | None = None
         self.held = 0.0
         self.lit: dict[tuple[Device, Act], float] = {}
@@ -60,7 +60,7 @@ class PadTest:
 
     def update(self, seconds: float) -> Turn:
         """Turn the robots, let lights go out, notice that B is held."""
-        controls = self.house.controls
+        controls = self.context.controls
         self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
         self.clicks = [(x, y, since + seconds) for x, y, since in self.clicks if since < 0.45]
         for i in range(PLACES):
@@ -71,14 +71,14 @@ class PadTest:
                 return self._leave()
         else:
             self.holding = None
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint every device as it is held now."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("padtest.title"), words("padtest.line")).draw(screen)
-        pads = self.house.controls.pads()[:PLACES]
+        pads = self.context.controls.pads()[:PLACES]
         for i in range(PLACES):
             x = span(3 * i, 3)[0]
             blacked(screen, *(pygame.Rect(x, y, gadgets.W, gadgets.H) for y in (PADS_Y, KEYS_Y)))
@@ -95,15 +95,15 @@ class PadTest:
     # ---- inside
 
     def _prompts(self) -> Prompts:
-        pad = self.house.controls.last.kind == "pad"
-        return self.house.prompts([(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
+        pad = self.context.controls.last.kind == "pad"
+        return self.context.prompts([(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
     def _leave(self) -> Turn:
-        self.house.sounds.play("back")
+        self.context.sounds.play("back")
         return Pop()
 
     def _pad(self, screen: pygame.Surface, x: int, y: int, device: Device) -> None:
-        controls, words = self.house.controls, self.house.words
+        controls, words = self.context.controls, self.context.words
         labels = tuple(controls.label(device, act) for act in BUTTONS)
         gadgets.pad(words(f"devices.{controls.name(device)}"), labels).draw(screen, x, y)
         drive = controls.drive(device)
@@ -116,9 +116,9 @@ class PadTest:
 
     def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
         device = Device("keys", number)
-        drive, printed = self.house.controls.drive(device), CLUSTERS[number].printed
+        drive, printed = self.context.controls.drive(device), CLUSTERS[number].printed
         for act, box in gadgets.KEYS.items():
-            label = self.house.words.printed(printed[act])
+            label = self.context.words.printed(printed[act])
             gadgets.cap(label, *box.size, _down(drive, act)).draw(screen, x + box.x, y + box.y)
         heading = self.headings[number]
         ahead = 10 * drive.linear

@@ -9,7 +9,7 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Quit, Turn
 from pigaming_app.scenes.options import pictures
@@ -41,18 +41,18 @@ log = logging.getLogger("pigaming")
 class OptionsPage:
     """The options; `operator`: everything, also in a kiosk."""
 
-    def __init__(self, house: House, operator: bool = False) -> None:
-        self.house, self.operator = house, operator
+    def __init__(self, context: Context, operator: bool = False) -> None:
+        self.context, self.operator = context, operator
         self.rows: Sequence[str] = ROWS
-        if house.kiosk:
+        if context.kiosk:
             self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
         self.clock = 0.0
         self.cleared = False
-        self.clearing = Holds(house.controls, CLEAR)
+        self.clearing = Holds(context.controls, CLEAR)
         self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
         self.ahead = Ahead(self._ahead())
         hints = [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Shown, or come back to from the test of the controls."""
@@ -85,7 +85,7 @@ class OptionsPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words, focus = self.house.words, self.focus.name
+        words, focus = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("options.operator" if self.operator else "options.title")).draw(screen)
         blacked(screen, dials.PANEL)
@@ -111,7 +111,7 @@ class OptionsPage:
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
         """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
-        words = self.house.words
+        words = self.context.words
         for name in self.rows:
             yield partial(dials.label, words(f"options.{name}"), True)
             yield partial(self._piece, name)
@@ -125,7 +125,7 @@ class OptionsPage:
     # ---- what the rows are
 
     def _value(self, name: str) -> Value:
-        settings, words, canvas = self.house.settings, self.house.words, self.house.canvas
+        settings, words, canvas = self.context.settings, self.context.words, self.context.canvas
         off_on = (words("options.off"), words("options.on"))
         match name:
             case "language":
@@ -159,17 +159,17 @@ class OptionsPage:
             count = 11 if value.kind == "meter" else len(value.options)
             self._take(name, (value.chosen + 1) % count)
             return None
-        self.house.sounds.play("move" if name == "reset" else "accept")
+        self.context.sounds.play("move" if name == "reset" else "accept")
         if name == "close":
             return Quit()
         if name == "padtest":
             from pigaming_app.scenes.options.controls_test import PadTest
 
-            return Push(PadTest(self.house))
+            return Push(PadTest(self.context))
         if name == "robots":
             from pigaming_app.scenes.robots.menu import RobotsMenu
 
-            return Push(RobotsMenu(self.house))
+            return Push(RobotsMenu(self.context))
         self.cleared = False
         self.clearing.begin(press)
         return None
@@ -190,15 +190,15 @@ class OptionsPage:
         """Make a value so, at once."""
         if chosen == self._value(name).chosen:
             return
-        house, settings, canvas = self.house, self.house.settings, self.house.canvas
+        context, settings, canvas = self.context, self.context.settings, self.context.canvas
         match name:
             case "language":
                 settings.language = LANGUAGES[chosen]
-                house.words.switch(settings.language)
+                context.words.switch(settings.language)
                 self.ahead = Ahead(self._ahead())
             case "music" | "sounds":
                 setattr(settings, name, chosen)
-                house.sounds.volume(settings.music, settings.sounds)
+                context.sounds.volume(settings.music, settings.sounds)
             case "flashes":
                 settings.flashes = FLASHES[chosen]
             case "shake":
@@ -206,14 +206,14 @@ class OptionsPage:
             case "display" | "fullscreen":
                 canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
                 settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
-        house.sounds.play("hit" if name == "sounds" else "move")
+        context.sounds.play("hit" if name == "sounds" else "move")
         self._keep()
 
     def _clear(self) -> None:
         """Empty the tables of scores."""
-        self.house.scores.reset()
+        self.context.scores.reset()
         self.cleared = True
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         self._keep(scores=True)
         try:
             forget(folders().data)
@@ -224,9 +224,9 @@ class OptionsPage:
         """Save, or say in one sentence that it could not be saved."""
         try:
             if scores:
-                self.house.scores.save(folders().data)
+                self.context.scores.save(folders().data)
             else:
-                self.house.settings.save(folders().config)
+                self.context.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.house.words("app.unsaved"))
+            self.navigation.say(self.context.words("app.unsaved"))

@@ -6,7 +6,7 @@ from itertools import chain
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.ui.draw.frame_budget import Steps, budget
@@ -21,12 +21,12 @@ NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
 class DeviceTable:
     """One row for every seat that a device drives; None: an AI, or nobody. `access`: whose presses count."""
 
-    def __init__(self, house: House, devices: Sequence[Device | None], access: Access) -> None:
-        self.house, self.access = house, access
+    def __init__(self, context: Context, devices: Sequence[Device | None], access: Access) -> None:
+        self.context, self.access = context, access
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[Lit] = []
         self.making = self._make()
-        self.prompts = house.prompts([(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
+        self.prompts = context.prompts([(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -35,7 +35,7 @@ class DeviceTable:
         """Any button leads back."""
         admitted = self.access.admit(self.prompts.meant(press))
         if admitted and admitted.act in (Act.FIRE, Act.START, Act.BACK):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
@@ -63,13 +63,13 @@ class DeviceTable:
 
     def _heading(self) -> Pane:
         pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
-        text = self.house.words("pause.drives")
+        text = self.context.words("pause.drives")
         pane.page.text(text, fitted(text, TITLE, RIGHT - LEFT), LEFT, 112)
         pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], ICE, LINE)
         return pane
 
     def _row(self, i: int, seat: int, device: Device) -> Pane:
-        words, controls = self.house.words, self.house.controls
+        words, controls = self.context.words, self.context.controls
         y = TOP + PITCH * i + HIGH // 2
         pane = Pane(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
         panel(pane.hot, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
@@ -88,7 +88,7 @@ class DeviceTable:
         if device.kind == "pad":
             pane.hot.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
             x += 78
-        for mark in self.house.controls.moves(device).replace(" ", ""):
+        for mark in self.context.controls.moves(device).replace(" ", ""):
             button(pane.page, x, y, mark)
             x += 66
-        pane.page.body(self.house.words("pause.moves"), x + 12, y, MIST)
+        pane.page.body(self.context.words("pause.moves"), x + 12, y, MIST)

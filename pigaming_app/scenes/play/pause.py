@@ -12,7 +12,7 @@ from typing import Protocol
 import pygame
 
 from pigaming_app.scenes.flow.access import OWNED, Access, Ownership
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, Turn
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.views.sprites.effects import timer_ring
@@ -51,7 +51,7 @@ RING = X + W - 112, Y + 116
 class Held(Protocol):
     """The match below a page."""
 
-    house: House
+    context: Context
     devices: list[Device | None]
 
     def picture(self) -> pygame.Surface:
@@ -88,18 +88,18 @@ class Pause:
     """A pause that `device` has asked for."""
 
     def __init__(self, match: Held, device: Device) -> None:
-        self.match, self.house = match, match.house
+        self.match, self.context = match, match.context
         self.player = match.devices.index(device) if device in match.devices else None
-        self.access = Ownership(match.house, lambda: match.devices, device)
+        self.access = Ownership(match.context, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
         self.sure = self.waits = 0.0
         self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Quiet."""
-        self.house.sounds.music(False)
+        self.context.sounds.music(False)
 
     def on(self, press: Press) -> Turn:
         """START and BACK go on; so does F4, or ALT of a pad, with a look into an AI; FIRE takes what has the focus."""
@@ -118,11 +118,11 @@ class Pause:
             return self._do("continue")
         if self.focus.on(press):
             self.sure = 0.0
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         chosen = self.focus.chosen(press)
         if chosen in ASKED and self.sure <= 0.0:
             self.sure = SURE
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
             return None
         return self._do(chosen) if chosen else None
 
@@ -145,11 +145,11 @@ class Pause:
         self.focus.draw(screen, color)
         if self.sure > 0.0:
             pygame.draw.rect(screen, (0, 0, 0), box)
-            sure(self.house.words(f"pause.sure_{self.focus.name}", button="{button}"), self._button()).draw(
+            sure(self.context.words(f"pause.sure_{self.focus.name}", button="{button}"), self._button()).draw(
                 screen, *box.center
             )
         else:
-            word(self.house.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
+            word(self.context.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
         self._draw_owned(screen)
         if self.waits > 0.0:
             plate(self._why(), FOCUS).draw(screen, 960, PROMPTS)
@@ -161,7 +161,7 @@ class Pause:
 
     def _button(self) -> str:
         """What is printed on the button that takes what has the focus."""
-        return self.house.words.printed(self.house.controls.label(self.access.voice, Act.FIRE))
+        return self.context.words.printed(self.context.controls.label(self.access.voice, Act.FIRE))
 
     def _draw_owned(self, screen: pygame.Surface) -> None:
         """For how long the pause belongs to whoever asked for it."""
@@ -174,24 +174,24 @@ class Pause:
     def _why(self) -> str:
         """Why a press did not count."""
         if self.player is None or not self.access.owned:
-            return self.house.words("pause.wait")
-        return self.house.words("pause.wait_for", player=self.player + 1)
+            return self.context.words("pause.wait")
+        return self.context.words("pause.wait_for", player=self.player + 1)
 
     def _do(self, name: str) -> Turn:
-        self.house.sounds.play("back" if name == "continue" else "accept")
+        self.context.sounds.play("back" if name == "continue" else "accept")
         match name:
             case "restart":
                 self.match.restart()
             case "end":
                 self.match.stop()
             case "controls":
-                return Push(DeviceTable(self.house, self.match.devices, self.access))
+                return Push(DeviceTable(self.context, self.match.devices, self.access))
             case extra if extra in self.match.extras:
                 return Push(self.match.extras[extra](self.access))
         return Pop()
 
     def _paint(self, pane: Pane) -> None:
-        words = self.house.words
+        words = self.context.words
         text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
         title(pane, self.player, text, ICE, RING[0] - 80)
         for spot in self.focus.spots:

@@ -40,16 +40,16 @@ class Reconnect:
     """The device of `seat` is gone: a free one takes over with FIRE, or an AI does when the ring has run out."""
 
     def __init__(self, match: Open, seat: int) -> None:
-        self.match, self.house, self.seat = match, match.house, seat
+        self.match, self.context, self.seat = match, match.context, seat
         self.age, self.found = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
         hints = [(Act.EXTRA, "pause.hint_ai"), (Act.BACK, "pause.hint_menu")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
-        self.house.sounds.music(False)
-        self.house.sounds.play("error")
+        self.context.sounds.music(False)
+        self.context.sounds.play("error")
 
     def on(self, press: Press) -> Turn:
         """FIRE on a free device takes the seat; EXTRA gives it to an AI; BACK opens the menu."""
@@ -57,7 +57,7 @@ class Reconnect:
         admitted = self.match.access.admit(press)
         if press.act is Act.FOUND:
             self.found = True
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         elif press.act is Act.LOST:
             self.found = False
         elif press.act in (Act.FIRE, Act.START) and self.match.free(press.device):
@@ -96,7 +96,7 @@ class Reconnect:
         return Pop()
 
     def _paint(self, pane: Pane) -> None:
-        words, ink = self.house.words, pane.hot
+        words, ink = self.context.words, pane.hot
         title(pane, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
         x, y = PAD
         icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
@@ -110,15 +110,15 @@ class StillThere:
     """Nobody has touched anything: any press goes on; when the ring has run out, back to the title."""
 
     def __init__(self, match: Held) -> None:
-        self.match, self.house = match, match.house
+        self.match, self.context = match, match.context
         self.age = 0.0
         self.picture: pygame.Surface | None = None
-        self.prompts = self.house.prompts([(Act.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
+        self.prompts = self.context.prompts([(Act.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
 
     def entered(self) -> None:
         """Ask."""
-        self.house.sounds.music(False)
-        self.house.sounds.play("error")
+        self.context.sounds.music(False)
+        self.context.sounds.play("error")
 
     def on(self, press: Press) -> Turn:
         """Whatever is pressed, the match goes on, and whoever has walked off has the seat back."""
@@ -142,7 +142,7 @@ class StillThere:
         self.match.shine(screen)
 
     def _paint(self, pane: Pane) -> None:
-        words = self.house.words
+        words = self.context.words
         title(pane, None, words("pause.still"), ICE)
         icon(pane.hot, "clock", PAD[0], PAD[1], 84, MIST, LINE)
         say(pane, words("pause.still_how"), ICE)

@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.games.replay import BYTES, Replay, play
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.side_hints import Column, note
@@ -21,11 +21,11 @@ LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # of the time line, px
 class ReplayScene:
     """A replay on the screen."""
 
-    def __init__(self, house: House, replay: Replay) -> None:
-        self.house, self.replay = house, replay
+    def __init__(self, context: Context, replay: Replay) -> None:
+        self.context, self.replay = context, replay
         self.length = len(replay.ticks) // BYTES * DT
         self.speed, self.shown, self.playing = 0, SHOWN, True
-        self.stage, self.warm = Stage(house, play(replay)), False
+        self.stage, self.warm = Stage(context, play(replay)), False
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -65,7 +65,7 @@ class ReplayScene:
     def draw(self, screen: pygame.Surface) -> None:
         """The match; in the margins its time line, how fast it runs, and what can be pressed."""
         self.stage.draw(screen)
-        words, seconds = self.house.words, self.stage.match.seconds
+        words, seconds = self.context.words, self.stage.match.seconds
         if seconds < SHOWN or not self.playing:
             self.stage.captions(screen, [None] * len(self.replay.setup.seats))
         x = LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, seconds / max(DT, self.length))
@@ -92,7 +92,7 @@ class ReplayScene:
         if not self.ended:
             fire = "replay.hint_pause" if self.playing else "replay.hint_play"
             hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
-        return self.house.prompts(hints)
+        return self.context.prompts(hints)
 
     @property
     def ended(self) -> bool:
@@ -101,4 +101,4 @@ class ReplayScene:
         return match.over or match.seconds >= self.length
 
     def _begin(self) -> None:
-        self.stage, self.warm, self.playing = Stage(self.house, play(self.replay)), False, True
+        self.stage, self.warm, self.playing = Stage(self.context, play(self.replay)), False, True

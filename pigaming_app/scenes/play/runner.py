@@ -11,7 +11,7 @@ import pygame
 from pigaming_app.ai import RIVALS
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
@@ -29,13 +29,13 @@ BESIDE = 104  # px from a robot to what is said about it
 class Stage:
     """A match and its view. `loud`: its sounds are heard."""
 
-    def __init__(self, house: House, match: Match, loud: bool = True) -> None:
-        self.house, self.match, self.loud = house, match, loud
+    def __init__(self, context: Context, match: Match, loud: bool = True) -> None:
+        self.context, self.match, self.loud = context, match, loud
         self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
         kind = VIEWS[match.setup.game]
         with self._making():
-            self.view = kind(match.arena, match.state, self.players, house.settings, house.words)
-        self.brain = BrainOverlay(match, self.view, house.words)
+            self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
+        self.brain = BrainOverlay(match, self.view, context.words)
         self.pace = Pace()
         self.unseen = 0.0  # seconds of real time since the last picture
         self.second = LAST + 1
@@ -56,7 +56,7 @@ class Stage:
                 heard = self.view.watch(self.match.state)
             for name, player, x in heard:
                 if self.loud:
-                    self.house.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
+                    self.context.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
         self._count_down()
 
     def wait(self, seconds: float) -> None:
@@ -99,13 +99,13 @@ class Stage:
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
         """What drives a seat, in words, and the icon for it."""
-        words = self.house.words
+        words = self.context.words
         if device and device.kind == "pad":
-            return words(f"devices.{self.house.controls.name(device)}"), "pad"
+            return words(f"devices.{self.context.controls.name(device)}"), "pad"
         if device:
-            moves = self.house.controls.moves(device)
+            moves = self.context.controls.moves(device)
             steer = words("match.arrows") if "←" in moves else moves
-            return f"{steer} + {words.printed(self.house.controls.label(device, Act.FIRE))}", "keys"
+            return f"{steer} + {words.printed(self.context.controls.label(device, Act.FIRE))}", "keys"
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"
@@ -118,5 +118,5 @@ class Stage:
     def _count_down(self) -> None:
         second = int(self.match.seconds_left) + 1
         if second < self.second and second <= LAST and not self.match.over and self.loud:
-            self.house.sounds.play("tick")
+            self.context.sounds.play("tick")
         self.second = second

@@ -17,7 +17,7 @@ from pigaming_app.ai import make, seated
 from pigaming_app.ai.brain.kind import Hands
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, Swap, Turn
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
@@ -53,27 +53,27 @@ class MatchScene:
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         setup: Setup,
         devices: Sequence[Device | None] = (),
         speed: float = 1.0,
         plant: Callable[[Any], Plant] = SimPlant,
         game_choice: After | None = None,
     ) -> None:
-        self.house, self.setup, self.speed, self.game_choice = house, setup, speed, game_choice
+        self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = seated(setup, plant)
-        self.stage = Stage(house, self.match)
+        self.stage = Stage(context, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
-        self.signs = Ahead(signs(*(house.words(f"match.{name}") for name in ("go", "time", "finish"))))
+        self.signs = Ahead(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
         self.notice: Plate | None = None
         self.results: Results | None = None
-        self.access = Access(house, lambda: self.devices)
-        self.joining = Holds(house.controls, TAKE)
+        self.access = Access(context, lambda: self.devices)
+        self.joining = Holds(context.controls, TAKE)
         self.walkoff = WalkOff()
         self.helped: set[int] = set()
         self.open = True
@@ -86,8 +86,8 @@ class MatchScene:
 
     def entered(self) -> None:
         """Begin, or go on after an interruption."""
-        self.house.sounds.music(True)
-        self.house.controls.forget_taps()
+        self.context.sounds.music(True)
+        self.context.controls.forget_taps()
         self.joining.clear()
         if self.begun and not self.match.over:
             self.count = Countdown(RESUME) if not self.count.locked else Countdown()
@@ -120,7 +120,7 @@ class MatchScene:
         """Let the match run on."""
         self.noticed -= seconds
         if self.repeated:
-            return Swap(self.again(self.house, self.setup, self.devices))
+            return Swap(self.again(self.context, self.setup, self.devices))
         if self.match.over or self.stopped:
             return self._end(seconds)
         if held := self.access.update(seconds):
@@ -132,9 +132,9 @@ class MatchScene:
         self.signs.work(0.0)
         self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
-            self.house.sounds.play(sound)
+            self.context.sounds.play(sound)
         if self.count.locked:
-            self.house.controls.forget_taps()
+            self.context.controls.forget_taps()
             self.stage.wait(seconds)
             return None
         self.idle += seconds
@@ -147,7 +147,7 @@ class MatchScene:
     def draw(self, screen: pygame.Surface) -> None:
         """The arena, and over it what has to be said."""
         self.stage.draw(screen)
-        words = self.house.words
+        words = self.context.words
         if self.match.over and not self.stopped:
             pop = min(4, int(self.frozen / 0.04))
             ending = "time" if self.match.seconds_left <= 0.0 else "finish"
@@ -170,7 +170,7 @@ class MatchScene:
         """How many laps the race has, in the place of its clock, which stands still."""
         box = self.stage.view.clock
         screen.fill("black", box)
-        lines = lines_of(tagline(self.house.words, "race", self.match.setup.goal), LABEL, box.w, "head")
+        lines = lines_of(tagline(self.context.words, "race", self.match.setup.goal), LABEL, box.w, "head")
         for i, line in enumerate(lines):
             text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
 
@@ -180,7 +180,7 @@ class MatchScene:
     def lost(self) -> list[int]:
         """Seats whose device is gone and for whom nobody drives."""
         gone = [(i, device) for i, device in enumerate(self.devices) if device]
-        return [i for i, device in gone if not self.house.controls.connected(device)]
+        return [i for i, device in gone if not self.context.controls.connected(device)]
 
     @property
     def stood_in(self) -> list[int]:
@@ -196,9 +196,9 @@ class MatchScene:
         self._sit(seat, device)
         self.walkoff.settle(seat, device)
         name, sign = self.stage.driver(seat, device)
-        name = name if device else self.house.words("match.back_in")
+        name = name if device else self.context.words("match.back_in")
         self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
-        self.house.sounds.play("join", seat)
+        self.context.sounds.play("join", seat)
 
     def welcome(self, press: Press) -> bool:
         """Give its seat back to a device that has walked off and now presses something; true if it did."""
@@ -211,7 +211,7 @@ class MatchScene:
     def think_aloud(self) -> None:
         """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
         if not self.stage.brain.seats:
-            self.notice, self.noticed = plate(self.house.words("brain.nobody"), sign="ai"), NOTICE
+            self.notice, self.noticed = plate(self.context.words("brain.nobody"), sign="ai"), NOTICE
         self.stage.brain.next()
 
     def picture(self) -> pygame.Surface:
@@ -226,9 +226,9 @@ class MatchScene:
         """Begin anew, with another seed."""
         self.repeated = True
 
-    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+    def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck."""
-        return MatchScene(house, anew(setup, devices), devices, game_choice=self.game_choice)
+        return MatchScene(context, anew(setup, devices), devices, game_choice=self.game_choice)
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
@@ -268,7 +268,7 @@ class MatchScene:
             self.hand(vacant[0], press.device)
         elif self.takeable:
             self.joining.begin(press)
-            self.notice, self.noticed = plate(self.house.words("match.hold"), sign="ai"), NOTICE
+            self.notice, self.noticed = plate(self.context.words("match.hold"), sign="ai"), NOTICE
 
     def _join(self, device: Device) -> None:
         """Give a device the seat of an AI."""
@@ -288,7 +288,7 @@ class MatchScene:
 
     def _miss(self, seconds: float) -> None:
         """Let an AI drive on for everybody who has walked off."""
-        controls = self.house.controls
+        controls = self.context.controls
         driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
         for seat, device in driven.items():
             if controls.touched(device):
@@ -307,7 +307,7 @@ class MatchScene:
 
     def _held(self, seat: int, device: Device) -> Drive:
         """How a device is held on the tick that acts on it."""
-        drive = self.house.controls.drive(device)
+        drive = self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
             self.walkoff.alive(seat)
@@ -319,7 +319,7 @@ class MatchScene:
             finished = self.match.over and not self.stopped
             helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
             self.results = Results(
-                self.house,
+                self.context,
                 self.match.outcome(),
                 self.setup,
                 self.devices,
@@ -329,7 +329,7 @@ class MatchScene:
                 self.game_choice,
             )
             if finished:
-                self.house.sounds.play("go")
+                self.context.sounds.play("go")
         ready = self.results.warm(WARM)
         self.frozen += seconds
         self.stage.wait(seconds)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games import GAMES
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import load_kept, playable, title
 from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.flow.stack import Pop, Turn
@@ -36,12 +36,12 @@ STEPS = {Act.LEFT: -1, Act.RIGHT: 1, Act.UP: -1, Act.DOWN: 1}
 class Best:
     """The tables of a contest; if they are empty, of the first one that has rows. `fresh`: rows shown in yellow."""
 
-    def __init__(self, house: House, contest: Table, fresh: Sequence[Score] = ()) -> None:
-        self.house, self.fresh = house, list(fresh)
-        self.shelf = [one for one in contests(house.scores) if one.arena in playable(one.game)]
+    def __init__(self, context: Context, contest: Table, fresh: Sequence[Score] = ()) -> None:
+        self.context, self.fresh = context, list(fresh)
+        self.shelf = [one for one in contests(context.scores) if one.arena in playable(one.game)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
-        self.prompts = house.prompts([(Act.FIRE, "results.on")])
+        self.prompts = context.prompts([(Act.FIRE, "results.on")])
 
     @property
     def game(self) -> str:
@@ -61,7 +61,7 @@ class Best:
         if press.act in STEPS:
             self._step(press.act)
         elif self.age > DEAF and press.act in (Act.FIRE, Act.START, Act.BACK, Act.ALT, Act.CLICK):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
@@ -81,12 +81,12 @@ class Best:
 
     def paint(self, screen: pygame.Surface) -> None:
         """Paint the tables alone; their rows come in one after the other."""
-        words, contest = self.house.words, self.contest
+        words, contest = self.context.words, self.contest
         screen.blit(backdrop(), (0, 0))
         heading(words("results.scores")).draw(screen)
         text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
         text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
-        shown = older_boards(contest, self.house.scores) if contest.older else boards(contest)
+        shown = older_boards(contest, self.context.scores) if contest.older else boards(contest)
         for column, board in zip((0, 6) if len(shown) > 1 else (3,), shown, strict=False):
             self._board(screen, board, *span(column, 6))
 
@@ -97,13 +97,13 @@ class Best:
         ring = self._ring(act)
         if len(ring) > 1:
             self._show(ring[(ring.index(self.contest) + STEPS[act]) % len(ring)])
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
 
     def _show(self, contest: Table) -> None:
         """Show the tables of a contest, and arrows wherever there are others."""
         self.contest, self.turned = contest, 0.0
         where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
-        line = min(ROOM, text_width(conditions(self.house.words, contest), LABEL, "head")) / 2
+        line = min(ROOM, text_width(conditions(self.context.words, contest), LABEL, "head")) / 2
         self.arrows: dict[Act, tuple[float, float]] = {}
         if len(self._ring(Act.UP)) > 1:
             self.arrows[Act.UP] = RIGHT - where - 52, WHERE_Y - 24
@@ -124,19 +124,19 @@ class Best:
 
     def _where(self) -> str:
         """Game and arena."""
-        words, contest = self.house.words, self.contest
+        words, contest = self.context.words, self.contest
         there = contest.arena in playable(contest.game)
         arena = title(load_kept(contest.game, contest.arena), words.language) if there else contest.arena
         return f"{words('games.' + contest.game)}  ·  {arena}"
 
     def _board(self, screen: pygame.Surface, board: Board, x: int, w: int) -> None:
         """A table under its heading."""
-        said = self.house.words(board.heading, goal=f"{board.table.length:g}")
+        said = self.context.words(board.heading, goal=f"{board.table.length:g}")
         text(said, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
         frame(w).draw(screen, x, TOP)
-        rows = self.house.scores.best(board.table, board.days)[:ROWS]
+        rows = self.context.scores.best(board.table, board.days)[:ROWS]
         if not rows:
-            text(self.house.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
+            text(self.context.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
                 screen, x + w / 2, TOP + HIGH / 2
             )
         for i, row in enumerate(rows):
@@ -152,7 +152,7 @@ class Best:
         screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
-        value = self.house.words.decimal(told(row.score, board.table))
+        value = self.context.words.decimal(told(row.score, board.table))
         text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
         if row in self.fresh:
             sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)

@@ -12,7 +12,7 @@ import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import Outcome, Setup
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.results import initials_view as page
 from pigaming_app.scenes.results.high_score_tables import contest, counts, table_of, told
@@ -51,13 +51,13 @@ class Claim:
     places: tuple[tuple[tuple[str, int], ...], ...]
 
 
-def claims(house: House, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
+def claims(context: Context, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
     """What people did that is among the best, those of this very match included. `devices`: who played each seat."""
     done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
     out = []
     for seat, feats in done.items():
         rivals = [feat for other, theirs in done.items() if other != seat for feat in theirs]
-        found = [(feat, places(house, *feat, rivals)) for feat in feats]
+        found = [(feat, places(context, *feat, rivals)) for feat in feats]
         kept = [(feat, here) for feat, here in found if here]
         device = devices[seat]
         if kept and device:
@@ -77,7 +77,9 @@ def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, 
     return done
 
 
-def places(house: House, table: Table, value: int, rivals: Sequence[tuple[Table, int]]) -> tuple[tuple[str, int], ...]:
+def places(
+    context: Context, table: Table, value: int, rivals: Sequence[tuple[Table, int]]
+) -> tuple[tuple[str, int], ...]:
     """The places of a value among today's best and the best ever, by heading, as far as they are in the top eight.
 
     `rivals`: what the other people of the match did; those who did better stand ahead.
@@ -86,7 +88,7 @@ def places(house: House, table: Table, value: int, rivals: Sequence[tuple[Table,
     ahead = sum(other < value if table.timed else other > value for other in others)
     found = []
     for title, days in SPANS.items():
-        place = house.scores.place(table, value, days)
+        place = context.scores.place(table, value, days)
         if place and place + ahead <= TOP:
             found.append((title, place + ahead))
     return tuple(found)
@@ -95,8 +97,8 @@ def places(house: House, table: Table, value: int, rivals: Sequence[tuple[Table,
 class Initials:
     """Asks everyone in `claims` at once, and shows the tables."""
 
-    def __init__(self, house: House, setup: Setup, claims: Sequence[Claim]) -> None:
-        self.house, self.setup, self.claims = house, setup, sorted(claims, key=lambda claim: claim.seat)
+    def __init__(self, context: Context, setup: Setup, claims: Sequence[Claim]) -> None:
+        self.context, self.setup, self.claims = context, setup, sorted(claims, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
         self.ahead = Ahead(self._ahead())
@@ -114,7 +116,7 @@ class Initials:
         if self.age < DEAF or device is None:
             return None
         if sound := self.spellings[device].on(press.act):
-            self.house.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
+            self.context.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
         return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
 
     def update(self, seconds: float) -> Turn:
@@ -126,7 +128,7 @@ class Initials:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint a panel for every player, and the time that is left."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("results.high_score"), color=FOCUS).draw(screen)
         page.clock(screen, max(0.0, SECONDS - self.age), SECONDS)
@@ -146,7 +148,7 @@ class Initials:
         return clusters[0] if len(clusters) == 1 else None
 
     def _panel(self, screen: pygame.Surface, x: int, claim: Claim) -> None:
-        words, spelling = self.house.words, self.spellings[claim.device]
+        words, spelling = self.context.words, self.spellings[claim.device]
         self._frame(claim, spelling.done).draw(screen, x, page.TOP_Y)
         page.letters(screen, x, claim.seat, spelling)
         if spelling.done:
@@ -156,14 +158,14 @@ class Initials:
             page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
             return
         key = "done" if spelling.last else "next_letter"
-        label = words.printed(self.house.controls.label(claim.device, Act.FIRE))
+        label = words.printed(self.context.controls.label(claim.device, Act.FIRE))
         page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
     def _frame(self, claim: Claim, done: bool) -> Lit:
-        return page.frame(claim.seat, self.house.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
+        return page.frame(claim.seat, self.context.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
-        words = self.house.words
+        words = self.context.words
         yield partial(heading, words("results.high_score"), color=FOCUS)
         for done in (False, True):
             for claim in self.claims:
@@ -173,7 +175,7 @@ class Initials:
 
     def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
         """What the panel says about a claim: each feat with its value, and the places that it has."""
-        words = self.house.words
+        words = self.context.words
         lines = []
         for (table, value), found in zip(claim.feats, claim.places, strict=True):
             shown = found if len(claim.feats) == 1 else found[-1:]
@@ -187,14 +189,14 @@ class Initials:
         if not fresh:
             return Pop()
         try:
-            self.house.scores.save(folders().data)
+            self.context.scores.save(folders().data)
         except NotSaved as reason:
             _log.warning("%s", reason)
-        return Swap(Best(self.house, contest(self.setup, self.claims[0].seat), fresh))
+        return Swap(Best(self.context, contest(self.setup, self.claims[0].seat), fresh))
 
     def _entered(self) -> list[Score]:
         return [
-            self.house.scores.add(table, initials, value)
+            self.context.scores.add(table, initials, value)
             for claim in self.claims
             if (initials := self.spellings[claim.device].taken)
             for table, value in claim.feats

@@ -5,7 +5,7 @@ from collections.abc import Collection, Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut, dim, icon, text_width
 from pigaming_app.ui.draw.layers import Lit, Pane
 from pigaming_app.ui.draw.surface_cache import cached
@@ -21,9 +21,9 @@ class Ballot:
     """The votes of the humans among `seats`; `devices` (of all four seats) may change hands here."""
 
     def __init__(
-        self, house: House, seats: Sequence[int], humans: Sequence[int], devices: Sequence[Device | None]
+        self, context: Context, seats: Sequence[int], humans: Sequence[int], devices: Sequence[Device | None]
     ) -> None:
-        self.house, self.seats, self.humans = house, list(seats), list(humans)
+        self.context, self.seats, self.humans = context, list(seats), list(humans)
         self.devices = list(devices)
         self.votes: set[int] = set()
         self.waited = 0.0
@@ -63,7 +63,7 @@ class Ballot:
     def here(self, seat: int) -> bool:
         """The device of a human's seat is there."""
         device = self.devices[seat]
-        return device is not None and self.house.controls.connected(device)
+        return device is not None and self.context.controls.connected(device)
 
     def update(self, seconds: float) -> bool:
         """Let time pass; true when the rematch begins."""
@@ -79,7 +79,7 @@ class Ballot:
 
     def draw(self, screen: pygame.Surface, held: Collection[float] = ()) -> None:
         """Add the question and the votes to the screen; `held`: how far free devices are with taking seats, 0..1."""
-        text = self.house.words("results.rematch")
+        text = self.context.words("results.rematch")
         width = text_width(text, LABEL)
         x = 960 - (width + 48 + len(self.seats) * PITCH - 44) / 2
         question(text).draw(screen, x)

@@ -11,7 +11,7 @@ import pygame
 
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, Swap, Turn
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import Best
@@ -29,7 +29,7 @@ SAID = 3.0  # seconds for which a sentence stays
 CLAIMS = 2.6  # seconds before initials are asked for
 IDLE = 60.0  # seconds without a press until the title
 
-After = Callable[[House, Setup, Sequence[Device | None]], Scene]  # what follows a match, driven with these devices
+After = Callable[[Context, Setup, Sequence[Device | None]], Scene]  # what follows a match, driven with these devices
 
 
 class Results:
@@ -41,7 +41,7 @@ class Results:
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         outcome: Outcome,
         setup: Setup,
         devices: Sequence[Device | None],
@@ -50,26 +50,26 @@ class Results:
         helped: Collection[int] = (),
         game_choice: After | None = None,
     ) -> None:
-        self.house, self.setup, self.again, self.game_choice = house, setup, again, game_choice
+        self.context, self.setup, self.again, self.game_choice = context, setup, again, game_choice
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
-        self.ballot = Ballot(house, seats, humans, devices)
+        self.ballot = Ballot(context, seats, humans, devices)
         absent = [seat for seat in humans if devices[seat] is None]
-        self.page = ResultsPage(house, outcome, setup, finished, absent)
+        self.page = ResultsPage(context, outcome, setup, finished, absent)
         own = [None if seat in helped else device for seat, device in enumerate(devices)]
-        self.claims = claims(house, outcome, setup, own) if finished else []
-        self.initials = Initials(house, setup, self.claims)
+        self.claims = claims(context, outcome, setup, own) if finished else []
+        self.initials = Initials(context, setup, self.claims)
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = self.told = 0.0
-        self.access = Access(house, lambda: self.ballot.devices)
-        self.leaving, self.joining = Holds(house.controls, LEAVE), Holds(house.controls, TAKE)
+        self.access = Access(context, lambda: self.ballot.devices)
+        self.leaving, self.joining = Holds(context.controls, LEAVE), Holds(context.controls, TAKE)
         hints = [
             (Act.FIRE, "results.again"),
             *([(Act.EXTRA, "results.change")] if game_choice else []),
             (Act.ALT, "results.scores"),
             (Act.BACK, "results.menu"),
         ]
-        self.prompts = house.prompts(hints, voice=lambda: self.access.voice)
+        self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
 
     def warm(self, milliseconds: float) -> bool:
         """Make the page for so long; true when all of it is there."""
@@ -95,10 +95,10 @@ class Results:
             case Act.START | Act.FIRE:
                 return self._rematch(everyone=True)
             case Act.EXTRA if self.game_choice:
-                self.house.sounds.play("accept")
-                return Push(self.game_choice(self.house, self.setup, self.ballot.devices))
+                self.context.sounds.play("accept")
+                return Push(self.game_choice(self.context, self.setup, self.ballot.devices))
             case Act.ALT:
-                return Push(Best(self.house, contest(self.setup)))
+                return Push(Best(self.context, contest(self.setup)))
             case Act.BACK if admitted.device.kind == "mouse":
                 return self._leave()
             case Act.BACK if self.age >= LATE:
@@ -115,7 +115,7 @@ class Results:
         self.page.update(seconds, self.age)
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
-            self.house.sounds.play(name, player)
+            self.context.sounds.play(name, player)
         if self.claims:
             self.initials.warm()
             if self.age >= CLAIMS:
@@ -125,7 +125,7 @@ class Results:
             return self._leave()
         for press in self.joining.update(seconds):
             if self.ballot.take(press.device):
-                self.house.sounds.play("join", self.ballot.devices.index(press.device))
+                self.context.sounds.play("join", self.ballot.devices.index(press.device))
         if self.ballot.update(seconds):
             return self._rematch(everyone=False)
         return Home() if self.idle > IDLE else None
@@ -136,7 +136,7 @@ class Results:
         if self.age >= self.page.ready_at:
             self.ballot.draw(screen, self.joining.shares.values())
             if self.told > 0.0:
-                plate(self.house.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
+                plate(self.context.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
             else:
                 self.prompts.draw(screen)
             if self.leaving.share:
@@ -145,18 +145,18 @@ class Results:
     def _fire(self, press: Press) -> None:
         """A vote; of a free device a seat, for which FIRE is held where it is an AI's."""
         if self.ballot.vote(press.device):
-            self.house.sounds.play("ready", None)
+            self.context.sounds.play("ready", None)
         elif press.device not in self.ballot.devices and self.ballot.takeable:
             self.joining.begin(press)
             self.told = SAID
 
     def _leave(self) -> Turn:
-        self.house.sounds.play("back")
+        self.context.sounds.play("back")
         return Home()
 
     def _rematch(self, everyone: bool) -> Turn:
-        self.house.sounds.play("accept")
-        return Swap(self.again(self.house, self.setup, self.ballot.drivers(everyone)))
+        self.context.sounds.play("accept")
+        return Swap(self.again(self.context, self.setup, self.ballot.drivers(everyone)))
 
 
 def filled(screen: pygame.Surface, share: float) -> None:

@@ -9,7 +9,7 @@ import pygame
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.results.celebration import Finale
 from pigaming_app.scenes.results.headline import headline, winning_color
@@ -64,9 +64,9 @@ class ResultsPage:
     """Everything of the results but the votes."""
 
     def __init__(
-        self, house: House, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int] = ()
+        self, context: Context, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int] = ()
     ) -> None:
-        self.house, self.outcome, self.setup, self.finished = house, outcome, setup, finished
+        self.context, self.outcome, self.setup, self.finished = context, outcome, setup, finished
         self.absent = absent  # seats of people for whom an AI has driven
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
@@ -173,7 +173,7 @@ class ResultsPage:
 
     def _title(self) -> Lit:
         """Who won, in the winner's colour, and its crown."""
-        words = self.house.words
+        words = self.context.words
         pane = Pane(LEFT, 54, RIGHT - LEFT, 116)
         x = LEFT
         for seat in self.winners:
@@ -189,12 +189,12 @@ class ResultsPage:
             ink = Ink(160, 140).to(80, 70)
             icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
             self.crown = Lit(ink.lit(), (round(at) - 80, 108 - 70))
-            self.finale = Finale(self.winners[0], at, 108, self.house.settings.flashes != "off")
+            self.finale = Finale(self.winners[0], at, 108, self.context.settings.flashes != "off")
         return pane.done()
 
     def _where(self) -> Lit:
         """Game, time, arena."""
-        words, setup = self.house.words, self.setup
+        words, setup = self.context.words, self.setup
         minutes = measure(words, GAMES[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
         where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
@@ -206,7 +206,7 @@ class ResultsPage:
 
     def _columns(self) -> Lit:
         """What the numbers are."""
-        words = self.house.words
+        words = self.context.words
         x, w = span(0, 6)
         plot_x, _ = span(6, 6)
         pane = Pane(x, 206, 2 * w, 60)
@@ -244,7 +244,7 @@ class ResultsPage:
             icon(pane.hot, "ai", x + AI_X, y, 15, MIST, 3)
         ends = self._ends()
         for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
-            text, room = self.house.words.decimal(cell(name, row)), right - before - APART_X
+            text, room = self.context.words.decimal(cell(name, row)), right - before - APART_X
             if name == self.columns[0]:
                 size = fitted(text, SUB, room - (32 if brain != "human" else 0), "hero")
                 pane.page.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
@@ -253,7 +253,7 @@ class ResultsPage:
 
     def _ends(self) -> list[float]:
         """Where each column ends, px from a row's left edge: as wide as what stands in it."""
-        words, wanted = self.house.words, []
+        words, wanted = self.context.words, []
         for name in self.columns:
             size, face = (SUB, "hero") if name == self.columns[0] else (LABEL, "head")
             cells = [text_width(cell(name, row), size, face) for row in self.outcome.rows]
@@ -262,7 +262,7 @@ class ResultsPage:
 
     def _records(self) -> Lit | None:
         """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
-        scores, setup, words = self.house.scores, self.setup, self.house.words
+        scores, setup, words = self.context.scores, self.setup, self.context.words
         tables = [(board, scores.best(board.table, board.days)) for board in boards(contest(setup))]
         if not any(rows for _, rows in tables):
             return None

@@ -33,19 +33,19 @@ class Trouble:
     """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
 
     def __init__(self, match: InterruptedMatch, stopper: Device | None = None) -> None:
-        self.match, self.house, self.stopper = match, match.house, stopper
+        self.match, self.context, self.stopper = match, match.context, stopper
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
         hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
         mending = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry")]
-        self.mending = self.house.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
+        self.mending = self.context.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Say that something is wrong."""
-        self.house.sounds.music(False)
-        self.house.sounds.play("error")
+        self.context.sounds.music(False)
+        self.context.sounds.play("error")
         self.held, self.picture = 0.0, None
 
     def on(self, press: Press) -> Turn:
@@ -65,7 +65,7 @@ class Trouble:
         elif lasting and press.act is Act.ALT:
             for robot in lasting:
                 self.match.plant.forgive(robot)
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
         elif press.act is Act.STOP:
             self.match.plant.safety.all_stop()
             self.stopper = press.device
@@ -79,7 +79,7 @@ class Trouble:
         safety = self.match.plant.safety
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
-        controls = self.house.controls
+        controls = self.context.controls
         firing = safety.stopped and any(controls.drive(device).fire for device in self._releasing())
         self.held = self.held + seconds if firing else 0.0
         if self.held >= HOLD:
@@ -87,7 +87,7 @@ class Trouble:
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
             self.faults, self.picture = now, None
-        if self.house.idle > IDLE:
+        if self.context.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
 
@@ -111,7 +111,7 @@ class Trouble:
 
     def _releasing(self) -> list[Device]:
         """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
-        players, stopper = self.house.controls.players(), self.stopper
+        players, stopper = self.context.controls.players(), self.stopper
         asked = [one for one in players if one == stopper or (stopper and one.kind == stopper.kind == "keys")]
         return [*self.match.access.seated, *asked] or players
 
@@ -121,11 +121,11 @@ class Trouble:
         for fault in self.faults:
             for seat in [*self.match.real] if fault.robot is None else [fault.robot]:
                 self.match.swap(seat, False)
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
 
     def _paint(self, pane: Pane) -> None:
         """The first fault, what camera or radio say themselves, and how many others there are."""
-        words = self.house.words
+        words = self.context.words
         if not self.faults:
             title(pane, None, words("mat.stand"), ICE)
             return
@@ -136,7 +136,7 @@ class Trouble:
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
             pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
-        fire = words.printed(self.house.controls.label(self.match.access.voice, Act.FIRE))
+        fire = words.printed(self.context.controls.label(self.match.access.voice, Act.FIRE))
         y = write(pane, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:

@@ -9,7 +9,7 @@ from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.real import unfit
 from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.calibration.messages import tell
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Turn
 from pigaming_app.scenes.robots.avoid_discs import Aside
@@ -46,21 +46,21 @@ log = logging.getLogger("pigaming")
 
 
 class RobotsPage:
-    """The page of a house whose mat may be used."""
+    """The page, where robots may be used."""
 
-    def __init__(self, house: House) -> None:
-        assert house.mat is not None
-        self.house = house
-        self.check = Checkup(house.mat, house.settings)
+    def __init__(self, context: Context) -> None:
+        assert context.mat is not None
+        self.context = context
+        self.check = Checkup(context.mat, context.settings)
         self.flood = Flood()
         self.flood.level = 0.0
-        self.names = ROWS if not house.mat.emulated else ("radio", *EMULATED) if unfit(house.settings) else EMULATED
+        self.names = ROWS if not context.mat.emulated else ("radio", *EMULATED) if unfit(context.settings) else EMULATED
         self.focus = Focus(dials.spots(self.names), "pair")
         self.anew, self.age = 0.0, EVERY
         self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
         hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Look and listen."""
@@ -75,7 +75,7 @@ class RobotsPage:
         press = self.navigation.prompts.meant(self._on_sheet(press))
         if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
             self.check.stop()
-            self.navigation.say(self.house.words("fleet.stopped"))
+            self.navigation.say(self.context.words("fleet.stopped"))
             return None
         if turn := self.navigation.on(press):
             return turn
@@ -88,7 +88,7 @@ class RobotsPage:
 
     def update(self, seconds: float) -> Turn:
         """Read what there is to read."""
-        words = self.house.words
+        words = self.context.words
         turn = self.navigation.update(seconds)
         self.age += seconds
         if self.anew > 0.0:
@@ -103,7 +103,7 @@ class RobotsPage:
                 self._found()
             else:
                 self.navigation.say(words("fleet.measured" if self.check.late else "fleet.nobody"))
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
             self.lines = [self._read(robot) for robot in range(ROBOTS)]
@@ -112,7 +112,7 @@ class RobotsPage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page in blocks that keep off the discs, and these."""
-        words = self.house.words
+        words = self.context.words
         if self.flood.whole:
             self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
             return
@@ -154,9 +154,9 @@ class RobotsPage:
 
     def _draw_blocks(self, screen: pygame.Surface) -> None:
         """Everything below the heading."""
-        words = self.house.words
+        words = self.context.words
         screen.fill("black")
-        dials.draw(screen, self.house.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
+        dials.draw(screen, self.context.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
         frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
         for robot, (heard, bright, seen, dim) in enumerate(self.lines):
             x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
@@ -176,12 +176,12 @@ class RobotsPage:
 
     def _line(self) -> str:
         """A sentence about the row in focus, or why its value is refused for matches."""
-        reason = unfit(self.house.settings) if self.focus.name == "radio" else None
-        return tell(self.house.words, reason) if reason else self.house.words(f"fleet.{self.focus.name}_line")
+        reason = unfit(self.context.settings) if self.focus.name == "radio" else None
+        return tell(self.context.words, reason) if reason else self.context.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
         """What the camera does."""
-        words, check = self.house.words, self.check
+        words, check = self.context.words, self.check
         if check.rig is None:
             return tell(words, check.refusal or words("fleet.no_camera"))
         return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
@@ -189,10 +189,10 @@ class RobotsPage:
     def _trouble(self) -> str | None:
         """What camera or radio say is wrong."""
         told = self.check.mat.trouble
-        return tell(self.house.words, told) if told else None
+        return tell(self.context.words, told) if told else None
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
-        words, health = self.house.words, self.check.health(robot)
+        words, health = self.context.words, self.check.health(robot)
         late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
         if health.battery is None:
@@ -204,7 +204,7 @@ class RobotsPage:
     # ---- what the rows are
 
     def _value(self, name: str) -> Value:
-        words, settings = self.house.words, self.house.settings
+        words, settings = self.context.words, self.context.settings
         match name:
             case "mat":
                 return Value("toggle", (words("options.off"), words("options.on")), int(settings.mat))
@@ -215,7 +215,7 @@ class RobotsPage:
 
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
         """What can be chosen, by what is kept, and what is now."""
-        words, settings = self.house.words, self.house.settings
+        words, settings = self.context.words, self.context.settings
         if name == "camera":
             known: dict[object, str] = {one.number: f"{one.number}: {one.name}" for one in cameras()}
             return {settings.camera: str(settings.camera), **known}, settings.camera
@@ -229,7 +229,7 @@ class RobotsPage:
 
     def _change(self, name: str, by: int, around: bool) -> None:
         """The next value of a row, or the one before it."""
-        settings = self.house.settings
+        settings = self.context.settings
         if name in EMULATED:
             return
         if name == "mat":
@@ -240,12 +240,12 @@ class RobotsPage:
             at = keys.index(now) + by
             settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
             self.anew = ANEW
-        self.house.sounds.play("move")
+        self.context.sounds.play("move")
         try:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.house.words("app.unsaved"))
+            self.navigation.say(self.context.words("app.unsaved"))
 
     def _do(self, name: str) -> None:
         """Begin what the row is for, or take its next value."""
@@ -253,19 +253,19 @@ class RobotsPage:
             self._change(name, 1, True)
             return
         begun = self.check.pair() if name == "pair" else self.check.measure()
-        self.house.sounds.play("accept" if begun else "error")
+        self.context.sounds.play("accept" if begun else "error")
         if not begun:
-            self.navigation.say(self.house.words("fleet.nobody"))
+            self.navigation.say(self.context.words("fleet.nobody"))
 
     def _found(self) -> None:
         """Say what came of the pairing."""
-        words, told = self.house.words, worst(self.check.findings)
+        words, told = self.context.words, worst(self.check.findings)
         if told is None:
             self.navigation.say(words("fleet.paired"))
         else:
             marker = 0 if told.marker is None else told.marker + 1
             self.navigation.say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
         try:
-            self.house.settings.save(folders().config)
+            self.context.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)

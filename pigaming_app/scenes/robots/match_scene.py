@@ -13,7 +13,7 @@ from pigaming_app.hardware.control.safety import Does, Fault
 from pigaming_app.hardware.session.real import Mat, NoMat, exact, refused, unfit
 from pigaming_app.scenes.calibration.corner_markers import DriftWatch
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, Turn
 from pigaming_app.scenes.flow.timestep import Pace
 from pigaming_app.scenes.play.countdown import Countdown
@@ -44,7 +44,7 @@ class RealMatch(MatchScene):
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         setup: Setup,
         devices: Sequence[Device | None],
         real: Collection[int],
@@ -52,20 +52,20 @@ class RealMatch(MatchScene):
         match_of: MatchOf,
         game_choice: After | None = None,
     ) -> None:
-        if reason := unfit(house.settings):
+        if reason := unfit(context.settings):
             raise refused(NoMat(reason))
         rig = mat.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         self.mat, self.match_of = mat, match_of
         super().__init__(
-            house, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen), game_choice=game_choice
+            context, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen), game_choice=game_choice
         )
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
         self.plant = plant
         self.discs = Discs(rig)
         self.watch = DriftWatch(rig)
-        self.gathering: Gathering | None = Gathering(house, plant, lambda: self.access.voice)
+        self.gathering: Gathering | None = Gathering(context, plant, lambda: self.access.voice)
         self.gone = False  # it has let go of the mat
         self.waiting = Pace()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
@@ -81,7 +81,7 @@ class RealMatch(MatchScene):
         if self.gathering is None:
             super().entered()
         else:
-            self.house.sounds.music(True)
+            self.context.sounds.music(True)
             self.begun = True
 
     def left(self) -> None:
@@ -110,9 +110,9 @@ class RealMatch(MatchScene):
         elif press.act is Act.EXTRA:
             for seat in self._missing():
                 self.swap(seat, False)
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
         elif press.act is Act.BACK:
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
@@ -167,7 +167,7 @@ class RealMatch(MatchScene):
     def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
         """Which radio drives which robot has been found anew; the robots `well` turned as they should."""
         self.plant.rig.channels = channels
-        self.house.settings.radios = [channel + 1 for channel in channels]
+        self.context.settings.radios = [channel + 1 for channel in channels]
         for robot in well:
             self.plant.forgive(robot)
 
@@ -177,10 +177,10 @@ class RealMatch(MatchScene):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
-            self.gathering = Gathering(self.house, self.plant, lambda: self.access.voice)
+            self.gathering = Gathering(self.context, self.plant, lambda: self.access.voice)
         self._dressed()
 
-    def again(self, house: House, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+    def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck and the same robots."""
         self.left()
         return self.match_of(anew(setup, devices), devices, self.real)
@@ -192,7 +192,7 @@ class RealMatch(MatchScene):
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         gathering.update(seconds)
         self.signs.work(0.0)
@@ -204,7 +204,7 @@ class RealMatch(MatchScene):
         self._tell()
         if self.plant.safety.stopped or self.plant.safety.lasting:
             return Push(Trouble(self))
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def _missing(self) -> list[int]:
         """The robots that will not get to their places by themselves."""
@@ -217,7 +217,7 @@ class RealMatch(MatchScene):
         self.gathering = None
         self.count = Countdown(lead=LEAD)
         self.idle = 0.0
-        self.house.sounds.play("ready", 0)
+        self.context.sounds.play("ready", 0)
         self._dressed()
 
     def _rest(self, seconds: float) -> None:
@@ -238,7 +238,7 @@ class RealMatch(MatchScene):
             detail = exact(self.plant.rig, now[key].name)
             log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), detail))))
             if now[key].name in TOLD:
-                said = named(now[key], self.house.words, "")
+                said = named(now[key], self.context.words, "")
                 self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE
         self.logged = set(now)
 

@@ -5,7 +5,7 @@ import logging
 import pygame
 
 from pigaming_app.scenes.calibration.messages import tell
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.storage.safe_files import NotSaved, write
@@ -31,11 +31,11 @@ log = logging.getLogger("pigaming")
 class RobotsMenu:
     """The menu."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
+    def __init__(self, context: Context) -> None:
+        self.context = context
         self.focus = Focus(dials.spots(ROWS))
         hints = [(Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
-        self.navigation = Navigation(house, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Shown, or come back to."""
@@ -54,12 +54,12 @@ class RobotsMenu:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words, name = self.house.words, self.focus.name
+        words, name = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("robots.title")).draw(screen)
         blacked(screen, dials.PANEL)
         values = {one: Value("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS}
-        dials.draw(screen, self.house.words, self.focus, "robots", values)
+        dials.draw(screen, self.context.words, self.focus, "robots", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         sketch(name).draw(screen, *dials.CENTRE)
         dials.describe(screen, words(f"robots.{name}"), words(f"robots.{name}_line"))
@@ -73,18 +73,18 @@ class RobotsMenu:
         from pigaming_app.scenes.calibration.drift_page import CheckPage
         from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         match name:
             case "robots":
                 from pigaming_app.scenes.robots.fleet_page import RobotsPage
 
-                return Push(RobotsPage(self.house))
+                return Push(RobotsPage(self.context))
             case "calibrate":
-                return Push(CalibrationPage(self.house))
+                return Push(CalibrationPage(self.context))
             case "check":
-                return Push(CheckPage(self.house))
+                return Push(CheckPage(self.context))
             case "pin":
-                return Push(PinPage(self.house))
+                return Push(PinPage(self.context))
         self._write()
         return None
 
@@ -94,7 +94,7 @@ class RobotsMenu:
         from pigaming_app.hardware.messages import said
         from pigaming_app.hardware.vision.markers import NoVision
 
-        path, words = folders().data / SHEET, self.house.words
+        path, words = folders().data / SHEET, self.context.words
         try:
             write(path, sheet())
             self.navigation.say(words("robots.written", path=path))

@@ -26,13 +26,13 @@ class PairAgain:
     """The page, over a match whose robots stand."""
 
     def __init__(self, match: InterruptedMatch) -> None:
-        self.match, self.house = match, match.house
+        self.match, self.context = match, match.context
         self.flood, self.pace = Flood(), Pace()
         self.pairing: Pairing | None = None
         self.sentence = ""  # what is wrong, once all have spun
         self.clock = 0.0
-        self.stop = self.house.prompts([(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
-        self.after = self.house.prompts([(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
+        self.stop = self.context.prompts([(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
+        self.after = self.context.prompts([(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
 
     def entered(self) -> None:
         """Nothing moves yet."""
@@ -46,7 +46,7 @@ class PairAgain:
             self.match.plant.rig.tell([None] * ROBOTS)
             if press.act is Act.STOP:
                 self.match.plant.safety.all_stop()
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
@@ -66,7 +66,7 @@ class PairAgain:
 
     def draw(self, screen: pygame.Surface) -> None:
         """A dark page with the discs, or grey light while a robot is not seen."""
-        words = self.house.words
+        words = self.context.words
         if self.flood.whole:
             self.flood.draw(screen, looking(words, self.missing), words("mat.pairing"))
             self.match.watch.draw(screen)
@@ -91,9 +91,9 @@ class PairAgain:
         self.match.paired(pairing.channels, well)
         told = worst([one for one in pairing.findings if one.case not in GOOD])
         if told is None:
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
             return Pop()
         marker = 0 if told.marker is None else told.marker + 1
-        self.sentence = self.house.words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker)
-        self.house.sounds.play("error")
+        self.sentence = self.context.words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker)
+        self.context.sounds.play("error")
         return None

@@ -5,7 +5,7 @@ from functools import partial
 
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.session.real import NoMat
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import After
@@ -13,7 +13,7 @@ from pigaming_app.ui.input.events import Device
 
 
 def match_of(
-    house: House,
+    context: Context,
     setup: Setup,
     devices: Sequence[Device | None],
     real: Collection[int],
@@ -25,13 +25,13 @@ def match_of(
     `speed`: times real time, for a match without real robots. `game_choice`: see `Results`.
     """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
-    if not real or house.mat is None:
-        return MatchScene(house, setup, devices, speed, game_choice=game_choice)
+    if not real or context.mat is None:
+        return MatchScene(context, setup, devices, speed, game_choice=game_choice)
     from pigaming_app.scenes.robots.match_scene import RealMatch
     from pigaming_app.scenes.robots.unavailable import Refused
 
-    again = partial(match_of, house, game_choice=game_choice)
+    again = partial(match_of, context, game_choice=game_choice)
     try:
-        return RealMatch(house, setup, devices, real, house.mat, again, game_choice)
+        return RealMatch(context, setup, devices, real, context.mat, again, game_choice)
     except NoMat as trouble:
-        return Refused(house, setup, devices, real, trouble.args[0], again)
+        return Refused(context, setup, devices, real, trouble.args[0], again)

@@ -18,13 +18,13 @@ class SwapPage:
     """The page; what is chosen is done when it is left. `access`: whose presses count."""
 
     def __init__(self, match: InterruptedMatch, access: Access) -> None:
-        self.match, self.house, self.access = match, match.house, access
+        self.match, self.context, self.access = match, match.context, access
         self.seats = [i for i, robot in enumerate(match.match.state.robots) if robot.present]
         self.wanted = {seat: seat in match.real for seat in self.seats}
         self.focus = Focus(items([str(seat) for seat in self.seats]))
         self.picture: pygame.Surface | None = None
         hints = [(Act.FIRE, "mat.hint_change"), (Act.BACK, "mat.hint_done")]
-        self.prompts = self.house.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing has been chosen yet."""
@@ -38,14 +38,14 @@ class SwapPage:
         if press.act in (Act.BACK, Act.START):
             for seat, real in self.wanted.items():
                 self.match.swap(seat, real)
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         if self.focus.on(press):
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         chosen = self.focus.name if press.act in (Act.LEFT, Act.RIGHT) else self.focus.chosen(press)
         if chosen:
             self.wanted[int(chosen)] = not self.wanted[int(chosen)]
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -62,7 +62,7 @@ class SwapPage:
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen)
         for spot in self.focus.spots:
-            said = self.house.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
+            said = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
             color = FOCUS if spot.name == self.focus.name else MIST
             size = fitted(said, LABEL, spot.rect.w - 150)
             word(said, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
@@ -70,7 +70,7 @@ class SwapPage:
         self.match.shine(screen)
 
     def _paint(self, pane: Pane) -> None:
-        title(pane, None, self.house.words("mat.which"), ICE)
+        title(pane, None, self.context.words("mat.which"), ICE)
         for spot in self.focus.spots:
             seat = int(spot.name)
             badge(pane.hot, seat, spot.rect.left + 60, spot.rect.centery - (4 if seat == 1 else 0), 26)

@@ -13,7 +13,7 @@ from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.real import exact
 from pigaming_app.scenes.calibration.messages import tell
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.robots.fault_page import named, shown
 from pigaming_app.scenes.robots.flood_light import UNSEEN as UNSEEN_AFTER
 from pigaming_app.scenes.robots.flood_light import Flood, looking
@@ -42,11 +42,11 @@ class Gathering:
 
     DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
 
-    def __init__(self, house: House, plant: MixedPlant, voice: Callable[[], Device]) -> None:
-        self.house, self.plant = house, plant
+    def __init__(self, context: Context, plant: MixedPlant, voice: Callable[[], Device]) -> None:
+        self.context, self.plant = context, plant
         self.clock = 0.0
         self.flood = Flood()
-        self.prompts = house.prompts(
+        self.prompts = context.prompts(
             [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
             HINTS_Y, 1560, voice=voice,
         )  # fmt: skip
@@ -64,7 +64,7 @@ class Gathering:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint outlines, ways and what has to be done; the discs come on top of it."""
-        words, places = self.house.words, self.plant.places
+        words, places = self.context.words, self.plant.places
         if self.flood.whole:
             hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
             faults = [named(fault, words, "") for fault in self._faults()]
@@ -121,7 +121,7 @@ class Gathering:
 
     def _said(self, screen: pygame.Surface, place: Place) -> None:
         """What has to be done with a robot that does not get there by itself."""
-        words, robot = self.house.words, place.robot
+        words, robot = self.context.words, place.robot
         if place.there or place.moving or self.clock < MISSING:
             return
         key = "mat.carry" if place.distance > UNSEEN else "mat.waits"

@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import title
 from pigaming_app.scenes.robots.fault_icons import sign
@@ -28,23 +28,23 @@ class Refused:
 
     def __init__(
         self,
-        house: House,
+        context: Context,
         setup: Setup,
         devices: Sequence[Device | None],
         real: Collection[int],
         sentence: str,
         match_of: MatchOf,
     ) -> None:
-        self.house, self.setup, self.devices, self.real, self.sentence = house, setup, devices, real, sentence
+        self.context, self.setup, self.devices, self.real, self.sentence = context, setup, devices, real, sentence
         self.match_of = match_of
         self.picture: pygame.Surface | None = None
-        self.access = Access(house, lambda: self.devices)
+        self.access = Access(context, lambda: self.devices)
         hints = [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")]
-        self.prompts = house.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
-        self.house.sounds.play("error")
+        self.context.sounds.play("error")
 
     def on(self, press: Press) -> Turn:
         """FIRE plays with simulated robots, EXTRA tries again, BACK leaves."""
@@ -53,21 +53,21 @@ class Refused:
             return None
         press = admitted
         if press.act in (Act.FIRE, Act.START):
-            self.house.sounds.play("accept")
+            self.context.sounds.play("accept")
             return Swap(self.match_of(self.setup, self.devices, ()))
         if press.act is Act.EXTRA:
             return Swap(self.match_of(self.setup, self.devices, self.real))
         if press.act is Act.BACK:
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
         """Leave when nobody is there."""
         if self.access.update(seconds):
-            self.house.sounds.play("back")
+            self.context.sounds.play("back")
             return Pop()
-        return Home() if self.house.idle > IDLE else None
+        return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The page."""
@@ -77,7 +77,7 @@ class Refused:
         self.prompts.draw(screen)
 
     def _paint(self, pane: Pane) -> None:
-        words = self.house.words
+        words = self.context.words
         title(pane, None, words("mat.refused"), ICE)
         sign(pane.hot, "robot", *ICON, 76, ALARM)
         y = write(pane, tell(words, self.sentence), TEXT_X, HEAD + 56, ROOM, ICE)

@@ -12,7 +12,7 @@ from pigaming_app.ai import STRENGTHS, seated
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, Turn
 from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.scene import new_seed
@@ -30,12 +30,12 @@ LEVELS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Three shows for each game, round and round, from a random game on. `house.idle` has brought it up; the title lies
-    below.
+    """Three shows for each game, round and round, from a random game on. It opens by itself over the title when nobody is
+    there.
     """
 
-    def __init__(self, house: House) -> None:
-        self.house = house
+    def __init__(self, context: Context) -> None:
+        self.context = context
         self.age = 0.0
         games, first = list(GAMES), secrets.randbelow(len(GAMES))
         self.shows = (
@@ -48,7 +48,7 @@ class Attract:
 
     def entered(self) -> None:
         """Quiet: nobody is listening."""
-        self.house.sounds.music(False)
+        self.context.sounds.music(False)
 
     def on(self, press: Press) -> Turn:
         """Whatever is pressed, back to the title, where it counts for nothing; F4 shows what the AIs think."""
@@ -70,7 +70,7 @@ class Attract:
             self.show.draw(screen)
         level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
         color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
-        text = self.house.words("attract.press")
+        text = self.context.words("attract.press")
         size, y = (LABEL, PROMPT_Y) if isinstance(self.show, Demonstration) else (BODY, PAGE_PROMPT_Y)
         plate(text, color, color, size, face="head").draw(screen, 960, y)
 
@@ -79,33 +79,33 @@ class Attract:
         self.show.entered()
 
     def _match(self, game: str) -> Scene:
-        return Demonstration(self.house, game)
+        return Demonstration(self.context, game)
 
     def _howto(self, game: str) -> Scene:
         from pigaming_app.scenes.howto.scene import HowTo
 
-        page = HowTo(self.house, game)
+        page = HowTo(self.context, game)
         return Page(page, page.draw)
 
     def _best(self, game: str) -> Scene | None:
         """Tables of the game in which somebody has scored."""
-        there = [one for one in contests(self.house.scores) if one.game == game]
+        there = [one for one in contests(self.context.scores) if one.game == game]
         if not there:
             return None
-        best = Best(self.house, secrets.choice(there))
+        best = Best(self.context, secrets.choice(there))
         return Page(best, best.paint)
 
 
 class Demonstration:
     """AIs play for a minute."""
 
-    def __init__(self, house: House, game: str) -> None:
+    def __init__(self, context: Context, game: str) -> None:
         rules = GAMES[game]
         teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.sides == FREE else rules.teams
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.variants[0], rules.default_goal)
-        self.stage = Stage(house, seated(setup), loud=False)
+        self.stage = Stage(context, seated(setup), loud=False)
         self.warm = False
         self.over = 0.0
 

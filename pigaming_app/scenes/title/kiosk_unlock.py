@@ -4,7 +4,7 @@ On the title, one device is held straight ahead with its turbo button down (a sh
 turbo key), and without fire, for five seconds. Nothing on the screen tells of it.
 """
 
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.input.keyboard import CLUSTERS
 
@@ -15,13 +15,13 @@ AHEAD = 0.9
 class Combination:
     """Watches every device; outside a kiosk it never opens anything."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
+    def __init__(self, context: Context) -> None:
+        self.context = context
         self.since = 0.0
 
     def held(self, seconds: float) -> bool:
         """Let time pass; true at the moment in which the combination has been held long enough."""
-        if not self.house.kiosk:
+        if not self.context.kiosk:
             return False
         self.since = self.since + seconds if any(map(self._holds, self._devices())) else 0.0
         if self.since < HOLD:
@@ -30,8 +30,8 @@ class Combination:
         return True
 
     def _devices(self) -> list[Device]:
-        return [*self.house.controls.pads(), *(Device("keys", number) for number in range(len(CLUSTERS)))]
+        return [*self.context.controls.pads(), *(Device("keys", number) for number in range(len(CLUSTERS)))]
 
     def _holds(self, device: Device) -> bool:
-        drive = self.house.controls.drive(device)
+        drive = self.context.controls.drive(device)
         return drive.linear > AHEAD and drive.turbo and not drive.fire

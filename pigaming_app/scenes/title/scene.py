@@ -6,7 +6,7 @@ When nobody is there for a while, an AI match begins.
 import pygame
 
 from pigaming_app.games import GAMES
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import kept_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, Turn
 from pigaming_app.scenes.title.kiosk_unlock import Combination
@@ -44,10 +44,10 @@ LOGO = (LEFT + 16, 84, 30)
 class Title:
     """The lowest scene: what the arcade comes back to."""
 
-    def __init__(self, house: House) -> None:
-        self.house = house
+    def __init__(self, context: Context) -> None:
+        self.context = context
         self.clock = 0.0
-        self.combination = Combination(house)
+        self.combination = Combination(context)
         self.focus = Focus(self._spots())
         self.game = next(iter(GAMES))  # whose tile had the focus last
         self.lab: Scene | None = None
@@ -55,16 +55,16 @@ class Title:
     def entered(self) -> None:
         """Shown, or shown again; the sprites of matches are released."""
         surfaces.release_matches()
-        self.house.idle = 0.0
-        self.house.sounds.music(True)
+        self.context.idle = 0.0
+        self.context.sounds.music(True)
         self.focus.place(self._spots())
 
     def on(self, press: Press) -> Turn:
         """Directions and the mouse move the focus; FIRE, START or a click choose; ALT changes the language."""
         if press.act is Act.ALT:
-            self._speak(self.house.words.other)
+            self._speak(self.context.words.other)
         elif self.focus.on(press):
-            self.house.sounds.play("move")
+            self.context.sounds.play("move")
         self.game = self.focus.name if self.focus.name in GAMES else self.game
         chosen = self.focus.chosen(press)
         return self._open(chosen) if chosen else None
@@ -76,22 +76,22 @@ class Title:
         if self.combination.held(seconds):
             from pigaming_app.scenes.options.page import OptionsPage
 
-            self.house.sounds.play("accept")
-            return Push(OptionsPage(self.house, operator=True))
-        if self.house.idle > self.house.settings.attract_seconds and not self.house.backstage.busy:
+            self.context.sounds.play("accept")
+            return Push(OptionsPage(self.context, operator=True))
+        if self.context.idle > self.context.settings.attract_seconds and not self.context.preloader.busy:
             from pigaming_app.scenes.title.attract import Attract
 
-            return Push(Attract(self.house))
+            return Push(Attract(self.context))
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the page."""
-        words = self.house.words
+        words = self.context.words
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
         stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
         for i, game in enumerate(GAMES):
-            line = tagline(words, game, kept_goal(self.house.settings, game))
+            line = tagline(words, game, kept_goal(self.context.settings, game))
             lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
             lit.draw(screen, *tile_rect(i).topleft)
         self._prompt(screen)
@@ -105,7 +105,7 @@ class Title:
             self._speak(name)
             return None
         scene = self._scene(name)
-        self.house.sounds.play("accept")
+        self.context.sounds.play("accept")
         return Push(scene) if scene else Quit()
 
     def _scene(self, name: str) -> Scene | None:
@@ -113,38 +113,38 @@ class Title:
         if name in GAMES:
             from pigaming_app.scenes.lobby.scene import Lobby
 
-            return Lobby(self.house, name)
+            return Lobby(self.context, name)
         if name == "howto":
             from pigaming_app.scenes.howto.scene import HowTo
 
-            return HowTo(self.house, self.game)
+            return HowTo(self.context, self.game)
         if name == "lab":
             return self._lab()
         if name == "options":
             from pigaming_app.scenes.options.page import OptionsPage
 
-            return OptionsPage(self.house)
+            return OptionsPage(self.context)
         return None
 
     def _lab(self) -> Scene:
         """The Lab as it was left: the robot is still there."""
         from pigaming_app.scenes.lab.scene import Lab
 
-        self.lab = self.lab or Lab(self.house)
+        self.lab = self.lab or Lab(self.context)
         return self.lab
 
     def _speak(self, language: str) -> None:
-        if language != self.house.words.language:
-            self.house.words.switch(language)
-            self.house.settings.language = language
-            self.house.sounds.play("accept")
+        if language != self.context.words.language:
+            self.context.words.switch(language)
+            self.context.settings.language = language
+            self.context.sounds.play("accept")
         self.focus.place(self._spots())
 
     def _spots(self) -> list[Spot]:
         spots = [Spot(game, tile_rect(i)) for i, game in enumerate(GAMES)]
         x = LEFT
         for name in self._menu():
-            w = chip_width(self.house.words(f"title.{name}"))
+            w = chip_width(self.context.words(f"title.{name}"))
             spots.append(Spot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
             x += w + 24
         x = RIGHT
@@ -156,7 +156,7 @@ class Title:
 
     def _menu(self) -> tuple[str, ...]:
         there = "howto", "lab", "options"
-        return there if self.house.kiosk else (*there, "quit")
+        return there if self.context.kiosk else (*there, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:
         """The line that asks for a press, and says what it opens, between arrows that run towards it."""
@@ -171,23 +171,23 @@ class Title:
     @property
     def asked(self) -> tuple[str, str]:
         """The line that asks for a press, and the label of the button in it."""
-        words, name = self.house.words, self.focus.name
-        label = words.printed(self.house.controls.label(None, Act.FIRE))
+        words, name = self.context.words, self.focus.name
+        label = words.printed(self.context.controls.label(None, Act.FIRE))
         if name in GAMES:
             return words("title.press", button="{button}"), label
         return words("title.choose", button="{button}", what=self._what(name)), label
 
     def _what(self, name: str) -> str:
         """What a chip opens, as its label says."""
-        return NAMES[name] if name in LANGUAGES else self.house.words(f"title.{name}")
+        return NAMES[name] if name in LANGUAGES else self.context.words(f"title.{name}")
 
     def _foot(self, screen: pygame.Surface) -> None:
-        words = self.house.words
+        words = self.context.words
         for name in (*self._menu(), *LANGUAGES):
             lit = name == words.language if name in LANGUAGES else name == self.focus.name
             said, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
             chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
-        label = self.house.controls.label(None, Act.ALT)
+        label = self.context.controls.label(None, Act.ALT)
         if label:
             button_light(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
 

@@ -18,7 +18,7 @@ class Visitor(Protocol):
     """Who walks; see walker.py."""
 
     app: Any
-    house: Any
+    context: Any
 
     @property
     def top(self) -> Any: ...
@@ -96,7 +96,7 @@ def options(walker: Visitor) -> None:
                 robots(walker)
             walker.press("escape")
         elif name not in ("display", "fullscreen"):  # the language is changed and changed back
-            walker.press(*("d", "a") if walker.house.words.language == LANGUAGES[0] else ("a", "d"))
+            walker.press(*("d", "a") if walker.context.words.language == LANGUAGES[0] else ("a", "d"))
         walker.at("options")
         walker.press("s")
     home(walker)
@@ -204,7 +204,7 @@ def results(walker: Visitor, game: str) -> None:
         if walker.on("Best"):
             walker.press("escape", pause=0.5)
     walker.at(f"{game}: best scores")
-    walker.app.stack.turn(Push(Best(walker.house, contest(walker.top.setup))))
+    walker.app.stack.turn(Push(Best(walker.context, contest(walker.top.setup))))
     walker.wait(3.0)
     walker.press("d", "s", "escape", pause=0.5)
     walker.at(f"{game}: rematch")
@@ -276,7 +276,7 @@ def lab(walker: Visitor) -> None:
 
 def attract(walker: Visitor) -> None:
     """A round of shows for every game."""
-    walker.house.settings.attract_seconds = 5.0
+    walker.context.settings.attract_seconds = 5.0
     walker.at("attract mode")
     walker.until(lambda: walker.on("Attract"))
     for _ in range(3 * len(GAMES)):

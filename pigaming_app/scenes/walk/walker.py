@@ -29,7 +29,7 @@ class Walker:
     """Somebody at the keyboard of an arcade; `worst`: ms of the longest frame, by the name given to each screen."""
 
     def __init__(self, app: App) -> None:
-        self.app, self.house = app, app.house
+        self.app, self.context = app, app.context
         self.screen = "title"
         self.worst: dict[str, float] = {}
 
@@ -44,7 +44,7 @@ class Walker:
 
     def at(self, screen: str) -> None:
         """Count what follows as frames of that screen."""
-        self.screen = f"{screen} ({self.house.words.language})"
+        self.screen = f"{screen} ({self.context.words.language})"
 
     def frame(self) -> None:
         """One frame."""
@@ -53,7 +53,7 @@ class Walker:
         spent = 1000.0 * (thread_time() - began)
         self.worst[self.screen] = max(spent, self.worst.get(self.screen, 0.0))
         if painted:
-            self.house.canvas.flip()
+            self.context.canvas.flip()
 
     def wait(self, seconds: float) -> None:
         """Let time pass."""

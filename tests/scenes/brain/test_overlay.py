@@ -44,11 +44,11 @@ def f4(arcade: Arcade) -> None:
 def stage_of(arcade: Arcade, game: str, seed: int = 1) -> Stage:
     brains = SEATS[game]
     wish = choose(game, brains, None, 1.0, seed, None, None, brains)
-    return Stage(arcade.house, seated(wish), loud=False)
+    return Stage(arcade.context, seated(wish), loud=False)
 
 
 def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off hard", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human easy off hard", 1.0), KEYS[:1])
     arcade.open(match)
     shown = []
     for _ in range(4):
@@ -56,11 +56,11 @@ def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
         shown.append(match.stage.brain.seat)
     assert shown == [1, 3, None, 1]
     assert arcade.stack.top is match, "no pause, and the match went on to its countdown"
-    assert arcade.house.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
+    assert arcade.context.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
 
 
 def test_where_nobody_is_an_ai_that_is_said(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human human off off", 1.0), KEYS[:2])
+    match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS[:2])
     arcade.open(match)
     f4(arcade)
     assert match.stage.brain.seat is None
@@ -70,11 +70,11 @@ def test_where_nobody_is_an_ai_that_is_said(arcade: Arcade) -> None:
 
 def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
     event = pygame.Event(pygame.KEYDOWN, key=pygame.K_F4, scancode=pygame.KSCAN_F4, mod=pygame.KMOD_LALT, unicode="")
-    assert arcade.house.controls.presses([event]) == []
+    assert arcade.context.controls.presses([event]) == []
 
 
 def test_somebody_who_takes_the_seat_is_not_looked_into(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off off", 1.0), [None])
+    match = MatchScene(arcade.context, setup("human easy off off", 1.0), [None])
     arcade.open(match)
     f4(arcade)
     assert match.stage.brain.seat == 0, "an AI drives for somebody"
@@ -86,7 +86,7 @@ def test_somebody_who_takes_the_seat_is_not_looked_into(arcade: Arcade) -> None:
 
 
 def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off off", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human easy off off", 1.0), KEYS[:1])
     arcade.open(match)
     arcade.wait(4.5)
     arcade.press(Act.START)
@@ -110,7 +110,7 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
     plain = kind == "Joystick"
     with VirtualPad(f"{kind} pad", usb, plain=plain) as pad:
         arcade.frame()
-        match = MatchScene(arcade.house, setup("human easy off off", 1.0), [Device("pad", pad.number)])
+        match = MatchScene(arcade.context, setup("human easy off off", 1.0), [Device("pad", pad.number)])
         arcade.open(match)
         arcade.wait(4.5)
         pad.tap("start" if not plain else 9)
@@ -124,7 +124,7 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
 
 
 def test_in_the_show_it_is_no_reason_to_leave(arcade: Arcade) -> None:
-    show = Attract(arcade.house)
+    show = Attract(arcade.context)
     assert isinstance(show.show, Demonstration)
     arcade.open(show)
     for seat in (0, 1):
@@ -257,7 +257,7 @@ def test_a_seat_without_a_brain_that_explains_itself_is_passed_over(arcade: Arca
     stage.match.sit(0, make("pitanks", "idle", 1))
     kind = stage.match.brains[0].kind
     object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.wake))
-    overlay = BrainOverlay(stage.match, stage.view, arcade.house.words)
+    overlay = BrainOverlay(stage.match, stage.view, arcade.context.words)
     assert overlay.seats == [1, 2, 3]
 
 

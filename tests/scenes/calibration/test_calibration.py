@@ -38,7 +38,7 @@ LONG = 30.0  # s after which a test gives up waiting
 @pytest.fixture
 def arcade(controls: Controls, _home: None) -> Operated:
     arcade = Operated(controls, EmulatedSite(2))
-    arcade.open(CalibrationPage(arcade.house, arcade.site))
+    arcade.open(CalibrationPage(arcade.context, arcade.site))
     return arcade
 
 
@@ -48,7 +48,7 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
     first = arcade.shown(CalibrationPage)
     assert first.preview is not None
     assert first.preview.size == (1920, 1080)
-    assert first.state == arcade.house.words("vision.none")
+    assert first.state == arcade.context.words("vision.none")
     arcade.begin()
     result = arcade.pictures(ResultPage)
     assert result.finding.good
@@ -57,7 +57,7 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
     arcade.shown(ResultPage)
     arcade.press(Act.FIRE)
     assert arcade.stack.top is first
-    ground = kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+    ground = kept.load(arcade.context.canvas.projection, arcade.site, (1920, 1080))
     assert ground.width_mm == arcade.site.measures.width
     for _ in range(5):
         arcade.picture()
@@ -68,7 +68,7 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
 def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
     arcade.begin()
     arcade.picture()
-    shown = pixels_of(arcade.house.canvas.screen)[:, :, 0].copy()
+    shown = pixels_of(arcade.context.canvas.screen)[:, :, 0].copy()
     plain = calibrating.BOARD.picture()
     assert np.array_equal(shown[:1044], plain[:1044])
     assert not np.array_equal(shown[1044:], plain[1044:]), "the progress is in the margin below"
@@ -112,7 +112,7 @@ def test_a_calibration_that_is_too_bad_cannot_be_saved(arcade: Operated, monkeyp
     arcade.press(Act.FIRE)
     arcade.shown(CalibrationPage)
     with pytest.raises(NoGround):
-        kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+        kept.load(arcade.context.canvas.projection, arcade.site, (1920, 1080))
 
 
 @pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root may write anywhere")
@@ -175,7 +175,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
     arcade.pictures(ResultPage)
     arcade.press(Act.FIRE)
     arcade.press(Act.BACK)
-    arcade.open(CheckPage(arcade.house, arcade.site))
+    arcade.open(CheckPage(arcade.context, arcade.site))
     checking = arcade.shown(CheckPage).work
     for _ in range(24):
         arcade.picture()
@@ -186,7 +186,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
     for _ in range(24):
         arcade.picture()
     assert checking.marker_mm == pytest.approx(50.0, rel=0.04), "the width of the mat was measured well"
-    canvas = arcade.house.canvas
+    canvas = arcade.context.canvas
     canvas.pin([8, 0, 1928, 0, 1928, 1080, 8, 1080])  # somebody pushes the projector
     for _ in range(24):
         arcade.picture()
@@ -200,7 +200,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
 def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -> None:
     site = EmulatedSite(1, live=True)
     arcade = Operated(controls, site)
-    arcade.open(CalibrationPage(arcade.house, site))
+    arcade.open(CalibrationPage(arcade.context, site))
     end = time.monotonic() + LONG
     first = arcade.shown(CalibrationPage)
     while first.preview is None or first.preview.small is None:
@@ -221,7 +221,7 @@ def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -
 def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
     first = arcade.go("by")
     spot = first.focus.spot.rect
-    ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.house.words("calibrate.ruler"), "Robot")))
+    ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.context.words("calibrate.ruler"), "Robot")))
     for x, by_robot in ((ruler, False), (robot, True), (robot, True), (ruler, False), (-60, False)):
         arcade.click(spot.x + x, spot.centery)
         assert (first.measures.height == 0.0) == by_robot
@@ -239,7 +239,7 @@ def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Oper
     finding: Finding = arcade.pictures(ResultPage).finding
     assert finding.ground is not None
     kept.save(finding.ground, arcade.site)
-    here = arcade.house.canvas.projection
+    here = arcade.context.canvas.projection
     for key, where, size in (("other_display", "2: 640 × 480", (1920, 1080)), ("other_camera", here, (1280, 720))):
         with pytest.raises(NoGround) as refused:
             kept.load(where, arcade.site, size)
@@ -252,7 +252,7 @@ def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Oper
 
 
 def test_the_corner_pin_is_part_of_what_was_calibrated(arcade: Operated) -> None:
-    canvas = arcade.house.canvas
+    canvas = arcade.context.canvas
     straight = canvas.projection
     canvas.pin([0, 0, 1920, 9, 1920, 1080, 0, 1080])
     assert canvas.projection != straight

@@ -61,7 +61,7 @@ class Driver:
 def real(controls: Controls, driver: Driver) -> Operated:
     site = RealSite(driver)
     arcade = Operated(controls, site)
-    arcade.open(CalibrationPage(arcade.house, site))
+    arcade.open(CalibrationPage(arcade.context, site))
     return arcade
 
 
@@ -100,11 +100,11 @@ def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
 ) -> None:
     driver = Driver(opens=False)
     arcade = real(controls, driver)
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     first = arcade.shown(CalibrationPage)
     assert first.preview is not None
     until(arcade, lambda: isinstance(first.preview.trouble, Said) and first.preview.trouble.key != "yet")
-    assert "3" in tell(arcade.house.words, first.preview.trouble or "")
+    assert "3" in tell(arcade.context.words, first.preview.trouble or "")
     (line,) = [record.getMessage() for record in caplog.records if "camera 3" in record.getMessage()]
     assert str(first.preview.trouble) in line, "the log says it too, once, in English"
     driver.opens = True
@@ -186,7 +186,7 @@ def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls
     settings, wrong = Settings.load(tmp_path / "config")
     assert not wrong
     assert (settings.arena_mm, settings.lid_mm, settings.camera) == (first.measures.width, 67.0, 3)
-    again = CalibrationPage(arcade.house, arcade.site)
+    again = CalibrationPage(arcade.context, arcade.site)
     assert again.measures == Measures(first.measures.width, 2500.0, 67.0)
 
 
@@ -211,7 +211,7 @@ def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
     mat = EmulatedSite(4)
     mat.clear(True)
     arcade = real(controls, Overhead(mat))
-    arcade.house.canvas.watchers.append(lambda window: mat.see(pixels_of(window)))
+    arcade.context.canvas.watchers.append(lambda window: mat.see(pixels_of(window)))
     first = arcade.shown(CalibrationPage)
     first.measures = mat.measures
     arcade.begin()
@@ -219,7 +219,7 @@ def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
     result = arcade.shown(ResultPage)
     assert result.finding.good, result.finding.trouble
     arcade.press(Act.FIRE)
-    ground = kept.load(arcade.house.canvas.projection, arcade.site, (1920, 1080))
+    ground = kept.load(arcade.context.canvas.projection, arcade.site, (1920, 1080))
     assert (tmp_path / "config" / "calibration.toml").exists()
     assert ground.max_mm < 3.0
     arcade.press(Act.BACK)

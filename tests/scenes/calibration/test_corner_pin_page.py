@@ -26,8 +26,8 @@ ASKEW = [40, 20, 1880, 60, 1900, 1060, 10, 1000]
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    arcade.open(PinPage(arcade.house))
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.open(PinPage(arcade.context))
     return arcade
 
 
@@ -41,7 +41,7 @@ def shown(canvas: Canvas) -> pygame.Surface:
 
 
 def test_a_corner_moves_by_ten_or_by_one_and_the_picture_with_it(arcade: Arcade) -> None:
-    canvas = arcade.house.canvas
+    canvas = arcade.context.canvas
     for act in (Act.RIGHT, Act.RIGHT, Act.DOWN):
         arcade.press(act)
     arcade.press(Act.EXTRA)
@@ -86,28 +86,28 @@ def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None
     settings, wrong = Settings.load(tmp_path / "config")
     assert not wrong
     assert settings.corners == [10, 10, 1910, 0, 1920, 1080, 0, 1080]
-    arcade.house.settings.corners = settings.corners
-    arcade.house.canvas.pin([])
-    App(Options(headless=True), arcade.house, [])
-    assert list(arcade.house.canvas.corners) == settings.corners
+    arcade.context.settings.corners = settings.corners
+    arcade.context.canvas.pin([])
+    App(Options(headless=True), arcade.context, [])
+    assert list(arcade.context.canvas.corners) == settings.corners
 
 
 def test_who_leaves_without_saving_leaves_it_as_it_was(arcade: Arcade) -> None:
     arcade.press(Act.BACK)
-    arcade.house.canvas.pin(ASKEW)
-    arcade.open(PinPage(arcade.house))
+    arcade.context.canvas.pin(ASKEW)
+    arcade.open(PinPage(arcade.context))
     for act in (Act.RIGHT, Act.DOWN, Act.ALT, Act.BACK):
         arcade.press(act)
-    assert arcade.house.canvas.corners == tuple(ASKEW)
+    assert arcade.context.canvas.corners == tuple(ASKEW)
 
 
 def test_reset_is_straight_and_costs_nothing(arcade: Arcade, tmp_path: Path) -> None:
-    arcade.house.canvas.pin(ASKEW)
+    arcade.context.canvas.pin(ASKEW)
     arcade.press(Act.ALT)
-    assert arcade.house.canvas.corners == ()
+    assert arcade.context.canvas.corners == ()
     arcade.press(Act.START)
     assert Settings.load(tmp_path / "config")[0].corners == []
-    assert arcade.house.canvas.screen is pygame.display.get_surface()
+    assert arcade.context.canvas.screen is pygame.display.get_surface()
 
 
 def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
@@ -118,7 +118,7 @@ def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
     assert page.corners[0] <= FARTHEST
     assert page.said > 0.0 or page.corners[0] == FARTHEST
     arcade.shown(PinPage)
-    arcade.house.canvas.flip()
+    arcade.context.canvas.flip()
 
 
 def test_a_full_disk_is_said_and_the_page_stays(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -128,7 +128,7 @@ def test_a_full_disk_is_said_and_the_page_stays(arcade: Arcade, monkeypatch: pyt
     monkeypatch.setattr(Settings, "save", full)
     arcade.press(Act.RIGHT)
     arcade.press(Act.START)
-    assert arcade.shown(PinPage).sentence == arcade.house.words("app.unsaved")
+    assert arcade.shown(PinPage).sentence == arcade.context.words("app.unsaved")
 
 
 def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
@@ -144,15 +144,15 @@ def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
     assert page.sentence == "OpenCV is not installed."
     assert page.corners == [0, 0, 1920, 0, 1920, 1080, 0, 1080]
     with pytest.raises(NoPin):
-        arcade.house.canvas.pin(ASKEW)
-    arcade.house.settings.corners = ASKEW
-    app = App(Options(headless=True), arcade.house, [])
-    assert arcade.house.words("app.pin") in app.notices.waiting
-    assert shown(arcade.house.canvas).get_at((0, 0))[:3] == (255, 255, 255)
+        arcade.context.canvas.pin(ASKEW)
+    arcade.context.settings.corners = ASKEW
+    app = App(Options(headless=True), arcade.context, [])
+    assert arcade.context.words("app.pin") in app.notices.waiting
+    assert shown(arcade.context.canvas).get_at((0, 0))[:3] == (255, 255, 255)
 
 
 def test_a_window_of_another_size_is_pinned_too_and_watchers_see_it(arcade: Arcade) -> None:
-    canvas = arcade.house.canvas
+    canvas = arcade.context.canvas
     seen: list[tuple[int, int]] = []
     canvas.watchers.append(lambda window: seen.append(window.get_size()))
     canvas.pin(ASKEW)
@@ -175,7 +175,7 @@ def test_a_setting_of_corners_that_makes_no_sense_is_said_and_ignored(tmp_path: 
 
 def test_corners_into_which_nothing_fits_are_said_at_the_start(arcade: Arcade) -> None:
     arcade.press(Act.BACK)
-    arcade.house.settings.corners = [0, 0, 1920, 0, 0, 1080, 1920, 1080]
-    app = App(Options(headless=True), arcade.house, [])
-    assert arcade.house.words("app.pin") in app.notices.waiting
-    assert arcade.house.canvas.corners == ()
+    arcade.context.settings.corners = [0, 0, 1920, 0, 0, 1080, 1920, 1080]
+    app = App(Options(headless=True), arcade.context, [])
+    assert arcade.context.words("app.pin") in app.notices.waiting
+    assert arcade.context.canvas.corners == ()

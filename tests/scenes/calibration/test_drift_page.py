@@ -38,9 +38,9 @@ def test_no_sentence_runs_into_the_spot(
     controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str, state: str
 ) -> None:
     arcade = Operated(controls, EmulatedSite(2))
-    arcade.house.words = Words(language)
+    arcade.context.words = Words(language)
     with measuring(monkeypatch) as screen:
-        page = CheckPage(arcade.house, arcade.site)
+        page = CheckPage(arcade.context, arcade.site)
         for name, value in STATES[state].items():
             setattr(page.work, name, LONGEST[language] if value == "longest" else value)
         page.draw(screen)

@@ -65,7 +65,7 @@ def key(arcade: Arcade, scancode: int, seconds: float = 0.0) -> None:
 
 
 def running(arcade: Arcade, brains: str, devices: list[Device], minutes: float = 3.0) -> MatchScene:
-    match = MatchScene(arcade.house, setup(brains, minutes), devices)
+    match = MatchScene(arcade.context, setup(brains, minutes), devices)
     arcade.open(match)
     arcade.wait(RUNNING)
     return match
@@ -78,7 +78,7 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
     _, first = plug(arcade, pads)
     guest, device = plug(arcade, pads)
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
     arcade.press(Act.FIRE, first)
     arcade.press(Act.ALT, first)
@@ -99,7 +99,7 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
 
 def test_in_a_full_lobby_a_free_pad_hears_only_that_it_is_full(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
     for device in KEYS:
         arcade.press(Act.FIRE, device)
@@ -109,12 +109,12 @@ def test_in_a_full_lobby_a_free_pad_hears_only_that_it_is_full(arcade: Arcade) -
         arcade.press(act, Device("pad", 9))
         assert [place.device for place in page.seats.places] == seats
         if act in (Act.FIRE, Act.START, Act.BACK):
-            assert page.now.message == arcade.house.words("lobby.full")
+            assert page.now.message == arcade.context.words("lobby.full")
 
 
 def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
-    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.open(Lobby(arcade.context, "pitanks"))
     arcade.press(Act.ALT, KEYS[2])
     arcade.press(Act.ALT, KEYS[3])
     arcade.press(Act.START, KEYS[1])
@@ -128,7 +128,7 @@ def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(ar
 def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Arcade, pads: ExitStack) -> None:
     _, first = plug(arcade, pads)
     arcade.stack.scenes[1:] = []
-    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.open(Lobby(arcade.context, "pitanks"))
     arcade.press(Act.FIRE, first)
     key(arcade, pygame.KSCAN_ESCAPE, 0.3)
     arcade.shown(Lobby)
@@ -138,7 +138,7 @@ def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Ar
 
 def test_a_shared_key_counts_for_the_seated_half_of_the_keyboard(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
     key(arcade, pygame.KSCAN_SPACE)
     key(arcade, pygame.KSCAN_SPACE)
@@ -153,8 +153,8 @@ def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arc
     plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
     plug(arcade, pads, plain=True)
     for language, space in (("en", "SPACE"), ("pt", "ESPAÇO")):
-        arcade.house.words.switch(language)
-        page = Lobby(arcade.house, "pitanks")
+        arcade.context.words.switch(language)
+        page = Lobby(arcade.context, "pitanks")
         assert page.page.invited == ("A", "Cross", "1", space, "R CTRL", "U", "0")
         assert len(lobby.card.rows_of(page.page.invited)) == 2, "they fit on a card"
         page.seats.join(xbox)
@@ -163,10 +163,10 @@ def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arc
 
 
 def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     page.seats.join(KEYS[0])
     page.seats.add()
-    scene = SetupPage(arcade.house, "pitanks", page.seats)
+    scene = SetupPage(arcade.context, "pitanks", page.seats)
     arcade.open(scene)
     arcade.wait(1.0)
     before = (scene.chosen, scene.focus.name)
@@ -295,7 +295,7 @@ def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None
 
 def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    controls = arcade.house.controls
+    controls = arcade.context.controls
     for _ in range(2):
         pad.tap("a")
     pygame.time.wait(800)
@@ -307,13 +307,13 @@ def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads:
 def test_a_tap_of_both_shoulders_in_one_frame_is_the_all_stop(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
     pad.tap("leftshoulder", "rightshoulder")
-    assert [press.act for press in arcade.house.controls.presses(pygame.event.get())] == [Act.STOP]
-    assert [arcade.house.controls.drive(device).turbo for _ in range(2)] == [True, False]
+    assert [press.act for press in arcade.context.controls.presses(pygame.event.get())] == [Act.STOP]
+    assert [arcade.context.controls.drive(device).turbo for _ in range(2)] == [True, False]
 
 
 def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitStack) -> None:
     (pad, device), (_, other) = plug(arcade, pads), plug(arcade, pads)
-    controls = arcade.house.controls
+    controls = arcade.context.controls
     for _ in range(50):
         pad.tap("a")
     controls.presses(pygame.event.get())
@@ -327,7 +327,7 @@ def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitS
 
 def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    match = MatchScene(arcade.house, setup("human easy off off", 1.0), [device])
+    match = MatchScene(arcade.context, setup("human easy off off", 1.0), [device])
     pad.tap("a")
     arcade.frame()
     arcade.open(match)
@@ -421,7 +421,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
 
 
 def ended(arcade: Arcade, brains: str, devices: list[Device]) -> Results:
-    match = MatchScene(arcade.house, setup(brains, 0.02), devices, game_choice=game_choice)
+    match = MatchScene(arcade.context, setup(brains, 0.02), devices, game_choice=game_choice)
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, Results))
     return arcade.shown(Results)
@@ -488,11 +488,11 @@ def test_change_game_changes_the_game_and_keeps_everybodys_seat(arcade: Arcade) 
 
 def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
-    scene = Title(arcade.house)
+    scene = Title(arcade.context)
     arcade.open(scene)
     assert scene.asked == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")
-    assert arcade.house.controls.last == device
+    assert arcade.context.controls.last == device
     assert scene.asked == ("Lab: press {button}", "Cross")
     pad.unplug()
     arcade.frame()
@@ -505,7 +505,7 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
 def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) -> None:
     chance = random.Random(9)
     arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.house, "pitanks")
+    page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
     acts = [act for act in Act if act not in (Act.START, Act.EXTRA, Act.POINT, Act.CLICK, Act.FOUND, Act.LOST)]
     for _ in range(4000):
@@ -527,14 +527,14 @@ def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> No
     seen = set()
     for i in range(3000):
         if len(arcade.stack.scenes) == 1:
-            arcade.open(Lobby(arcade.house, ("pitanks", "factory", "race")[i % 3]))
+            arcade.open(Lobby(arcade.context, ("pitanks", "factory", "race")[i % 3]))
         arcade.press(chance.choice(acts), chance.choice([*KEYS, Device("pad", 7)]))
         top = arcade.stack.top
         seen.add(type(top).__name__)
         if isinstance(top, MatchScene):
             driving = [device for device in top.devices if device]
             assert len(driving) == len(set(driving)), "nobody drives two seats"
-            assert Device("pad", 7) not in driving or top.house.controls.connected(Device("pad", 7))
+            assert Device("pad", 7) not in driving or top.context.controls.connected(Device("pad", 7))
             if chance.random() < 0.01:
                 top.stop()
         if i % 4 == 0:

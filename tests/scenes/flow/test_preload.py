@@ -11,7 +11,7 @@ from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import Options, opened
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
-from pigaming_app.scenes.flow.preload import Backstage
+from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.lobby.match_setup import SetupPage
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
@@ -40,15 +40,15 @@ def prepared(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
 
 
 def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tuple[str, str]]) -> None:
-    backstage, after = Backstage(), list[int]()
-    backstage.then = lambda: after.append(len(prepared))
-    assert backstage.ready("race", "classic"), "without the thread nothing is waited for"
-    backstage.start()
-    backstage.start()
-    until(lambda: not backstage.busy)
+    preloader, after = Preloader(), list[int]()
+    preloader.then = lambda: after.append(len(prepared))
+    assert preloader.ready("race", "classic"), "without the thread nothing is waited for"
+    preloader.start()
+    preloader.start()
+    until(lambda: not preloader.busy)
     assert prepared == arena_jobs.every_arena()
     assert after == [len(prepared)]
-    assert all(backstage.ready(*one) for one in prepared)
+    assert all(preloader.ready(*one) for one in prepared)
 
 
 def test_where_preparing_fails_matches_begin_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -56,10 +56,10 @@ def test_where_preparing_fails_matches_begin_all_the_same(monkeypatch: pytest.Mo
         raise MemoryError("no more")
 
     monkeypatch.setattr(arena_jobs, "every_arena", broken)
-    backstage = Backstage()
-    backstage.start()
-    until(lambda: not backstage.busy)
-    assert backstage.ready("race", "classic")
+    preloader = Preloader()
+    preloader.start()
+    until(lambda: not preloader.busy)
+    assert preloader.ready("race", "classic")
 
 
 def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, home: Path) -> None:
@@ -67,17 +67,17 @@ def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, ho
     seats = Seats("normal")
     seats.join(KEYS[0])
     seats.fill()
-    page = SetupPage(arcade.house, "pitanks", seats)
+    page = SetupPage(arcade.context, "pitanks", seats)
     arcade.open(page)
     arcade.wait(1.0)
 
-    class Busy(Backstage):
+    class Busy(Preloader):
         done = False
 
         def ready(self, game: str, arena: str) -> bool:
             return self.done
 
-    arcade.house.backstage = busy = Busy()
+    arcade.context.preloader = busy = Busy()
     arcade.press(Act.FIRE)
     arcade.press(Act.RIGHT)
     arcade.wait(0.5)
@@ -93,7 +93,7 @@ def test_the_compiler_runs_once_from_the_title_on_and_ends_with_the_arcade(
     home: Path, prepared: list[tuple[str, str]]
 ) -> None:
     with opened(Options(headless=True)) as app:
-        compiler = app.house.compiler
+        compiler = app.context.compiler
         compiler._command = ENDLESS
         app.compose(1 / 60)
         assert compiler.code is None
@@ -115,17 +115,17 @@ def test_the_compiler_runs_once_from_the_title_on_and_ends_with_the_arcade(
 
 @pytest.mark.parametrize("simulated", [True, False], ids=["in simulated time", "with a match on top"])
 def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool) -> None:
-    def first(house: object) -> SetupPage:
+    def first(context: object) -> SetupPage:
         seats = Seats("normal")
         seats.join(KEYS[0])
-        return SetupPage(house, "pitanks", seats)  # type: ignore[arg-type]
+        return SetupPage(context, "pitanks", seats)  # type: ignore[arg-type]
 
     options = Options(headless=True, step=1 / 60) if simulated else Options(headless=True, first=first)
     with opened(options) as app:
         for _ in range(30):
             app.compose(1 / 60)
-        assert not app.house.backstage.busy
-        assert app.house.compiler._process is None
+        assert not app.context.preloader.busy
+        assert app.context.compiler._process is None
 
 
 def test_a_compiler_that_was_ended_before_it_began_never_begins() -> None:

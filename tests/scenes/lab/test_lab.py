@@ -37,7 +37,7 @@ SAFE = pygame.Rect(96, 54, 1728, 972)
 def arcade(controls: Controls, home: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setattr(progress, "MATCHES", {True: 2, False: 2})
     arcade = Arcade(controls)
-    arcade.open(Lab(arcade.house, fast=False))
+    arcade.open(Lab(arcade.context, fast=False))
     arcade.wait(0.5)
     return arcade
 
@@ -59,10 +59,10 @@ def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcade: Arcade) -> None:
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.stack = Stack(Title(arcade.context))
     for _ in range(2):
         title = arcade.shown(Title)
-        title.lab = title.lab or Lab(arcade.house, fast=False)
+        title.lab = title.lab or Lab(arcade.context, fast=False)
         title.focus.go("lab")
         arcade.press(Act.FIRE)
         assert lab(arcade) is title.lab
@@ -79,7 +79,7 @@ def lab_of(arcade: Arcade) -> Lab:
 
 
 def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, home: Path) -> None:
-    fresh = Lab(Arcade(controls).house, fast=False)
+    fresh = Lab(Arcade(controls).context, fast=False)
     assert fresh.workshop.training.experiences == 0
     assert fresh.workshop.moment.knowing == 0.0
     fresh.entered()
@@ -292,7 +292,7 @@ def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
 def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:
     here = lab(arcade)
     here.workshop.recipe = RECIPES[2]
-    arcade.house.idle = scene.IDLE + 1.0
+    arcade.context.idle = scene.IDLE + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
     assert here.workshop.training.experiences == 0
@@ -308,7 +308,7 @@ def test_the_moment_in_which_it_beats_the_hand_made_robot_is_cheered_once(arcade
         lab(arcade)
         arcade.frame()
     assert arcade.sounds.heard.count("win") == 1
-    assert here.sentence == arcade.house.words("lab.outdone")
+    assert here.sentence == arcade.context.words("lab.outdone")
     here.begin()
     arcade.frame()
     assert arcade.sounds.heard.count("win") == 1
@@ -324,7 +324,7 @@ def test_the_line_through_the_dots_moves_part_of_the_way_to_each() -> None:
 def test_words_stay_in_their_places(language: str, controls: Controls, home: Path) -> None:
     words = Words(language)
     arcade = Arcade(controls, language)
-    there = Lab(arcade.house, fast=False)
+    there = Lab(arcade.context, fast=False)
     for row in (there.prompts, there.turning):
         ends = places(row.said, ROOM)
         assert SAFE.left - 16 <= ends[0][0]

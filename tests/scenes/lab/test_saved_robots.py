@@ -20,7 +20,7 @@ from tests.ui.input.virtual_pad import VirtualPad
 @pytest.fixture
 def arcade(controls: Controls, home: Path) -> Arcade:
     arcade = Arcade(controls)
-    arcade.open(Lab(arcade.house, fast=False))
+    arcade.open(Lab(arcade.context, fast=False))
     arcade.wait(0.5)
     return arcade
 
@@ -69,7 +69,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
         arcade.wait(0.1)
     here = lab(arcade)
     assert here.name == "B9"
-    assert here.sentence == arcade.house.words("lab.saved", name="B9")
+    assert here.sentence == arcade.context.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
     kept = robots.fetch("B9", fast=False)
     assert kept.experiences > 0
@@ -134,12 +134,12 @@ def test_a_disk_that_takes_nothing_is_one_sentence_and_the_robot_lives_on(
     def fail(*_: object) -> None:
         raise OSError(number, "no")
 
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     monkeypatch.setattr("pigaming_app.ai.qlearning.table_files.save", fail)
     experiences = lab(arcade).workshop.training.experiences
     save(arcade, "ROBI")
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (True, arcade.house.words(key))
+    assert (here.wrong, here.sentence) == (True, arcade.context.words(key))
     assert here.workshop.training.experiences >= experiences > 0
     assert here.name == ""
 
@@ -148,7 +148,7 @@ def test_a_folder_that_cannot_be_made_is_one_sentence(arcade: Arcade, home: Path
     home.mkdir(exist_ok=True)
     (home / "data").write_text("in the way")
     save(arcade, "ROBI")
-    assert lab(arcade).sentence == arcade.house.words("lab.no_writing")
+    assert lab(arcade).sentence == arcade.context.words("lab.no_writing")
     assert robots.names() == []
 
 
@@ -160,7 +160,7 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     menu(arcade, "open")
     arcade.press(Act.FIRE)
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (True, arcade.house.words("lab.broken"))
+    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.broken"))
     assert here.workshop.training is before
 
 

@@ -23,7 +23,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
     arcade.stack.scenes[1:] = []
-    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.open(Lobby(arcade.context, "pitanks"))
     return arcade
 
 
@@ -101,8 +101,8 @@ def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade)
     arcade.press(Act.ALT)
     arcade.press(Act.RIGHT)
     assert arcade.shown(Lobby).seats.places[0].strength == "hard"
-    assert arcade.house.settings.strength == "hard"
-    assert Lobby(arcade.house, "pitanks").seats.strength == "hard"
+    assert arcade.context.settings.strength == "hard"
+    assert Lobby(arcade.context, "pitanks").seats.strength == "hard"
 
 
 def test_beyond_the_strongest_ai_come_those_that_taught_themselves_and_they_play(arcade: Arcade) -> None:
@@ -112,7 +112,7 @@ def test_beyond_the_strongest_ai_come_those_that_taught_themselves_and_they_play
         arcade.press(Act.UP)
         assert arcade.shown(Lobby).seats.places[1].strength == wanted
         arcade.frame(draw=True)
-    assert arcade.house.settings.strength == "hard"
+    assert arcade.context.settings.strength == "hard"
     arcade.press(Act.START)
     arcade.press(Act.START)
     assert [seat.brain for seat in arcade.shown(SetupPage).seats.seats()] == ["human", "q2", "off", "off"]
@@ -127,7 +127,7 @@ def test_with_teams_left_and_right_choose_ones_own_and_nobody_plays_against_nobo
     assert [place.team for place in seats.places[:2]] == [0, 0]
     arcade.press(Act.START)
     assert arcade.sounds.heard[-1] == "error"
-    assert arcade.shown(Lobby).now.message == arcade.house.words("lobby.teams_need")
+    assert arcade.shown(Lobby).now.message == arcade.context.words("lobby.teams_need")
     arcade.press(Act.RIGHT, KEYS[1])
     arcade.press(Act.START)
     assert [seat.team for seat in arcade.shown(SetupPage).seats.seats()][:2] == [0, 1]
@@ -142,7 +142,7 @@ def test_a_pad_that_is_pulled_out_leaves_its_seat_with_a_word(arcade: Arcade) ->
     pad.unplug()
     arcade.wait(0.1)
     assert kinds(arcade) == "...."
-    assert arcade.shown(Lobby).now.message == arcade.house.words("lobby.unplugged", player=1)
+    assert arcade.shown(Lobby).now.message == arcade.context.words("lobby.unplugged", player=1)
 
 
 def test_four_people_are_enough(arcade: Arcade) -> None:
@@ -170,7 +170,7 @@ def test_a_mouse_alone_can_have_ais_play(arcade: Arcade) -> None:
 
 def test_when_nobody_is_there_the_title_comes_back(arcade: Arcade) -> None:
     arcade.press(Act.FIRE)
-    arcade.house.idle = lobby.IDLE + 1.0
+    arcade.context.idle = lobby.IDLE + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
 
@@ -185,9 +185,9 @@ def test_whoever_comes_back_from_the_choice_of_the_arena_has_to_be_ready_again(a
 
 
 def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(arcade: Arcade) -> None:
-    arcade.house.mat = EmulatedMat(live=False)
-    arcade.house.settings.real = [2]
-    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.context.mat = EmulatedMat(live=False)
+    arcade.context.settings.real = [2]
+    arcade.open(Lobby(arcade.context, "pitanks"))
     arcade.press(Act.FIRE)
     arcade.press(Act.FIRE, KEYS[1])
     page = arcade.shown(Lobby)
@@ -195,7 +195,7 @@ def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(
     arcade.press(Act.UP)
     arcade.press(Act.DOWN, KEYS[1])
     assert page.seats.real() == [0]
-    assert arcade.house.settings.real == [1]
+    assert arcade.context.settings.real == [1]
     arcade.click(card_rect(1).centerx, card_rect(1).top + TEAM_Y)
     assert page.seats.real() == [0, 1]
     arcade.press(Act.EXTRA)
@@ -207,9 +207,9 @@ def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls, home: Path, language: str) -> None:
     arcade = Arcade(controls, language)
-    arcade.house.mat = EmulatedMat(live=False)
-    arcade.house.settings.radio, arcade.house.settings.real = "stock", [1]
-    arcade.open(Lobby(arcade.house, "pitanks"))
+    arcade.context.mat = EmulatedMat(live=False)
+    arcade.context.settings.radio, arcade.context.settings.real = "stock", [1]
+    arcade.open(Lobby(arcade.context, "pitanks"))
     arcade.press(Act.FIRE)
     arcade.press(Act.UP)
     page = arcade.shown(Lobby)
@@ -218,9 +218,9 @@ def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls,
 
 
 def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
-    arcade.house.settings.real = [1, 2, 3, 4]
-    arcade.open(Lobby(arcade.house, "race"))
+    arcade.context.settings.real = [1, 2, 3, 4]
+    arcade.open(Lobby(arcade.context, "race"))
     arcade.press(Act.FIRE)
     arcade.press(Act.UP)
     assert arcade.shown(Lobby).seats.real() == []
-    assert arcade.house.settings.real == [1, 2, 3, 4]
+    assert arcade.context.settings.real == [1, 2, 3, 4]

@@ -29,7 +29,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     seats = Seats()
     seats.join(KEYS[0])
     seats.add()
-    arcade.open(SetupPage(arcade.house, "pitanks", seats))
+    arcade.open(SetupPage(arcade.context, "pitanks", seats))
     return arcade
 
 
@@ -99,8 +99,8 @@ def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
 
 
 def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
-    arcade.house.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
-    fresh = SetupPage(arcade.house, "pitanks", Seats())
+    arcade.context.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
+    fresh = SetupPage(arcade.context, "pitanks", Seats())
     rules = GAMES["pitanks"]
     assert fresh.chosen == Choice("classic", rules.default_minutes, rules.variants[0], 0)
 
@@ -126,7 +126,7 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
     seats = Seats(sides=rules.sides)
     seats.join(KEYS[0])
     seats.fill()
-    arcade.open(SetupPage(arcade.house, game, seats))
+    arcade.open(SetupPage(arcade.context, game, seats))
     arcade.press(Act.DOWN)
     for act, last in ((Act.RIGHT, max(rules.goals)), (Act.LEFT, min(rules.goals))):
         for _ in rules.goals:
@@ -136,8 +136,8 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
     arcade.press(Act.FIRE)
     match = arcade.shown(MatchScene)
     assert match.setup.goal == min(rules.goals)
-    assert arcade.house.settings.choice("pitanks") == Choice()
-    assert arcade.house.settings.choice(game).goal == min(rules.goals)
+    assert arcade.context.settings.choice("pitanks") == Choice()
+    assert arcade.context.settings.choice(game).goal == min(rules.goals)
 
 
 def test_only_what_can_be_chosen_is_a_row() -> None:

@@ -17,7 +17,7 @@ from tests.ui.input.virtual_pad import VirtualPad
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.open(PadTest(arcade.house))
+    arcade.open(PadTest(arcade.context))
     return arcade
 
 
@@ -66,7 +66,7 @@ def test_a_short_b_is_only_shown_and_a_long_one_leaves(arcade: Arcade) -> None:
 def test_escape_and_a_click_on_the_hint_leave(arcade: Arcade) -> None:
     arcade.press(Act.BACK)
     assert arcade.stack.top is arcade.setup
-    arcade.open(PadTest(arcade.house))
+    arcade.open(PadTest(arcade.context))
     arcade.click(960, 980)
     assert arcade.stack.top is arcade.setup
 
@@ -76,4 +76,4 @@ def test_a_keyboard_robot_turns_with_its_keys(arcade: Arcade) -> None:
     pygame.event.post(pygame.Event(pygame.KEYDOWN, scancode=pygame.KSCAN_D, key=0, mod=0))
     arcade.wait(0.5)
     assert arcade.shown(PadTest).headings[0] == pytest.approx(before + padtest.TURN * 0.5, abs=0.15)
-    assert Device("keys", 0) not in arcade.house.controls.pads()
+    assert Device("keys", 0) not in arcade.context.controls.pads()

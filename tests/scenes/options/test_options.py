@@ -26,9 +26,9 @@ TABLE = Table("pitanks", "classic", "points", rules="plain", length=2, people=1)
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.stack.scenes[1:] = []
-    arcade.open(OptionsPage(arcade.house))
+    arcade.open(OptionsPage(arcade.context))
     return arcade
 
 
@@ -47,7 +47,7 @@ def kept(tmp_path: Path) -> dict[str, object]:
 def test_the_language_changes_under_ones_hands(arcade: Arcade, tmp_path: Path) -> None:
     go(arcade, "language")
     arcade.press(Act.RIGHT)
-    assert arcade.house.words("options.title") == "Opções"
+    assert arcade.context.words("options.title") == "Opções"
     assert kept(tmp_path)["language"] == "pt"
     arcade.shown(OptionsPage)
 
@@ -56,7 +56,7 @@ def test_volumes_go_from_0_to_10_and_no_further(arcade: Arcade, tmp_path: Path) 
     go(arcade, "music")
     for _ in range(12):
         arcade.press(Act.LEFT)
-    assert arcade.house.settings.music == 0
+    assert arcade.context.settings.music == 0
     for _ in range(12):
         arcade.press(Act.RIGHT)
     assert kept(tmp_path)["music"] == 10
@@ -64,11 +64,11 @@ def test_volumes_go_from_0_to_10_and_no_further(arcade: Arcade, tmp_path: Path) 
 
 def test_fire_goes_round(arcade: Arcade) -> None:
     go(arcade, "flashes")
-    before = arcade.house.settings.flashes
+    before = arcade.context.settings.flashes
     seen = [before]
     for _ in range(3):
         arcade.press(Act.FIRE)
-        seen.append(arcade.house.settings.flashes)
+        seen.append(arcade.context.settings.flashes)
     assert set(seen) == {"off", "soft", "full"}
     assert seen[-1] == before
 
@@ -77,17 +77,17 @@ def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> N
     page = arcade.shown(OptionsPage)
     music, shake = page.focus.rect("music"), page.focus.rect("shake")
     arcade.click(music.x + dials.AT + 3 * dials.CELL - 10, music.centery)
-    assert arcade.house.settings.music == 3
+    assert arcade.context.settings.music == 3
     arcade.click(music.x + 60, music.centery)
-    assert arcade.house.settings.music == 3
-    off = dials.chips((arcade.house.words("options.off"), arcade.house.words("options.on")))[0]
+    assert arcade.context.settings.music == 3
+    off = dials.chips((arcade.context.words("options.off"), arcade.context.words("options.on")))[0]
     arcade.click(shake.x + off[0] + 10, shake.centery)
-    assert arcade.house.settings.shake is False
+    assert arcade.context.settings.shake is False
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None:
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     page = arcade.shown(OptionsPage)
     for name in page.rows:
         value = page._value(name)
@@ -98,9 +98,9 @@ def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None
 
 @pytest.mark.parametrize("kiosk", [False, True])
 def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcade, tmp_path: Path, kiosk: bool) -> None:
-    arcade.house.kiosk = kiosk
-    arcade.open(OptionsPage(arcade.house, operator=True))
-    arcade.house.scores.add(TABLE, "ANA", 7, datetime(2026, 5, 1, 12))
+    arcade.context.kiosk = kiosk
+    arcade.open(OptionsPage(arcade.context, operator=True))
+    arcade.context.scores.add(TABLE, "ANA", 7, datetime(2026, 5, 1, 12))
     with VirtualPad() as pad:
         arcade.frame()
         go(arcade, "reset")
@@ -111,17 +111,17 @@ def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcad
         arcade.wait(CLEAR - 0.1, draw=True)
         pad.release("a")
         arcade.wait(1.0)
-        assert arcade.house.scores.best(TABLE), "taps, and a hold that is too short"
+        assert arcade.context.scores.best(TABLE), "taps, and a hold that is too short"
         pad.press("a")
         arcade.wait(CLEAR + 0.1)
-    assert not arcade.house.scores.best(TABLE)
+    assert not arcade.context.scores.best(TABLE)
     assert not Scores.load(tmp_path / "data")[0].tables()
 
 
 @pytest.mark.parametrize("kiosk", [False, True])
 def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, kiosk: bool) -> None:
-    arcade.house.kiosk = kiosk
-    arcade.open(OptionsPage(arcade.house, operator=True))
+    arcade.context.kiosk = kiosk
+    arcade.open(OptionsPage(arcade.context, operator=True))
     page = arcade.shown(OptionsPage)
     for name in (*page.rows[1:], page.rows[0]):
         arcade.press(Act.DOWN)
@@ -129,7 +129,7 @@ def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, kiosk: bool)
 
 
 def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -> None:
-    arcade.house.scores.add(TABLE, "ANA", 7)
+    arcade.context.scores.add(TABLE, "ANA", 7)
     with VirtualPad() as pad:
         arcade.frame()
         go(arcade, "reset")
@@ -137,18 +137,18 @@ def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -
         arcade.wait(1.0)
         arcade.press(Act.UP)
         arcade.wait(2.0)
-    assert arcade.house.scores.best(TABLE)
+    assert arcade.context.scores.best(TABLE)
 
 
 def test_a_mouse_holds_its_button_to_clear_high_scores(arcade: Arcade) -> None:
-    arcade.house.scores.add(TABLE, "ANA", 7)
+    arcade.context.scores.add(TABLE, "ANA", 7)
     row = go(arcade, "reset").focus.rect("reset")
     for wait, kept in ((0.2, True), (CLEAR + 0.1, False)):
         for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
             at = (row.x + dials.AT + 20, row.centery)
             pygame.event.post(pygame.Event(kind, button=pygame.BUTTON_LEFT, pos=at))
             arcade.wait(wait)
-        assert bool(arcade.house.scores.best(TABLE)) is kept
+        assert bool(arcade.context.scores.best(TABLE)) is kept
 
 
 def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -158,14 +158,14 @@ def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkey
     monkeypatch.setattr(Settings, "save", full)
     page = go(arcade, "shake")
     arcade.press(Act.FIRE)
-    assert arcade.house.settings.shake is False
-    assert page.navigation.sentence == arcade.house.words("app.unsaved")
+    assert arcade.context.settings.shake is False
+    assert page.navigation.sentence == arcade.context.words("app.unsaved")
     arcade.shown(OptionsPage)
 
 
 def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arcade: Arcade) -> None:
-    arcade.house.kiosk = True
-    children, operator = OptionsPage(arcade.house), OptionsPage(arcade.house, operator=True)
+    arcade.context.kiosk = True
+    children, operator = OptionsPage(arcade.context), OptionsPage(arcade.context, operator=True)
     assert not {"music", "sounds", "display", "fullscreen", "reset", "close"} & set(children.rows)
     assert {"music", "sounds", "display", "fullscreen", "reset", "close", "language"} <= set(operator.rows)
     arcade.open(operator)

@@ -41,7 +41,7 @@ def plug(arcade: Arcade, pads: ExitStack) -> tuple[VirtualPad, Device]:
 def two_pads(arcade: Arcade, pads: ExitStack, minutes: float = 1.0) -> tuple[MatchScene, VirtualPad, VirtualPad]:
     """A match of two pads, running."""
     (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
-    match = MatchScene(arcade.house, setup("human human off off", minutes), [first, second])
+    match = MatchScene(arcade.context, setup("human human off off", minutes), [first, second])
     arcade.open(match)
     arcade.wait(COUNTDOWN + 0.1)
     return match, one, two
@@ -49,7 +49,7 @@ def two_pads(arcade: Arcade, pads: ExitStack, minutes: float = 1.0) -> tuple[Mat
 
 def test_nothing_moves_before_go_and_everything_after(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    match = MatchScene(arcade.house, setup("human hard off off", 1.0), [device, None, None, None])
+    match = MatchScene(arcade.context, setup("human hard off off", 1.0), [device, None, None, None])
     arcade.open(match)
     pad.stick(0.0, -1.0)
     arcade.wait(COUNTDOWN - 0.1, draw=True)
@@ -71,7 +71,7 @@ def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade, pads: Exi
 
 
 def test_time_is_up_then_the_results(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy hard off"), [KEYS[0], None, None, None])
+    match = MatchScene(arcade.context, setup("human easy hard off"), [KEYS[0], None, None, None])
     arcade.open(match)
     arcade.until(lambda: match.match.over)
     assert arcade.sounds.heard.count("tick") == 6
@@ -82,7 +82,7 @@ def test_time_is_up_then_the_results(arcade: Arcade) -> None:
 
 
 def test_a_nap_of_the_machine_is_no_burst_of_ticks(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("easy hard off off", 1.0))
+    match = MatchScene(arcade.context, setup("easy hard off off", 1.0))
     arcade.open(match)
     arcade.wait(COUNTDOWN + 0.2)
     before = match.match.state.tick
@@ -92,7 +92,7 @@ def test_a_nap_of_the_machine_is_no_burst_of_ticks(arcade: Arcade) -> None:
 
 @pytest.mark.parametrize("act", [Act.START, Act.BACK])
 def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: Act) -> None:
-    match = MatchScene(arcade.house, setup("human human off off", 1.0), KEYS)
+    match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS)
     arcade.open(match)
     arcade.wait(COUNTDOWN + 1.0)
     arcade.press(act, KEYS[1])
@@ -115,7 +115,7 @@ def test_turbo_on_a_pad_is_not_a_pause(arcade: Arcade, pads: ExitStack) -> None:
 
 
 def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off off", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human easy off off", 1.0), KEYS[:1])
     arcade.open(match)
     arcade.wait(COUNTDOWN + 1.0)
     arcade.press(Act.START)
@@ -229,7 +229,7 @@ def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: E
 
 
 def test_still_there(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human easy off off", 5.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human easy off off", 5.0), KEYS[:1])
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.match.seconds == pytest.approx(60.0, abs=1.0)
@@ -248,13 +248,13 @@ def test_a_hand_on_the_stick_is_somebody(arcade: Arcade, pads: ExitStack) -> Non
 
 
 def test_ais_among_themselves_are_not_asked(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("easy easy off off", 1.2))
+    match = MatchScene(arcade.context, setup("easy easy off off", 1.2))
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, Results), 80.0)
 
 
 def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcade) -> None:
-    match = MatchScene(arcade.house, setup("human human off off", 1.0), [KEYS[0], None])
+    match = MatchScene(arcade.context, setup("human human off off", 1.0), [KEYS[0], None])
     arcade.open(match)
     assert match.stood_in == [1]
     arcade.press(Act.FIRE, KEYS[0])
@@ -273,7 +273,7 @@ def test_the_numbers_before_a_match_stand_where_they_hide_no_robot() -> None:
 
 @pytest.mark.parametrize(("speed", "records"), [(1.0, 1), (0.5, 0), (2.0, 0)])
 def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, records: int) -> None:
-    scene = MatchScene(arcade.house, setup("human normal off off", 0.05), [KEYS[0]], speed)
+    scene = MatchScene(arcade.context, setup("human normal off off", 0.05), [KEYS[0]], speed)
     arcade.open(scene)
     arcade.until(lambda: scene.match.state.tick > 100)
     scene.match.state.robots[0].score = 9

@@ -26,8 +26,8 @@ def arcade(controls: Controls) -> Arcade:
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
     for game in GAMES:
-        scores_of(arcade.house, game)
-    attract = Attract(arcade.house)
+        scores_of(arcade.context, game)
+    attract = Attract(arcade.context)
     arcade.open(attract)
     assert isinstance(attract.show, Demonstration)
     assert attract.show.stage.match.setup.minutes <= 2.0
@@ -44,7 +44,7 @@ def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) 
 
 @pytest.mark.parametrize("act", [Act.FIRE, Act.START, Act.LEFT, Act.BACK, Act.POINT, Act.CLICK, Act.FOUND])
 def test_any_input_ends_it(arcade: Arcade, act: Act) -> None:
-    arcade.open(Attract(arcade.house))
+    arcade.open(Attract(arcade.context))
     arcade.wait(0.2, draw=True)
     arcade.press(act, Device("mouse") if act in (Act.POINT, Act.CLICK) else Device("keys"))
     assert arcade.stack.top is arcade.title
@@ -60,7 +60,7 @@ def recorded(tmp_path: Path) -> tuple[Path, str]:
 
 
 def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     taken = arcade.until(lambda: scene.ended)
     assert taken == pytest.approx(6.0, abs=0.1)
@@ -69,7 +69,7 @@ def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Pat
 
 
 def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     arcade.wait(1.0, draw=True)
     arcade.press(Act.FIRE)
@@ -95,8 +95,8 @@ def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple
 def test_the_bar_of_a_replay_stands_beside_the_arena(
     arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str, paused: bool
 ) -> None:
-    arcade.house.words.switch(language)
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    arcade.context.words.switch(language)
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arena = pygame.Rect(160, 136, 1600, 908)
     with measuring(monkeypatch) as screen:
         if paused:
@@ -114,7 +114,7 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
 
 
 def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.house, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]
     arcade.press(Act.FIRE)

@@ -30,8 +30,8 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 def opened(arcade: Arcade, at: Table, *filled: Table) -> Best:
     for table in filled:
-        arcade.house.scores.add(table, "ABC", 9_000)
-    best = Best(arcade.house, replace(at, feat="", timed=False))
+        arcade.context.scores.add(table, "ABC", 9_000)
+    best = Best(arcade.context, replace(at, feat="", timed=False))
     arcade.open(best)
     arcade.wait(DEAF + 0.1, draw=True)
     return best
@@ -83,7 +83,7 @@ def test_every_table_with_rows_can_be_reached(arcade: Arcade) -> None:
             seen.add(best.contest)
             arcade.press(Act.RIGHT)
         arcade.press(Act.DOWN)
-    assert seen == set(contests(arcade.house.scores))
+    assert seen == set(contests(arcade.context.scores))
 
 
 def test_a_click_on_an_arrow_goes_its_way_and_a_click_elsewhere_leads_on(arcade: Arcade) -> None:

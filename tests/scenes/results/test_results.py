@@ -50,11 +50,11 @@ def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, t
     match = setup(brains, 1.0, teams)
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
     results = Results(
-        arcade.house,
+        arcade.context,
         ended,
         match,
         devices,
-        MatchScene(arcade.house, match, devices).again,
+        MatchScene(arcade.context, match, devices).again,
         finished,
         game_choice=game_choice,
     )
@@ -231,7 +231,7 @@ def test_rude_words_and_their_look_alikes_are_refused(arcade: Arcade) -> None:
 
 def test_only_the_top_eight_of_today_or_ever_are_asked_the_match_itself_included(arcade: Arcade) -> None:
     for score in (20, 19, 18, 17, 16, 15, 14):
-        arcade.house.scores.add(replace(ALONE, people=3), "ABC", score)
+        arcade.context.scores.add(replace(ALONE, people=3), "ABC", score)
     opened(arcade, "human human human off", outcome({0: 4, 1: 9, 2: 3}, (1,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     assert [(claim.seat, claim.places) for claim in arcade.shown(Initials).claims] == [
@@ -242,7 +242,7 @@ def test_only_the_top_eight_of_today_or_ever_are_asked_the_match_itself_included
 def test_eight_better_ones_long_ago_leave_todays_table(arcade: Arcade) -> None:
     long_ago = datetime(2020, 5, 1, 12)
     for _ in range(9):
-        arcade.house.scores.add(replace(ALONE, people=2), "ABC", 20, long_ago)
+        arcade.context.scores.add(replace(ALONE, people=2), "ABC", 20, long_ago)
     opened(arcade, "human off off human", outcome({0: 4, 3: 5}, (3,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     assert [claim.places for claim in arcade.shown(Initials).claims] == [
@@ -254,8 +254,8 @@ def test_eight_better_ones_long_ago_leave_todays_table(arcade: Arcade) -> None:
 def test_a_seat_for_which_an_ai_drove_claims_nothing(arcade: Arcade) -> None:
     match = setup("human human off off", 1.0)
     ended = outcome({0: 4, 1: 9}, (1,))
-    again = MatchScene(arcade.house, match, KEYS[:2]).again
-    results = Results(arcade.house, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1}, game_choice)
+    again = MatchScene(arcade.context, match, KEYS[:2]).again
+    results = Results(arcade.context, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1}, game_choice)
     assert [claim.seat for claim in results.claims] == [0]
 
 
@@ -272,7 +272,7 @@ def test_nobody_chooses_and_nothing_is_written(arcade: Arcade) -> None:
     results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.until(lambda: arcade.stack.top is results)
-    assert not arcade.house.scores.tables()
+    assert not arcade.context.scores.tables()
 
 
 def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
@@ -283,7 +283,7 @@ def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
 
 def test_a_low_score_is_no_record(arcade: Arcade) -> None:
     for _ in range(10):
-        arcade.house.scores.add(ALONE, "ABC", 20)
+        arcade.context.scores.add(ALONE, "ABC", 20)
     results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
     arcade.wait(5.0)
     assert arcade.stack.top is results
@@ -327,11 +327,11 @@ def race(arcade: Arcade, lap: int, whole: int) -> Results:
     ended = Outcome(tuple(rows), (0,), (((0.0, 0), (30.0, 3)), ((0.0, 0), (30.0, 2)), ((0.0, 0),), ((0.0, 0),)), 60.0)
     devices = [KEYS[0], None, None, None]
     results = Results(
-        arcade.house,
+        arcade.context,
         ended,
         match,
         devices,
-        MatchScene(arcade.house, match, devices).again,
+        MatchScene(arcade.context, match, devices).again,
         True,
         game_choice=game_choice,
     )
@@ -360,7 +360,7 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
 
 def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> None:
     for _ in range(10):
-        arcade.house.scores.add(RACE, "ABC", 20_000)
+        arcade.context.scores.add(RACE, "ABC", 20_000)
     race(arcade, 9_870, 30_120)
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     [claim] = arcade.shown(Initials).claims

@@ -26,7 +26,7 @@ def _as_it_was(mat: EmulatedMat) -> Iterator[None]:
 
 
 def gathering(arcade: Arcade) -> tuple[RealMatch, Gathering]:
-    match = match_of(arcade.house, match_for("pitanks", "easy easy easy easy", 0.1), [], ALL)
+    match = match_of(arcade.context, match_for("pitanks", "easy easy easy easy", 0.1), [], ALL)
     assert isinstance(match, RealMatch)
     assert match.gathering is not None
     arcade.open(match)

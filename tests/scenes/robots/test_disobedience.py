@@ -31,7 +31,7 @@ def named(arcade: Arcade) -> list[tuple[str, int | None]]:
 
 def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
     """A match whose robots have yet to take their places."""
-    match = match_of(arcade.house, match_for("pitanks", "normal easy easy easy", 1.0), [], real)
+    match = match_of(arcade.context, match_for("pitanks", "normal easy easy easy", 1.0), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
     return match
@@ -78,7 +78,7 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(arcad
     arcade.press(Act.FIRE)
     arcade.shown(PairAgain)
     until(arcade, RealMatch, 25.0)
-    assert arcade.house.settings.radios[:2] == [2, 1]
+    assert arcade.context.settings.radios[:2] == [2, 1]
     assert match.gathering is not None
 
 

@@ -29,8 +29,8 @@ def mat() -> Iterator[EmulatedMat]:
 @pytest.fixture
 def arcade(controls: Controls, home: Path, mat: EmulatedMat) -> Iterator[Arcade]:
     arcade = Arcade(controls)
-    arcade.house.mat = mat
-    arcade.open(RobotsPage(arcade.house))
+    arcade.context.mat = mat
+    arcade.open(RobotsPage(arcade.context))
     arcade.wait(2.0, fps=50)
     yield arcade
     mat.close()
@@ -46,8 +46,8 @@ def idle(arcade: Arcade, page: RobotsPage) -> None:
 
 
 def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedMat) -> None:
-    arcade.house.settings.radio = "stock"
-    page = RobotsPage(arcade.house)
+    arcade.context.settings.radio = "stock"
+    page = RobotsPage(arcade.context)
     arcade.open(page)
     arcade.press(Act.UP)
     assert page.focus.name == "radio"
@@ -99,7 +99,7 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedM
         assert page.check.busy
         idle(arcade, page)
         assert rig.channels[:2] == (1, 0)
-        assert arcade.house.settings.radios == [2, 1, 3, 4]
+        assert arcade.context.settings.radios == [2, 1, 3, 4]
         assert "From now on" in page.navigation.sentence
         assert Settings.load(folders().config)[0].radios == [2, 1, 3, 4]
     finally:
@@ -138,10 +138,10 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         projection = "1"
 
     arcade = Arcade(controls, "pt")
-    settings = arcade.house.settings
+    settings = arcade.context.settings
     settings.port = "/dev/nowhere"
-    arcade.house.mat = mat = RealMat(settings, cast(Canvas, Window()))
-    arcade.open(RobotsPage(arcade.house))
+    arcade.context.mat = mat = RealMat(settings, cast(Canvas, Window()))
+    arcade.open(RobotsPage(arcade.context))
     try:
         page = arcade.shown(RobotsPage)
         assert "calibra" in page._state()
@@ -157,4 +157,4 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         arcade.wait(1.5, draw=True)
     finally:
         arcade.press(Act.BACK)
-    assert arcade.house.mat.trouble is None
+    assert arcade.context.mat.trouble is None

@@ -25,8 +25,8 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     monkeypatch.setattr("pigaming_app.hardware.calibration.site.cameras", lambda: [])
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    arcade.open(OptionsPage(arcade.house))
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.open(OptionsPage(arcade.context))
     go(arcade, OptionsPage, "robots")
     arcade.press(Act.FIRE)
     return arcade
@@ -51,7 +51,7 @@ def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, ki
 
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, tmp_path: Path, language: str) -> None:
-    arcade.house.words.switch(language)
+    arcade.context.words.switch(language)
     go(arcade, RobotsMenu, "sheet")
     arcade.press(Act.FIRE)
     written = tmp_path / "data" / SHEET
@@ -65,17 +65,17 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     (tmp_path / "data" / SHEET).mkdir(parents=True)
     go(arcade, RobotsMenu, "sheet")
     arcade.press(Act.FIRE)
-    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.house.words("app.unsaved")
+    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("app.unsaved")
 
     def none() -> bytes:
         raise NoVision(Said("OpenCV is not installed.", "no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
     arcade.press(Act.FIRE)
-    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.house.words("vision.no_opencv")
+    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("vision.no_opencv")
 
 
 def test_children_in_a_kiosk_do_not_find_it(arcade: Arcade) -> None:
-    arcade.house.kiosk = True
-    assert "robots" not in OptionsPage(arcade.house).rows
-    assert "robots" in OptionsPage(arcade.house, operator=True).rows
+    arcade.context.kiosk = True
+    assert "robots" not in OptionsPage(arcade.context).rows
+    assert "robots" in OptionsPage(arcade.context, operator=True).rows

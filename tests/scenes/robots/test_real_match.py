@@ -51,7 +51,7 @@ def mat(kept: EmulatedMat) -> Iterator[EmulatedMat]:
 @pytest.fixture
 def arcade(controls: Controls, mat: EmulatedMat) -> Arcade:
     arcade = Arcade(controls)
-    arcade.house.mat = mat
+    arcade.context.mat = mat
     return arcade
 
 
@@ -67,7 +67,7 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
     for _ in range(round(seconds * FPS)):
         arcade.frame(1 / FPS, draw=lit)
         if lit:
-            mat = arcade.house.mat
+            mat = arcade.context.mat
             assert isinstance(mat, EmulatedMat)
             mat.see(arcade.screen)
 
@@ -83,7 +83,7 @@ def until(arcade: Arcade, kind: type, most: float = 8.0) -> float:
 
 def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealMatch:
     """A match of PiTanks whose robots may begin as they stand, running."""
-    match = match_of(arcade.house, match_for("pitanks", "normal easy off off", minutes), [], real)
+    match = match_of(arcade.context, match_for("pitanks", "normal easy off off", minutes), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
@@ -94,7 +94,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
 
 
 def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedMat) -> None:
-    match = match_of(arcade.house, match_for("pitanks", "easy easy off off", 0.05), [], (0, 1))
+    match = match_of(arcade.context, match_for("pitanks", "easy easy off off", 0.05), [], (0, 1))
     assert isinstance(match, RealMatch)
     starts = [(robot.x, robot.y) for robot in match.match.state.robots[:2]]
     arcade.open(match)
@@ -117,7 +117,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
 
 @pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
 def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: str) -> None:
-    match = match_of(arcade.house, match_for(game, "normal easy normal easy", 0.05), [], (0, 2))
+    match = match_of(arcade.context, match_for(game, "normal easy normal easy", 0.05), [], (0, 2))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
@@ -282,7 +282,7 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> No
 def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedMat) -> None:
     mat.arena.faults.switch("marker_covered", True, 1)
     mat.arena.faults.switch("robot_off", True, 2)
-    match = match_of(arcade.house, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
+    match = match_of(arcade.context, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 2.5, lit=True)
@@ -313,12 +313,12 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedMat
     """Nor is one begun again, where the radio was changed meanwhile."""
     if again:
         match = begun(arcade)
-        arcade.house.settings.radio = "stock"
+        arcade.context.settings.radio = "stock"
         match.restart()
         play(arcade, 0.1)
     else:
-        arcade.house.settings.radio = "stock"
-        arcade.open(match_of(arcade.house, match_for("race", "normal easy off off", 0.1), [], (0,)))
+        arcade.context.settings.radio = "stock"
+        arcade.open(match_of(arcade.context, match_for("race", "normal easy off off", 0.1), [], (0,)))
     page = arcade.shown(Refused)
     assert "no deadman" in page.sentence
     arcade.frame(draw=True)
@@ -336,7 +336,7 @@ def test_what_cannot_be_used_is_said_and_simulated_robots_play(
         raise NoMat("There is no camera 3: plug one in.")
 
     monkeypatch.setattr(mat, "open", missing)
-    page = match_of(arcade.house, match_for("pitanks", "normal easy off off", 0.1), [], (0,))
+    page = match_of(arcade.context, match_for("pitanks", "normal easy off off", 0.1), [], (0,))
     assert isinstance(page, Refused)
     arcade.open(page)
     assert arcade.shown(Refused).sentence == "There is no camera 3: plug one in."

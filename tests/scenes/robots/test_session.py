@@ -15,7 +15,7 @@ from pigaming_app.hardware.calibration.ground_plane import nominal, written
 from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.hardware.session.real import NoMat, RealMat
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Turn
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
@@ -137,9 +137,9 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
 ) -> None:
     calibrate(HERE)
     arcade = Arcade(controls, "pt")
-    arcade.house.mat = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
+    arcade.context.mat = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
-    match = match_of(arcade.house, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
+    match = match_of(arcade.context, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
     assert isinstance(match, RealMatch)
     arcade.open(match)
 
@@ -173,19 +173,24 @@ class Failing(RealMatch):
 
 @pytest.mark.parametrize("alone", [True, False])
 def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, alone: bool) -> None:
-    houses: list[House] = []
+    contexts: list[Context] = []
 
-    def first(house: House) -> RealMatch:
-        houses.append(house)
-        assert isinstance(house.mat, EmulatedMat)
+    def first(context: Context) -> RealMatch:
+        contexts.append(context)
+        assert isinstance(context.mat, EmulatedMat)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
         return Failing(
-            house, Setup("pitanks", "classic", seats, 0.1, 3, "plain"), [], (0, 1), house.mat, partial(match_of, house)
+            context,
+            Setup("pitanks", "classic", seats, 0.1, 3, "plain"),
+            [],
+            (0, 1),
+            context.mat,
+            partial(match_of, context),
         )
 
     code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
     assert code == int(alone)
-    mat = houses[0].mat
+    mat = contexts[0].mat
     assert isinstance(mat, EmulatedMat)
     mat.arena.advance(0.1)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)

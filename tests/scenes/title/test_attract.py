@@ -7,7 +7,7 @@ import pytest
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
 from pigaming_app.scenes.app import Options, run
-from pigaming_app.scenes.flow.context import House
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.results.high_score_tables import boards
@@ -27,7 +27,7 @@ FASTEST = 0.08  # s of a frame in which a match still runs at full speed
 @pytest.mark.parametrize("game", LESSONS)
 def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls, game: str, language: str) -> None:
     arcade = Arcade(controls, language)
-    lesson = HowTo(arcade.house, game)
+    lesson = HowTo(arcade.context, game)
     frames = set()
     for _ in range(round(LONGEST / PHASES)):
         lesson.update(PHASES)
@@ -47,10 +47,10 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
         follow(attract)
         shown.append(named(attract.show))
 
-    def first(house: House) -> Attract:
+    def first(context: Context) -> Attract:
         for game in GAMES:
-            scores_of(house, game)
-        return Attract(house)
+            scores_of(context, game)
+        return Attract(context)
 
     monkeypatch.setattr(Attract, "_next", noted)
     chosen = {"language": language}
@@ -75,9 +75,9 @@ def named(show: object) -> tuple[str, str]:
     return "Demonstration", show.stage.match.setup.game
 
 
-def scores_of(house: House, game: str) -> None:
+def scores_of(context: Context, game: str) -> None:
     """Somebody has scored in a game's first arena."""
     rules = GAMES[game]
     contest = Table(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
     for board in boards(contest):
-        house.scores.add(board.table, "ABC", 9)
+        context.scores.add(board.table, "ABC", 9)

@@ -25,8 +25,8 @@ from tests.ui.input.virtual_pad import VirtualPad
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.house.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.stack = Stack(Title(arcade.context))
     return arcade
 
 
@@ -51,42 +51,42 @@ def test_the_row_below_leads_to_how_to_play_options_and_out(arcade: Arcade) -> N
 
 
 def test_in_a_kiosk_nobody_can_quit(arcade: Arcade) -> None:
-    arcade.house.kiosk = True
-    arcade.stack = Stack(Title(arcade.house))
+    arcade.context.kiosk = True
+    arcade.stack = Stack(Title(arcade.context))
     assert "quit" not in [spot.name for spot in title(arcade).focus.spots]
 
 
 def test_one_press_changes_the_language(arcade: Arcade) -> None:
     arcade.press(Act.ALT)
-    assert (arcade.house.words.language, arcade.house.settings.language) == ("pt", "pt")
+    assert (arcade.context.words.language, arcade.context.settings.language) == ("pt", "pt")
     arcade.click(*title(arcade).focus.rect("en").center)
-    assert arcade.house.words.language == "en"
+    assert arcade.context.words.language == "en"
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
 def test_nothing_on_the_title_lies_on_something_else(arcade: Arcade, language: str) -> None:
-    arcade.house.words.switch(language)
-    spots = Title(arcade.house).focus.spots
+    arcade.context.words.switch(language)
+    spots = Title(arcade.context).focus.spots
     safe = pygame.Rect(96, 54, 1728, 972)
     assert all(safe.contains(spot.rect) for spot in spots)
     assert not [(a.name, b.name) for a, b in combinations(spots, 2) if a.rect.colliderect(b.rect)]
 
 
 def test_when_nobody_is_there_a_match_begins_and_any_press_ends_it(arcade: Arcade) -> None:
-    arcade.house.settings.attract_seconds = 10.0
-    arcade.house.idle = 9.9
+    arcade.context.settings.attract_seconds = 10.0
+    arcade.context.idle = 9.9
     arcade.frame()
     title(arcade)
-    arcade.house.idle = 10.1
+    arcade.context.idle = 10.1
     arcade.frame()
     assert isinstance(arcade.stack.top, Attract)
     arcade.press(Act.DOWN)
     title(arcade)
-    assert arcade.house.idle == 0.0
+    assert arcade.context.idle == 0.0
 
 
 def test_an_operator_holds_ahead_and_turbo_for_long_and_a_child_does_not(arcade: Arcade) -> None:
-    arcade.house.kiosk = True
+    arcade.context.kiosk = True
     with VirtualPad() as pad:
         arcade.wait(0.1)
         pad.stick(0.0, -1.0)

@@ -210,7 +210,7 @@ def app(home: object, watch: Watch) -> Iterator[App]:
 
 def test_the_last_picture_stays_until_the_next_one_is_whole(app: App, watch: Watch) -> None:
     shown: list[tuple[int, ...]] = []
-    app.house.canvas.watchers.append(lambda window: shown.append(tuple(window.get_at((600, 600)))[:3]))
+    app.context.canvas.watchers.append(lambda window: shown.append(tuple(window.get_at((600, 600)))[:3]))
     page = Slow(watch)
     app.stack.turn(Push(page))
     frames = 0
