@@ -36,7 +36,7 @@ from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act
 from pigaming_app.ui.sounds import Sounds
-from pigaming_app.ui.widgets.notices import Gauge, Notices
+from pigaming_app.ui.widgets.notices import FrameMeter, Notices
 from pigaming_app.ui.window import Canvas, NoPin
 
 FRAMES = 60  # a second
@@ -117,7 +117,7 @@ class App:
 
     def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
         self.options, self.context = options, context
-        self.notices, self.gauge = Notices(), Gauge()
+        self.notices, self.gauge = Notices(), FrameMeter()
         mat = context.mat
         self.window = CameraWindow(mat) if isinstance(mat, EmulatedMat) and mat.live else None
         for line in troubles:

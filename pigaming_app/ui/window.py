@@ -33,7 +33,7 @@ class NoPin(Exception):
     """The picture cannot be drawn into these corners; the text is one plain sentence."""
 
 
-class Wishes(Protocol):
+class WindowSettings(Protocol):
     """What the settings say about the window."""
 
     display: int
@@ -61,7 +61,11 @@ class Canvas:
 
     @classmethod
     def open(
-        cls, settings: Wishes, display: int | None = None, fullscreen: bool | None = None, headless: bool = False
+        cls,
+        settings: WindowSettings,
+        display: int | None = None,
+        fullscreen: bool | None = None,
+        headless: bool = False,
     ) -> "Canvas":
         """Open the window as the settings or the arguments (which win) say. Raises NoDisplay.
 

@@ -15,8 +15,8 @@ import pygame
 import pytest
 
 from pigaming_app.ui.draw.frame_budget import Steps
-from pigaming_app.ui.draw.glow import Ink, Page
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw.glow import GlowCanvas, LayeredCanvas
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.draw.theme import CAPITALS, font
 
@@ -82,7 +82,7 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
     """Everything that is lit from now on is measured; what was lit before is forgotten first."""
     forget()
     measured = Measured()
-    text, line, draw = Ink.text, Ink.line, Lit.draw
+    text, line, draw = GlowCanvas.text, GlowCanvas.line, LitImage.draw
 
     def noted_text(ink: Any, said: str, size: int, x: float, y: float, *rest: Any, **named: Any) -> Any:
         face = named.get("face", rest[1] if len(rest) > 1 else "head")
@@ -111,17 +111,21 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 
         return made
 
-    def drawn(lit: Lit, surface: pygame.Surface, dx: float = 0.0, dy: float = 0.0, *rest: Any, **named: Any) -> None:
+    def drawn(
+        lit: LitImage, surface: pygame.Surface, dx: float = 0.0, dy: float = 0.0, *rest: Any, **named: Any
+    ) -> None:
         draw(lit, surface, dx, dy, *rest, **named)
         if not isinstance(surface, Screen):
             measured.note(surface, [mark.moved(lit.at[0] + dx, lit.at[1] + dy) for mark in measured.on(lit.image)])
 
-    patch.setattr(Ink, "text", noted_text)
-    patch.setattr(Ink, "line", noted_line)
-    patch.setattr(Ink, "shrinking", noted(Ink.shrinking, lambda ink: [ink]))
-    patch.setattr(Ink, "spriting", noted(Ink.spriting, lambda ink: [ink]))
-    patch.setattr(Page, "lighting", noted(Page.lighting, lambda page: [page.warm, page.cold, page.hot]))
-    patch.setattr(Lit, "draw", drawn)
+    patch.setattr(GlowCanvas, "text", noted_text)
+    patch.setattr(GlowCanvas, "line", noted_line)
+    patch.setattr(GlowCanvas, "shrinking", noted(GlowCanvas.shrinking, lambda ink: [ink]))
+    patch.setattr(GlowCanvas, "spriting", noted(GlowCanvas.spriting, lambda ink: [ink]))
+    patch.setattr(
+        LayeredCanvas, "lighting", noted(LayeredCanvas.lighting, lambda page: [page.soft, page.crisp, page.glow])
+    )
+    patch.setattr(LitImage, "draw", drawn)
     yield Screen(measured)
     forget()
 

@@ -37,11 +37,11 @@ def test_texts_keep_off_each_other_and_off_frames(
             screen.marks.clear()
             scene.draw(screen)
             assert len(screen.texts) > 5, "it is measured"
-            assert meant(name, faults(screen)) == []
+            assert relevant(name, faults(screen)) == []
             scene.on(Press(Act.DOWN, KEYS[0]))
 
 
-def meant(name: str, found: list[str]) -> list[str]:
+def relevant(name: str, found: list[str]) -> list[str]:
     """Without the numbers of the lessons, which lie in discs on the frames."""
     numbers = {f"'{number}' crosses its frame" for number in range(1, 5)} if name.startswith("how to") else set()
     return [fault for fault in found if fault not in numbers]

@@ -28,7 +28,7 @@ from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets import labels as page
 from pigaming_app.ui.widgets import player_card
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.button_prompts import Prompts, places
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts, places
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
@@ -108,7 +108,7 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
         shrunk[text] = min(shrunk.get(text, 1.0), fits / size)
         return fits
 
-    true_size = texts.fitted
+    true_size = texts.fit_size
     for module in (card, choice, dials, gadgets, game_tile, howto, page, player_card, texts):
         monkeypatch.setattr(module, "fitted", measured)
     surfaces.clear()
@@ -147,7 +147,7 @@ def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: s
             assert ends[-1][1] <= 1848, prompts.said
 
 
-def hints(scene: Scene, device: Device) -> Iterator[Prompts]:
+def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
     """The rows of hints that a page can show."""
     if isinstance(scene, Lobby):
         yield scene.page.prompts

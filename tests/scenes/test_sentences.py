@@ -17,7 +17,7 @@ from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.widgets.labels import LEVELS
-from pigaming_app.ui.widgets.player_card import asked
+from pigaming_app.ui.widgets.player_card import ask_bar
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import measuring
 from tests.scenes.screens import seats
@@ -143,7 +143,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
 def test_the_button_follows_the_question(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:
     arcade = Arcade(controls)
     with measuring(monkeypatch) as screen:
-        asked("SPACE", arcade.context.words("lobby.if_ready"), LEVELS).draw(screen, 200, 200)
+        ask_bar("SPACE", arcade.context.words("lobby.if_ready"), LEVELS).draw(screen, 200, 200)
         ready, space = sorted(screen.texts, key=lambda mark: mark.box[0])
     assert (ready.text, space.text) == ("Ready?", "SPACE")
 

@@ -15,7 +15,7 @@ from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.view import Pose
 from pigaming_app.sim.sweep import meets_wall
-from pigaming_app.ui.draw import ALARM, FOCUS, LINE, THIN, Color, Ink, Points, dim
+from pigaming_app.ui.draw import ALARM, FOCUS, LINE, THIN, Color, GlowCanvas, Points, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, master, painted, put, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -151,20 +151,20 @@ def _lamp(color: Color) -> pygame.Surface:
 @cached
 def dot(color: Color, r: float) -> Sprite:
     """One dot of a line."""
-    return trim(Ink(48, 48, 3).disc(24, 24, r, color).lit(0.8), 24, 24)
+    return trim(GlowCanvas(48, 48, 3).disc(24, 24, r, color).lit(0.8), 24, 24)
 
 
 @cached
 def goal(color: Color) -> Sprite:
     """Where it is going."""
-    ink = Ink(120, 120, 3).ring(60, 60, GOAL_R, color, LINE).ring(60, 60, 11, color, LINE)
+    ink = GlowCanvas(120, 120, 3).ring(60, 60, GOAL_R, color, LINE).ring(60, 60, 11, color, LINE)
     return trim(ink.lit(0.7), 60, 60)
 
 
 @cached
 def cross(color: Color) -> Sprite:
     """Where its sight ends."""
-    ink = Ink(80, 80, 3).to(40, 40)
+    ink = GlowCanvas(80, 80, 3).to(40, 40)
     for side in (-1, 1):
         ink.line([(-13, -13 * side), (13, 13 * side)], color, THIN + 3)
     return trim(ink.lit(0.7), 40, 40)

@@ -22,9 +22,9 @@ from pigaming_app.ui.draw import (
     THIN,
     WHITE,
     Color,
-    Ink,
+    GlowCanvas,
     badge,
-    cut,
+    cut_box,
     dim,
     icon,
     mix,
@@ -32,7 +32,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, word
+from pigaming_app.ui.draw.text import fit_size, word
 
 Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin round their sprites
 TEXT = 104  # px from the left edge of a box to its texts
@@ -110,7 +110,7 @@ def lines(screen: pygame.Surface, x: float, room: float, title: str, text: str) 
     """A title and a smaller line below it, from x on."""
     for said, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
         if said:
-            size = fitted(said, size, room, face)
+            size = fit_size(said, size, room, face)
             lit = word(said, size, color, face, 0.35 if face == "head" else 0.0)
             lit.draw(screen, x + text_width(said, size, face) / 2, Y + y)
 
@@ -138,8 +138,8 @@ def put_on(screen: pygame.Surface, image: pygame.Surface, x: float, y: float) ->
 @cached
 def box(seat: int, w: int, named: bool) -> pygame.Surface:
     """The outline of a box; `named`: with the badge of its robot and the sign of an AI."""
-    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
-    ink.line(cut(0, 0, w, H), color, THIN, True)
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink.line(cut_box(0, 0, w, H), color, THIN, True)
     if named:
         badge(ink, seat, 52, 36, 24)
         icon(ink, "ai", 52, 82, 20, mix(color, WHITE, 0.5), 3)
@@ -149,8 +149,8 @@ def box(seat: int, w: int, named: bool) -> pygame.Surface:
 @cached
 def bar(seat: int, chosen: bool, full: bool) -> Sprite:
     """A wish, from the middle of its top: its light, or the empty frame."""
-    ink = Ink(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).to(EDGE + BAR_W / 2, EDGE)
-    outline = cut(-BAR_W / 2, 0, BAR_W, BAR_H, 6)
+    ink = GlowCanvas(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).to(EDGE + BAR_W / 2, EDGE)
+    outline = cut_box(-BAR_W / 2, 0, BAR_W, BAR_H, 6)
     color = WHITE if chosen else dim(PLAYERS[seat], 0.75)
     if full:
         ink.fill(outline, color)
@@ -162,7 +162,7 @@ def bar(seat: int, chosen: bool, full: bool) -> Sprite:
 @cached
 def sign(name: str, color: Color) -> Sprite:
     """What a wish is for: an icon, or a crate's state."""
-    ink = Ink(96, 96, 3).to(48, 48)
+    ink = GlowCanvas(96, 96, 3).to(48, 48)
     if name in CRATES:
         state_icon(ink, CRATES[name], 0, 0, 17, color)
     else:
@@ -174,8 +174,8 @@ def sign(name: str, color: Color) -> Sprite:
 def cell(fill: Color, held: bool) -> Sprite:
     """One position of a stick."""
     half = CELL / 2 - 2
-    ink = Ink(64, 64, 3).to(32, 32)
-    ink.fill(cut(-half, -half, 2 * half, 2 * half, 5), fill)
+    ink = GlowCanvas(64, 64, 3).to(32, 32)
+    ink.fill(cut_box(-half, -half, 2 * half, 2 * half, 5), fill)
     if held:
-        ink.line(cut(-half - 1, -half - 1, 2 * half + 2, 2 * half + 2, 5), WHITE, THIN, True)
+        ink.line(cut_box(-half - 1, -half - 1, 2 * half + 2, 2 * half + 2, 5), WHITE, THIN, True)
     return trim(ink.lit(0.4), 32, 32)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ui.draw import ADD, ICE, MIST, THIN, Color, Ink, Points, dim, icon
+from pigaming_app.ui.draw import ADD, ICE, MIST, THIN, Color, GlowCanvas, Points, dim, icon
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -58,7 +58,7 @@ def petal(k: int, level: int, inner: int, outer: int) -> Sprite:
     room = _slice(k, inner, outer)
     left, top = min(x for x, _ in room) - GLOW, min(y for _, y in room) - GLOW
     w, h = max(x for x, _ in room) + GLOW - left, max(y for _, y in room) + GLOW - top
-    ink = Ink(math.ceil(w), math.ceil(h)).to(-left, -top)
+    ink = GlowCanvas(math.ceil(w), math.ceil(h)).to(-left, -top)
     ink.line(room, EMPTY, 2, True)
     if level:
         reach = inner + (outer - inner) * (SHORTEST + (1 - SHORTEST) * abs(level) / LEVELS)
@@ -70,7 +70,7 @@ def petal(k: int, level: int, inner: int, outer: int) -> Sprite:
 @cached
 def sign(name: str, r: int = SIGN) -> Sprite:
     """The sign of an action, `r` px to each side."""
-    ink = Ink(2 * r + 32, 2 * r + 32, 3)
+    ink = GlowCanvas(2 * r + 32, 2 * r + 32, 3)
     icon(ink, name, r + 16, r + 16, r, ICE if name == "shoot" else MIST, 0.26 * r if name == "shoot" else 0.32 * r)
     return trim(ink.lit(0.3), r + 16, r + 16)
 

@@ -28,17 +28,17 @@ from pigaming_app.ui.draw import (
     STEEL,
     SUB,
     THIN,
-    Ink,
-    cut,
+    GlowCanvas,
+    cut_box,
     dim,
     panel,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import WAYS
 from pigaming_app.ui.window import NoPin
 
@@ -84,7 +84,7 @@ class PinPage:
 
     def on(self, press: Press) -> Turn:
         """Directions move the corner; FIRE takes the next one."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         match press.act:
             case Act.BACK:
                 self.context.sounds.play("back")
@@ -129,7 +129,7 @@ class PinPage:
         )
         text(words("pin.step", step=STEPS[self.step]), LABEL, MIST, "head").draw(screen, x, y + 340)
         if self.said > 0.0:
-            plate(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
+            caption(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
         self.prompts.draw(screen)
 
     # ---- inside
@@ -192,37 +192,37 @@ def signed(number: int) -> str:
 
 
 @cached
-@sliced
+@resumable
 def grid() -> Steps[pygame.Surface]:
     """A grid over the whole picture, the edge of the arena, and a black box in the middle."""
-    pane = Pane(0, 0, 1920, 1080)
+    layer = Layer(0, 0, 1920, 1080)
     for x in range(0, 1921, CELL):
-        pane.page.cold.line([(x, 0), (x, 1080)], dim(ICE, 0.35), HAIR)
+        layer.canvas.crisp.line([(x, 0), (x, 1080)], dim(ICE, 0.35), HAIR)
     yield
     for y in range(0, 1081, CELL):
-        pane.page.cold.line([(0, y), (1920, y)], dim(ICE, 0.35), HAIR)
-    pane.page.cold.line(cut(3, 3, 1914, 1074, 0), ICE, LINE, True)
-    pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), STEEL, THIN, True)
+        layer.canvas.crisp.line([(0, y), (1920, y)], dim(ICE, 0.35), HAIR)
+    layer.canvas.crisp.line(cut_box(3, 3, 1914, 1074, 0), ICE, LINE, True)
+    layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), STEEL, THIN, True)
     yield
-    light = yield from pane.lighting()
+    light = yield from layer.lighting()
     surface = pygame.Surface((1920, 1080))
     light.draw(surface)
     yield
-    pygame.draw.polygon(surface, (0, 0, 0), cut(BOX.x, BOX.y, BOX.w, BOX.h, 28))
-    frame = Pane(*BOX)
-    panel(frame.hot, BOX.x, BOX.y, BOX.w, BOX.h, STEEL, LINE, 28)
+    pygame.draw.polygon(surface, (0, 0, 0), cut_box(BOX.x, BOX.y, BOX.w, BOX.h, 28))
+    frame = Layer(*BOX)
+    panel(frame.glow, BOX.x, BOX.y, BOX.w, BOX.h, STEEL, LINE, 28)
     light = yield from frame.lighting()
     light.draw(surface)
     return surface
 
 
 @cached
-def handle(corner: int) -> Lit:
+def handle(corner: int) -> LitImage:
     """The corner that is moved: a bright angle, and an arrow out to it."""
     x, y = CORNERS[corner]
     across, down = (-1 if x else 1), (-1 if y else 1)  # from the corner into the picture
-    pane = Pane(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)
-    ink: Ink = pane.hot
+    layer = Layer(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)
+    ink: GlowCanvas = layer.glow
     for width, reach in ((THIN, 20), (14, 8)):
         ends = [(x + across * 240, y + down * reach), (x + across * reach, y + down * reach)]
         ink.line([*ends, (x + across * reach, y + down * 240)], FOCUS, width)
@@ -232,4 +232,4 @@ def handle(corner: int) -> Lit:
         FOCUS,
         LINE,
     )
-    return pane.done()
+    return layer.done()

@@ -18,8 +18,8 @@ from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut_box
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
@@ -52,7 +52,7 @@ class CheckPage:
 
     def on(self, press: Press) -> Turn:
         """Any button leads back."""
-        if self.prompts.meant(press).act in (Act.BACK, Act.FIRE, Act.START):
+        if self.prompts.as_button(press).act in (Act.BACK, Act.FIRE, Act.START):
             self.context.sounds.play("back")
             self.left()
             return Pop()
@@ -108,13 +108,13 @@ class CheckPage:
 
 
 @cached
-def bar() -> Lit:
+def bar() -> LitImage:
     """The empty bar, with marks where it warns and where a match pauses."""
-    pane = Pane(BAR.x, BAR.y - 20, BAR.w, 120)
-    pane.hot.line(cut(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
+    layer = Layer(BAR.x, BAR.y - 20, BAR.w, 120)
+    layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
     marks: tuple[tuple[float, Color], ...] = ((WARN, FOCUS), (PAUSE, ALARM))
     for mm, color in marks:
         x = BAR.x + BAR.w * mm / MOST
-        pane.hot.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
-        pane.page.cold.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
-    return pane.done()
+        layer.glow.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
+        layer.canvas.crisp.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
+    return layer.done()

@@ -10,8 +10,8 @@ from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Ink, dim
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, GlowCanvas, dim
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Press
@@ -41,7 +41,7 @@ class OutlinesPage:
 
     def on(self, press: Press) -> Turn:
         """Only the way back."""
-        if self.prompts.meant(press).act is Act.BACK:
+        if self.prompts.as_button(press).act is Act.BACK:
             self.context.sounds.play("back")
             self.left()
             return Pop()
@@ -84,12 +84,12 @@ class OutlinesPage:
 
 
 @cached
-def spot(here: bool, done: bool) -> Lit:
+def spot(here: bool, done: bool) -> LitImage:
     """Four lines that help to put a robot in the middle; no light near its marker."""
     color = FOCUS if here else dim(ICE, 0.5) if done else STEEL
-    ink = Ink(2 * FAR + 60, 2 * FAR + 60).to(FAR + 30, FAR + 30)
+    ink = GlowCanvas(2 * FAR + 60, 2 * FAR + 60).to(FAR + 30, FAR + 30)
     for across, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         ink.line([(NEAR * across, NEAR * down), (FAR * across, FAR * down)], color, LINE if here else THIN)
     if done:
         ink.line([(-26, 2), (-8, 20), (28, -18)], color, LINE)
-    return Lit(ink.plain(), (-FAR - 30, -FAR - 30))
+    return LitImage(ink.plain(), (-FAR - 30, -FAR - 30))

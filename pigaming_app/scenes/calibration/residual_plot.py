@@ -3,8 +3,8 @@
 import pygame
 
 from pigaming_app.hardware.calibration.solver import MAX_MM, Residuals
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEEL, SUB, THIN, Color, cut, dim, panel
-from pigaming_app.ui.draw.layers import Lit, Pane, span
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEEL, SUB, THIN, Color, cut_box, dim, panel
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 
 AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the picture
@@ -14,25 +14,25 @@ LONGEST = 40.0  # px, of the longest arrow
 TIMES = (2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
-def arrows(residuals: Residuals) -> tuple[Lit, int]:
+def arrows(residuals: Residuals) -> tuple[LitImage, int]:
     """The picture, and how many times as large as on the mat the arrows are. Made once, not in a steady frame."""
     lengths = (residuals.misses**2).sum(axis=1) ** 0.5
     longest = max(float(lengths.max()) * SCALE, 1e-6)
     times = max((one for one in TIMES if one * longest <= LONGEST), default=1)
     mm = residuals.max_mm / max(float(lengths.max()), 1e-9)
-    pane = Pane(*AREA)
-    panel(pane.hot, *AREA)
-    pane.page.cold.line(cut(*_at(-160, -140), 1920 * SCALE, 1080 * SCALE, 0), STEEL, HAIR, True)
-    pane.hot.line(cut(*_at(0, 0), 1600 * SCALE, 900 * SCALE, 12), STEEL, THIN, True)
+    layer = Layer(*AREA)
+    panel(layer.glow, *AREA)
+    layer.canvas.crisp.line(cut_box(*_at(-160, -140), 1920 * SCALE, 1080 * SCALE, 0), STEEL, HAIR, True)
+    layer.glow.line(cut_box(*_at(0, 0), 1600 * SCALE, 900 * SCALE, 12), STEEL, THIN, True)
     for (x, y), (dx, dy), length in zip(
         residuals.places.tolist(), residuals.misses.tolist(), lengths.tolist(), strict=True
     ):
         begin, end = _at(x, y), _at(x + dx * times, y + dy * times)
         color = ALARM if length * mm > MAX_MM else FOCUS
-        pane.hot.disc(*begin, 3, dim(ICE, 0.6))
-        pane.page.cold.line([begin, end], color, HAIR + 1)
-        pane.page.cold.disc(*end, 3.5, color)
-    return pane.done(), times
+        layer.glow.disc(*begin, 3, dim(ICE, 0.6))
+        layer.canvas.crisp.line([begin, end], color, HAIR + 1)
+        layer.canvas.crisp.disc(*end, 3.5, color)
+    return layer.done(), times
 
 
 def _at(x: float, y: float) -> tuple[float, float]:
@@ -41,15 +41,15 @@ def _at(x: float, y: float) -> tuple[float, float]:
 
 
 @cached
-def figure(name: str, told: str, share: float, need: str) -> Lit:
+def figure(name: str, told: str, share: float, need: str) -> LitImage:
     """One error as a number, and as a bar, full at twice the limit; `share` of the limit. Upper left at (0, 0)."""
-    pane = Pane(0, -20, SIDE.w, 190)
+    layer = Layer(0, -20, SIDE.w, 190)
     color: Color = ICE if share <= 1.0 else ALARM
-    pane.page.body(name, 0, 20, MIST)
-    pane.page.text(told, SUB, SIDE.w, 20, color, "head", "r")
+    layer.canvas.body(name, 0, 20, MIST)
+    layer.canvas.text(told, SUB, SIDE.w, 20, color, "head", "r")
     bar = SIDE.w
-    pane.hot.line(cut(0, 74, bar, 26, 8), STEEL, THIN, True)
-    pane.hot.fill(cut(4, 78, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 18, 5), color)
-    pane.hot.line([(bar / 2, 64), (bar / 2, 110)], ICE, LINE)
-    pane.page.body(need, SIDE.w, 142, MIST, "r", BODY - 8)
-    return pane.done()
+    layer.glow.line(cut_box(0, 74, bar, 26, 8), STEEL, THIN, True)
+    layer.glow.fill(cut_box(4, 78, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 18, 5), color)
+    layer.glow.line([(bar / 2, 64), (bar / 2, 110)], ICE, LINE)
+    layer.canvas.body(need, SIDE.w, 142, MIST, "r", BODY - 8)
+    return layer.done()

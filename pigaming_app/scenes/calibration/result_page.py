@@ -21,12 +21,12 @@ from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
-from pigaming_app.ui.draw.layers import Lit, backdrop
+from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, chip, heading
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
 HIGH = 84  # px, of a chip
 FOOT = 836  # px, their upper edge
@@ -62,8 +62,8 @@ class ResultPage:
     def __init__(self, context: Context, finding: Finding, again: Callable[[], Scene]) -> None:
         self.context, self.finding, self.again = context, finding, again
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
-        self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(names)])
-        self.arrows: tuple[Lit, int] | None = None
+        self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
+        self.arrows: tuple[LitImage, int] | None = None
         hints = [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
         small = finding.picture
@@ -76,7 +76,7 @@ class ResultPage:
 
     def on(self, press: Press) -> Turn:
         """Left and right choose, FIRE does it."""
-        press = self.navigation.prompts.meant(press)
+        press = self.navigation.prompts.as_button(press)
         if turn := self.navigation.on(press):
             return turn
         chosen = self.focus.chosen(press)
@@ -93,13 +93,13 @@ class ResultPage:
         screen.blit(backdrop(), (0, 0))
         title = "good" if finding.good else "failed" if finding.residuals is None or finding.trouble else "bad"
         heading(words(f"calibrate.{title}"), color=ICE if finding.good else ALARM).draw(screen)
-        blacked(screen, AREA)
+        black_out(screen, AREA)
         if finding.residuals is None or finding.trouble:
             self._draw_failure(screen)
         else:
             self._draw_errors(screen, finding.residuals)
         for spot in self.focus.spots:
-            blacked(screen, spot.rect)
+            black_out(screen, spot.rect)
             state = "focus" if spot.name == self.focus.name else "on"
             chip(words(f"calibrate.{spot.name}"), spot.rect.w, state, HIGH).draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
@@ -138,7 +138,7 @@ class ResultPage:
         for i, line in enumerate(lines):
             line.draw(screen, SIDE.x, y + 20 + 52 * i)
 
-    def _marker(self) -> list[Lit]:
+    def _marker(self) -> list[LitImage]:
         """How large a robot's marker seems: it says whether the mat was measured well."""
         finding, words = self.finding, self.context.words
         if not finding.marker_mm or finding.ground is None:

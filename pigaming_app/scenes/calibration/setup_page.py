@@ -24,8 +24,8 @@ from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading
-from pigaming_app.ui.widgets.setting_row import Value
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
@@ -82,10 +82,10 @@ class CalibrationPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose a row, left and right change it; the last row begins."""
-        press = self.navigation.prompts.meant(press)
+        press = self.navigation.prompts.as_button(press)
         if turn := self.navigation.on(press):
             return turn
-        by = dials.pushed(press, self.focus, self._value(self.focus.name))
+        by = dials.step_of(press, self.focus, self._value(self.focus.name))
         if by:
             self.held = self.held + 1 if press.repeat else 0
             self._change(self.focus.name, by)
@@ -112,7 +112,7 @@ class CalibrationPage:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("calibrate.title"), self.state).draw(screen)
-        blacked(screen, dials.PANEL)
+        black_out(screen, dials.PANEL)
         dials.draw(
             screen, self.context.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
         )
@@ -125,7 +125,7 @@ class CalibrationPage:
         for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
             line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
         if self.navigation.sentence:
-            calling(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
+            call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
         self.navigation.prompts.draw(screen)
 
     # ---- what is seen
@@ -166,20 +166,20 @@ class CalibrationPage:
     def _rows(self) -> tuple[str, ...]:
         return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
 
-    def _value(self, name: str) -> Value:
+    def _value(self, name: str) -> SettingValue:
         words, measures = self.context.words, self.measures
         match name:
             case "display":
-                return Value("arrows", tuple(self.context.canvas.displays()), self.context.canvas.display)
+                return SettingValue("arrows", tuple(self.context.canvas.displays()), self.context.canvas.display)
             case "camera":
-                return Value("arrows", (self._camera(),))
+                return SettingValue("arrows", (self._camera(),))
             case "by":
                 choice = (words("calibrate.ruler"), words("calibrate.robot"))
-                return Value("toggle", choice, int(not measures.height))
+                return SettingValue("toggle", choice, int(not measures.height))
             case "begin":
-                return Value("deed", (words("calibrate.start"),))
+                return SettingValue("deed", (words("calibrate.start"),))
         mm = {"width": measures.width, "lid": measures.lid, "height": measures.height}[name]
-        return Value("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
+        return SettingValue("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
 
     def _camera(self) -> str:
         words = self.context.words

@@ -13,7 +13,7 @@ from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device
 from pigaming_app.ui.sounds import Sounds
-from pigaming_app.ui.widgets.button_prompts import ROOM, Prompts
+from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.window import Canvas
 
 if TYPE_CHECKING:
@@ -49,9 +49,9 @@ class Context:
         room: int = ROOM,
         solid: bool = False,
         voice: Callable[[], Device] | None = None,
-    ) -> Prompts:
-        """The row of hints of a page, see `Prompts`."""
-        return Prompts(self.words, self.controls, items, y, room, solid, voice)
+    ) -> ButtonPrompts:
+        """The row of hints of a page, see `ButtonPrompts`."""
+        return ButtonPrompts(self.words, self.controls, items, y, room, solid, voice)
 
     def stop_all_robots(self) -> None:
         """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""

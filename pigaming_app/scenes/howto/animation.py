@@ -9,7 +9,7 @@ from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui.draw import ADD, Point
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
-from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.widgets.labels import blit_sprite
 
 TREADS, TREAD_GAP = 16, 18.0  # marks behind the robot, and px between them
 
@@ -73,7 +73,7 @@ def drive_round(screen: pygame.Surface, player: int, loop: Loop, x: float, y: fl
         add(screen, effects.tread(player, step(heading, effects.TURNS), level), x + tx, y + ty)
     rx, ry, heading, turning = loop.at(way)
     add(screen, effects.beam(player, step(heading, effects.BEAM_TURNS)), x + rx, y + ry)
-    stamp(screen, tank(player, step(heading, HEADINGS)), x + rx, y + ry)
+    blit_sprite(screen, tank(player, step(heading, HEADINGS)), x + rx, y + ry)
     return turning
 
 
@@ -83,4 +83,4 @@ def drive_by(screen: pygame.Surface, player: int, x: float, y: float, way: float
         level = max(1, effects.TREAD_LEVELS * (TREADS - i) // TREADS)
         add(screen, effects.tread(player, 0, level), x - 20 - i * TREAD_GAP, y)
     add(screen, effects.beam(player, 0), x, y)
-    stamp(screen, tank(player, 0), x, y)
+    blit_sprite(screen, tank(player, 0), x, y)

@@ -11,12 +11,12 @@ from pigaming_app.scenes.views.factory.background import draw_lorry, draw_machin
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw import FOCUS, LINE, MIST, STEEL, THIN, WALL, Ink, cut, dim
-from pigaming_app.ui.draw.frame_budget import finished
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw import FOCUS, LINE, MIST, STEEL, THIN, WALL, GlowCanvas, cut_box, dim
+from pigaming_app.ui.draw.frame_budget import run_to_end
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.widgets.labels import blit_sprite
 
 SHELF, PITCH, FORK = -128, 88, 64  # px: the warehouse's middle, from slot to slot, from a robot to what it carries
 FAR, NEAR = 116.0, float(SHELF + FORK)  # px: where a robot comes from, and where it lifts and sets down
@@ -32,7 +32,7 @@ def lift(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | No
     share, pressed, after = _there_and_back(seconds)
     for i in range(4):
         if i != 1 or not after:
-            stamp(screen, crates.crate(ICE, RAW), x + SHELF, y + (i - 1.5) * PITCH)
+            blit_sprite(screen, crates.crate(ICE, RAW), x + SHELF, y + (i - 1.5) * PITCH)
     _warehouse().draw(screen, round(x), round(y))
     add(screen, crates.target(FOCUS, False), x + SHELF, y - 0.5 * PITCH)
     _carrier(screen, x + FAR + (NEAR - FAR) * share, y - 0.5 * PITCH, RAW if after else None)
@@ -44,13 +44,13 @@ def deliver(screen: pygame.Surface, x: float, y: float, seconds: float) -> str |
     """A robot brings what is done to its team's exit."""
     share, _, after = _there_and_back(seconds)
     for i in range(3 if after else 2):
-        stamp(screen, crates.crate(ICE, DELIVERED), x + SHELF, y + (i - 1.5) * PITCH)
+        blit_sprite(screen, crates.crate(ICE, DELIVERED), x + SHELF, y + (i - 1.5) * PITCH)
     _warehouse().draw(screen, round(x), round(y))
     add(screen, crates.target(FOCUS, False), x + SHELF, y + 0.5 * PITCH)
     _lorry().draw(screen, round(x + 96), round(y - 104))
     _carrier(screen, x + FAR + (NEAR - FAR) * share, y + 0.5 * PITCH, None if after else DONE)
     if after:
-        stamp(screen, things.popup("+1", 0), x + SHELF + 92, y + 1.5 * PITCH)
+        blit_sprite(screen, things.popup("+1", 0), x + SHELF + 92, y + 1.5 * PITCH)
     return None
 
 
@@ -62,22 +62,22 @@ def work(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | No
     second = first - PROCESS - CARRY - FEED
     a, b = y - MACHINE, y + MACHINE
     if first < 0.0:
-        stamp(screen, crates.crate(ICE, RAW), x - SLOT, a)
+        blit_sprite(screen, crates.crate(ICE, RAW), x - SLOT, a)
     elif first < PROCESS:
         _at_work(screen, x, a, A, first / PROCESS)
     elif first < PROCESS + CARRY:
         px, py = _carried((first - PROCESS) / CARRY)
-        stamp(screen, crates.crate(ICE, HALF), x + px, y + py)
+        blit_sprite(screen, crates.crate(ICE, HALF), x + px, y + py)
     elif second < 0.0:
-        stamp(screen, crates.crate(ICE, HALF), x - SLOT, b)
+        blit_sprite(screen, crates.crate(ICE, HALF), x - SLOT, b)
     elif second < PROCESS:
         _at_work(screen, x, b, B, second / PROCESS)
     else:
-        stamp(screen, crates.crate(ICE, DONE), x + SLOT, b)
+        blit_sprite(screen, crates.crate(ICE, DONE), x + SLOT, b)
     at_a, at_b = 0.0 <= first < PROCESS, 0.0 <= second < PROCESS
     heading = crates.PERSON_TURNS // 4 if first > PROCESS else 3 * crates.PERSON_TURNS // 4
     stride = int(seconds * 8) % crates.STRIDE if at_a or at_b else 0
-    stamp(screen, crates.person(heading, stride, at_a or at_b), x, y)
+    blit_sprite(screen, crates.person(heading, stride, at_a or at_b), x, y)
     return None
 
 
@@ -88,17 +88,17 @@ def people(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | 
     way = min(now, MEET) + max(0.0, now - MEET - FREEZE)
     px, py = x - 150 + 150 * way, y + 34
     add(screen, crates.forks(FIRE, 0), px, py)
-    stamp(screen, tank(1, 0), px, py)
+    blit_sprite(screen, tank(1, 0), px, py)
     wx, wy = x + 74, y - 150 + 120 * now
     if wy < y + 190:
         stride = int(seconds * 6) % crates.STRIDE
-        stamp(screen, crates.person(crates.PERSON_TURNS // 4, stride, False), wx, wy)
+        blit_sprite(screen, crates.person(crates.PERSON_TURNS // 4, stride, False), wx, wy)
     if frozen:
         left = FREEZE - (now - MEET)
         add(screen, crates.frozen(math.ceil(left / FREEZE * crates.COUNTS)), px, py)
         add(screen, crates.digit(math.ceil(left)), px, py - 116)
         if now - MEET < 1.0:
-            stamp(screen, crates.exclaim(), wx + 58, wy - 50)
+            blit_sprite(screen, crates.exclaim(), wx + 58, wy - 50)
     return None
 
 
@@ -113,13 +113,13 @@ def _there_and_back(seconds: float) -> tuple[float, bool, bool]:
 def _carrier(screen: pygame.Surface, x: float, y: float, state: int | None) -> None:
     """Robot 1 of ICE, heading left, with what it carries."""
     add(screen, crates.forks(ICE, LEFT), x, y)
-    stamp(screen, tank(0, LEFT), x, y)
+    blit_sprite(screen, tank(0, LEFT), x, y)
     if state is not None:
-        stamp(screen, crates.crate(ICE, state), x - FORK, y)
+        blit_sprite(screen, crates.crate(ICE, state), x - FORK, y)
 
 
 def _at_work(screen: pygame.Surface, x: float, y: float, kind: int, share: float) -> None:
-    stamp(screen, crates.busy(ICE, kind), x, y)
+    blit_sprite(screen, crates.busy(ICE, kind), x, y)
     add(screen, crates.progress(HALF if kind == A else DONE, int(share * crates.COUNTS)), x, y)
 
 
@@ -136,50 +136,50 @@ def _carried(share: float) -> tuple[float, float]:
 
 
 @cached
-def _warehouse() -> Lit:
-    hot, cold = Ink(240, 480).to(120, 240), Ink(240, 480).to(120, 240)
-    box = cut(-54, -2 * PITCH - 12, 108, 4 * PITCH + 24, 16)
-    hot.neon(box, crates.TEAMS[ICE], LINE, True)
+def _warehouse() -> LitImage:
+    glow, crisp = GlowCanvas(240, 480).to(120, 240), GlowCanvas(240, 480).to(120, 240)
+    box = cut_box(-54, -2 * PITCH - 12, 108, 4 * PITCH + 24, 16)
+    glow.neon(box, crates.TEAMS[ICE], LINE, True)
     for i in range(4):
-        draw_slot(cold, 0, (i - 1.5) * PITCH, dim(crates.TEAMS[ICE], 0.6))
-    return _lit(hot, cold, SHELF - 120, -240)
+        draw_slot(crisp, 0, (i - 1.5) * PITCH, dim(crates.TEAMS[ICE], 0.6))
+    return _lit(glow, crisp, SHELF - 120, -240)
 
 
 @cached
-def _machines() -> Lit:
+def _machines() -> LitImage:
     """Both machines with their slots, and the way from one to the other."""
-    hot, cold = Ink(460, 460).to(230, 230), Ink(460, 460).to(230, 230)
+    glow, crisp = GlowCanvas(460, 460).to(230, 230), GlowCanvas(460, 460).to(230, 230)
     for kind, y in ((A, -MACHINE), (B, MACHINE)):
-        draw_machine((hot, cold), kind, 0, y)
+        draw_machine((glow, crisp), kind, 0, y)
         for side in (-1, 1):
-            draw_slot(cold, side * SLOT, y, dim(WALL, 0.7))
+            draw_slot(crisp, side * SLOT, y, dim(WALL, 0.7))
             tip = side * 80
-            cold.fill([(tip + 8, y), (tip - 6, y - 13), (tip - 6, y + 13)], WALL)
-    cold.dashes([(SLOT, -58), (SLOT, 0), (-SLOT, 0), (-SLOT, 40)], MIST, THIN, 14, 12, False)
-    cold.fill([(-SLOT, 62), (-SLOT - 14, 40), (-SLOT + 14, 40)], MIST)
-    return _lit(hot, cold, -230, -230)
+            crisp.fill([(tip + 8, y), (tip - 6, y - 13), (tip - 6, y + 13)], WALL)
+    crisp.dashes([(SLOT, -58), (SLOT, 0), (-SLOT, 0), (-SLOT, 40)], MIST, THIN, 14, 12, False)
+    crisp.fill([(-SLOT, 62), (-SLOT - 14, 40), (-SLOT + 14, 40)], MIST)
+    return _lit(glow, crisp, -230, -230)
 
 
 @cached
-def _lorry() -> Lit:
-    ink = Ink(240, 180).to(120, 90, 0, 1.4)
+def _lorry() -> LitImage:
+    ink = GlowCanvas(240, 180).to(120, 90, 0, 1.4)
     draw_lorry(ink, 0, 0, crates.TEAMS[ICE], -1)
-    return Lit(ink.lit(0.8), (-120, -90))
+    return LitImage(ink.lit(0.8), (-120, -90))
 
 
 @cached
-def _button(pressed: bool) -> Lit:
+def _button(pressed: bool) -> LitImage:
     """A button that is pressed now and then."""
-    ink = Ink(140, 140).to(70, 70)
+    ink = GlowCanvas(140, 140).to(70, 70)
     ink.ring(0, 0, 36, FOCUS if pressed else STEEL, THIN)
     if pressed:
         ink.disc(0, 0, 24, FOCUS)
     else:
         ink.ring(0, 0, 24, MIST, THIN)
-    return Lit(ink.lit(0.8), (-70, -70))
+    return LitImage(ink.lit(0.8), (-70, -70))
 
 
-def _lit(hot: Ink, cold: Ink, x: int, y: int) -> Lit:
-    out = hot.lit(0.6)
-    finished(cold.onto(out))
-    return Lit(out, (x, y))
+def _lit(glow: GlowCanvas, crisp: GlowCanvas, x: int, y: int) -> LitImage:
+    out = glow.lit(0.6)
+    run_to_end(crisp.onto(out))
+    return LitImage(out, (x, y))

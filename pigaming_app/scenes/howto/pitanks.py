@@ -10,11 +10,11 @@ from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.scenes.views.sprites.wall import wall
-from pigaming_app.ui.draw import FOCUS, HAIR, ICE, LINE, MIST, PLAYERS, STEEL, THIN, Ink, Point, cut, icon
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw import FOCUS, HAIR, ICE, LINE, MIST, PLAYERS, STEEL, THIN, GlowCanvas, Point, cut_box, icon
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.widgets.labels import blit_sprite
 
 ROUND, SPEED = Loop(236.0, 300.0, 78.0), 190.0  # px, px/s of the lap in the first picture
 DUEL, FLIGHT = 2.0, 0.42  # seconds from shot to shot; that a shot flies
@@ -38,7 +38,7 @@ def shoot(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
     shooter = int(turn) % 2
     angle = math.atan2(places[1][1] - places[0][1], places[1][0] - places[0][0])
     for i, (px, py) in enumerate(places):
-        stamp(screen, tank(i, step(angle + math.pi * i, HEADINGS)), px, py)
+        blit_sprite(screen, tank(i, step(angle + math.pi * i, HEADINGS)), px, py)
     heading = angle + math.pi * shooter
     (ax, ay), (bx, by) = places[shooter], places[1 - shooter]
     since -= 0.35
@@ -65,7 +65,7 @@ def _hit(screen: pygame.Surface, shooter: int, places: tuple[Point, Point], sinc
         for seat, said in ((shooter, "+1"), (1 - shooter, "−1")):
             px, py = places[seat]
             side = 96 if seat == 0 else -96
-            stamp(screen, things.popup(said, seat, level), px + side, py + 30 - rise)
+            blit_sprite(screen, things.popup(said, seat, level), px + side, py + 30 - rise)
 
 
 def walls(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
@@ -74,8 +74,8 @@ def walls(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
     number = int(shot) % SHOTS
     ax, bx = x - 128, x + 108
     hits = min(5, number + (since > FLIGHT))
-    stamp(screen, wall(250, 34, math.pi / 2, 5 - hits, 7), bx, y + 26)
-    stamp(screen, tank(2, 0), ax, y + 26)
+    blit_sprite(screen, wall(250, 34, math.pi / 2, 5 - hits, 7), bx, y + 26)
+    blit_sprite(screen, tank(2, 0), ax, y + 26)
     if number < 5:
         if since < 0.06:
             add(screen, effects.flash(2, 0), ax + 70, y + 26)
@@ -99,36 +99,36 @@ def pickups(screen: pygame.Surface, x: float, y: float, seconds: float) -> str |
     for i, name in enumerate(POWERS):
         px, py = x - 82 + 164 * (i % 2), y - 168 + 114 * (i // 2)
         lift = round(6 * math.sin(math.pi * min(1.0, since / 0.3))) if i == chosen else 0
-        stamp(screen, things.pickup(name), px, py - lift)
+        blit_sprite(screen, things.pickup(name), px, py - lift)
         if i == chosen:
             _halo().draw(screen, round(px), round(py - lift))
     return f"powers.{POWERS[chosen]}"
 
 
 @cached
-def _stick() -> Lit:
-    ink = Ink(200, 200).to(100, 100)
+def _stick() -> LitImage:
+    ink = GlowCanvas(200, 200).to(100, 100)
     ink.ring(0, 0, 40, MIST, THIN)
     for name, dx, dy in (("up", 0, -62), ("down", 0, 62), ("left", -62, 0), ("right", 62, 0)):
         icon(ink, name, dx, dy, 13, STEEL, THIN)
-    return Lit(ink.lit(0.6), (-100, -100))
+    return LitImage(ink.lit(0.6), (-100, -100))
 
 
 @cached
-def _knob() -> Lit:
-    return Lit(Ink(96, 96).disc(48, 48, 19, ICE).lit(0.8), (-48, -48))
+def _knob() -> LitImage:
+    return LitImage(GlowCanvas(96, 96).disc(48, 48, 19, ICE).lit(0.8), (-48, -48))
 
 
 @cached
-def _cell(lit: bool) -> Lit:
-    ink, box = Ink(96, 96), cut(32, 26, 32, 44, 7)
-    return Lit((ink.fill(box, FOCUS) if lit else ink.line(box, STEEL, 3, True)).lit(0.8), (-48, -48))
+def _cell(lit: bool) -> LitImage:
+    ink, box = GlowCanvas(96, 96), cut_box(32, 26, 32, 44, 7)
+    return LitImage((ink.fill(box, FOCUS) if lit else ink.line(box, STEEL, 3, True)).lit(0.8), (-48, -48))
 
 
 @cached
-def _halo() -> Lit:
-    ink = Ink(200, 200).to(100, 100)
+def _halo() -> LitImage:
+    ink = GlowCanvas(200, 200).to(100, 100)
     for i in range(8):
         a = i * math.tau / 8
         ink.line([(62 * math.cos(a), 62 * math.sin(a)), (72 * math.cos(a), 72 * math.sin(a))], FOCUS, LINE - HAIR)
-    return Lit(ink.lit(1.0), (-100, -100))
+    return LitImage(ink.lit(1.0), (-100, -100))

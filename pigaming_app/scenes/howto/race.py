@@ -9,9 +9,9 @@ from pigaming_app.scenes.views.race.sprites import clods
 from pigaming_app.scenes.views.race.track import EDGE, MUD, Frame, draw_line
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
-from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, SUB, THIN, Color, Ink, badge, dim, mix
-from pigaming_app.ui.draw.frame_budget import finished
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, SUB, THIN, Color, GlowCanvas, badge, dim, mix
+from pigaming_app.ui.draw.frame_budget import run_to_end
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import word
 
@@ -83,55 +83,55 @@ def mud(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | Non
 
 
 @cached
-def _round(lined: bool) -> Lit:
+def _round(lined: bool) -> LitImage:
     """A road all round; with the lines of all four players across it."""
-    hot, cold = _sheets()
+    glow, crisp = _sheets()
     for out in (-ROAD, ROAD):
-        hot.neon(ROUND.outline(out), EDGE, 5, True)
+        glow.neon(ROUND.outline(out), EDGE, 5, True)
     for line in range(4 if lined else 1):
         x, y, heading, _ = ROUND.at(line * ROUND.length / 4)
         frame = Frame(x, y, math.cos(heading), math.sin(heading), ROAD)
-        draw_line(hot, cold, frame, PLAYERS[line])
-    return _lit(hot, cold)
+        draw_line(glow, crisp, frame, PLAYERS[line])
+    return _lit(glow, crisp)
 
 
 @cached
-def _own() -> Lit:
+def _own() -> LitImage:
     """A straight road with the lines of two players."""
-    hot, cold = _sheets()
+    glow, crisp = _sheets()
     for side in (-1, 1):
-        hot.neon([(-WIDE, side * STRAIGHT), (WIDE, side * STRAIGHT)], EDGE, 5)
+        glow.neon([(-WIDE, side * STRAIGHT), (WIDE, side * STRAIGHT)], EDGE, 5)
     for line, at in ((0, YOURS), (1, THEIRS)):
-        draw_line(hot, cold, Frame(at, 0.0, 1.0, 0.0, STRAIGHT), PLAYERS[line])
-        badge(hot, line, at, -STRAIGHT - 54, 34)
-    return _lit(hot, cold)
+        draw_line(glow, crisp, Frame(at, 0.0, 1.0, 0.0, STRAIGHT), PLAYERS[line])
+        badge(glow, line, at, -STRAIGHT - 54, 34)
+    return _lit(glow, crisp)
 
 
 @cached
-def _edge() -> Lit:
+def _edge() -> LitImage:
     """Where the road ends, and contour lines of mud below."""
-    hot, cold = _sheets()
-    hot.neon([(-WIDE, 0), (WIDE, 0)], EDGE, 5)
+    glow, crisp = _sheets()
+    glow.neon([(-WIDE, 0), (WIDE, 0)], EDGE, 5)
     for row in range(6):
         wave = [(u, 26 + 36 * row + 9 * math.sin(u / 34 + 1.7 * row)) for u in range(-WIDE, WIDE + 1, 10)]
-        cold.line(wave, dim(MUD, 0.55 - 0.05 * (row % 2)), THIN)
-    return _lit(hot, cold)
+        crisp.line(wave, dim(MUD, 0.55 - 0.05 * (row % 2)), THIN)
+    return _lit(glow, crisp)
 
 
 @cached
-def _post(line: int, lit: bool) -> Lit:
-    ink = Ink(120, 120).to(60, 60)
+def _post(line: int, lit: bool) -> LitImage:
+    ink = GlowCanvas(120, 120).to(60, 60)
     badge(ink, line, 0, 0, 25, None if lit else dim(PLAYERS[line], 0.3))
-    return Lit(ink.lit(0.6), (-60, -60))
+    return LitImage(ink.lit(0.6), (-60, -60))
 
 
-def _sheets() -> tuple[Ink, Ink]:
+def _sheets() -> tuple[GlowCanvas, GlowCanvas]:
     """What glows and what does not, for a picture round (0, 0)."""
     side = 2 * WIDE + 60
-    return Ink(side, side + 40).to(side / 2, side / 2), Ink(side, side + 40).to(side / 2, side / 2)
+    return GlowCanvas(side, side + 40).to(side / 2, side / 2), GlowCanvas(side, side + 40).to(side / 2, side / 2)
 
 
-def _lit(hot: Ink, cold: Ink) -> Lit:
-    out = hot.lit(0.6)
-    finished(cold.onto(out))
-    return Lit(out, (-(WIDE + 30), -(WIDE + 30)))
+def _lit(glow: GlowCanvas, crisp: GlowCanvas) -> LitImage:
+    out = glow.lit(0.6)
+    run_to_end(crisp.onto(out))
+    return LitImage(out, (-(WIDE + 30), -(WIDE + 30)))

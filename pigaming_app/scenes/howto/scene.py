@@ -18,15 +18,15 @@ from pigaming_app.ui.draw import (
     button,
     button_width,
     panel,
-    regular,
+    regular_polygon,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, span
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import balanced, fitted, lines_of, text
+from pigaming_app.ui.draw.text import fit_size, text, wrap, wrap_balanced
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.labels import blacked, button_light, chip, chip_width, heading
+from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_width, heading
 
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
@@ -70,9 +70,9 @@ class HowTo:
         heading(words("title.howto")).draw(screen)
         for game, box in self._names():
             chip(words(f"games.{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)
-        button_light("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
+        button_label("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
-        blacked(screen, *boxes)
+        black_out(screen, *boxes)
         for i, (box, (name, picture)) in enumerate(zip(boxes, LESSONS[self.game].items(), strict=True)):
             screen.set_clip(box.inflate(-8, -8))
             said = picture(screen, box.centerx, TOP + 268, self.clock)
@@ -115,43 +115,43 @@ class HowTo:
 
 
 @cached
-@sliced
-def frame(number: int, w: int) -> Steps[Lit]:
+@resumable
+def frame(number: int, w: int) -> Steps[LitImage]:
     """An empty panel with its number; upper left at (0, 0)."""
-    pane = Pane(0, 0, w, HIGH)
-    panel(pane.hot, 0, 0, w, HIGH, STEEL)
-    pane.hot.fill(regular(40, 32, 0, w / 2, 0), ICE)
-    pane.hot.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
+    layer = Layer(0, 0, w, HIGH)
+    panel(layer.glow, 0, 0, w, HIGH, STEEL)
+    layer.glow.fill(regular_polygon(40, 32, 0, w / 2, 0), ICE)
+    layer.glow.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 @cached
-def caption(said: str, room: int) -> Lit:
+def caption(said: str, room: int) -> LitImage:
     """A few words in lines of about the same length, their middle at (0, 0)."""
-    lines = balanced(said, len(lines_of(said, BODY, room)))
-    pane = Pane(-room / 2, -70, room, 140)
+    lines = wrap_balanced(said, len(wrap(said, BODY, room)))
+    layer = Layer(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
-        size = fitted(line, BODY, room, "body")
-        pane.page.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
-    return pane.done()
+        size = fit_size(line, BODY, room, "body")
+        layer.canvas.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
+    return layer.done()
 
 
 @cached
-@sliced
-def keys(items: Sequence[tuple[str, str]]) -> Steps[Lit]:
+@resumable
+def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
     """The row at the foot: all but the last from the left, the last at the right end."""
-    pane = Pane(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
+    layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
     for i, (label, what) in enumerate(items):
         if i == len(items) - 1:
             x = RIGHT - _width(label) - 10 - text_width(what, BODY, "body")
         for part in label.split():
-            x += button(pane.page, x, FOOT_Y, part) + 8
-        pane.page.body(what, x + 10, FOOT_Y, MIST)
+            x += button(layer.canvas, x, FOOT_Y, part) + 8
+        layer.canvas.body(what, x + 10, FOOT_Y, MIST)
         x += 10 + text_width(what, BODY, "body") + 56
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 def _width(label: str) -> float:

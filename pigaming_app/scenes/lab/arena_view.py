@@ -18,8 +18,8 @@ from pigaming_app.scenes.views.pitanks.background import wall_sprite
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.sim.world import SOLID
-from pigaming_app.ui.draw import ADD, PLAYERS, PRE, Ink, dim
-from pigaming_app.ui.draw.frame_budget import Ahead, Job
+from pigaming_app.ui.draw import ADD, PLAYERS, PRE, GlowCanvas, dim
+from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, faded, put, step
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -49,12 +49,12 @@ class Arena:
         self.trails: deque[list[Pose]] = deque(maxlen=DOTS)
         self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, seconds old
         self.age, self.glide, self.dotted = 0.0, LONGEST, 0.0
-        self.jobs = Ahead()
+        self.jobs = PrewarmQueue()
 
     def show(self, state: Any) -> None:
         """How the match stands now."""
         if not self.seats:
-            self.jobs = Ahead(jobs(state))
+            self.jobs = PrewarmQueue(jobs(state))
         walls = (state.walls[i] for i in range(state.wall_count))
         self.walls = [(one.ax, one.ay, one.bx, one.by, one.half, one.whole, one.health) for one in walls]
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
@@ -210,7 +210,7 @@ def little_wave(player: int, stage: int) -> Sprite:
 @cached
 def dot(player: int, level: int) -> Sprite:
     """A dot of a trail, `level` of TREAD_LEVELS bright."""
-    ink = Ink(28, 28).disc(14, 14, 5, dim(PLAYERS[player], 0.08 + 0.07 * level))
+    ink = GlowCanvas(28, 28).disc(14, 14, 5, dim(PLAYERS[player], 0.08 + 0.07 * level))
     return Sprite(ink.lit(0.5), -14, -14)
 
 

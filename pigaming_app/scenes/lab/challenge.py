@@ -12,7 +12,7 @@ from pigaming_app.scenes.play.pause import title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
-from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.input.hold import Holds
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
@@ -85,7 +85,7 @@ class Verdict:
 
     def on(self, press: Press) -> Turn:
         """FIRE plays again, with whatever device presses it; BACK leads to the Lab, held as after every match."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         admitted = self.access.admit(press)
         if admitted is None and press.act not in (Act.FIRE, Act.START):
             return None
@@ -125,20 +125,20 @@ class Verdict:
         if self.leaving.share:
             filled(screen, self.leaving.share)
 
-    def _paint(self, pane: Pane) -> None:
+    def _paint(self, layer: Layer) -> None:
         words = self.context.words
         mine, its = self.scores
         name = self.fight.kind.name.upper()
         if mine == its:
-            title(pane, None, words("results.tie"), ICE)
+            title(layer, None, words("results.tie"), ICE)
         else:
             seat = 0 if mine > its else ROBOT
-            title(pane, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat])
+            title(layer, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat])
         middle = (HEAD + FOOT) / 2
         for seat, side, score, who in ((0, -1, mine, words("lab.you")), (ROBOT, 1, its, name)):
-            pane.page.text(
+            layer.canvas.text(
                 str(score).replace("-", "−"), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
             )
-            badge(pane.hot, seat, 960 + side * 430, middle - 28, 44)
-            pane.page.body(who, 960 + side * 430, middle + 66, MIST, "c")
-        pane.page.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")
+            badge(layer.glow, seat, 960 + side * 430, middle - 28, 44)
+            layer.canvas.body(who, 960 + side * 430, middle + 66, MIST, "c")
+        layer.canvas.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")

@@ -16,10 +16,10 @@ from pigaming_app.ai.experiments.training import GAME
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.lab.bench import IDLE, Bench
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, text
+from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.labels import heading
 
@@ -75,7 +75,7 @@ class Compare:
 
     def on(self, press: Press) -> Turn:
         """Any button leads back."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         if press.act in (Act.BACK, Act.FIRE, Act.START):
             self.context.sounds.play("back")
             return Pop()
@@ -140,12 +140,12 @@ class Compare:
 
 
 @cached
-def row(name: str, own: bool, best: bool) -> Lit:
+def row(name: str, own: bool, best: bool) -> LitImage:
     """A row without its numbers; upper left at (0, 0)."""
     w = RIGHT - LEFT
-    pane = Pane(0, 0, w, HIGH)
-    pane.hot.line(cut(0, 0, w, HIGH, 14), FOCUS if best else STEEL, THIN, True)
-    icon(pane.hot, "crown" if best else "ai", 62, HIGH / 2, 26, FOCUS if best else MIST, THIN)
+    layer = Layer(0, 0, w, HIGH)
+    layer.glow.line(cut_box(0, 0, w, HIGH, 14), FOCUS if best else STEEL, THIN, True)
+    icon(layer.glow, "crown" if best else "ai", 62, HIGH / 2, 26, FOCUS if best else MIST, THIN)
     color = FOCUS if best else ICE if own else MIST
-    pane.page.body(name, 124, HIGH / 2, color, "l", fitted(name, LABEL, 780, "body"))
-    return pane.done()
+    layer.canvas.body(name, 124, HIGH / 2, color, "l", fit_size(name, LABEL, 780, "body"))
+    return layer.done()

@@ -4,7 +4,7 @@ import math
 
 from pigaming_app.scenes.lab.layout import BAD, GOOD, NOTHING
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 
 MOST = 10
@@ -15,24 +15,24 @@ ARROW = 88  # px from the middle of a knob that is held to the tip of an arrow
 
 
 @cached
-def dial(value: int, held: bool) -> Lit:
+def dial(value: int, held: bool) -> LitImage:
     """The knob at `value`, round (0, 0); `held`: somebody is turning it."""
-    pane = Pane(-110, -80, 220, 160)
-    ink, end = pane.hot, TOP + SWEEP * value / MOST
-    pane.page.cold.arc(0, 0, RADIUS, TOP - SWEEP, TOP + SWEEP, NOTHING, 12)
+    layer = Layer(-110, -80, 220, 160)
+    ink, end = layer.glow, TOP + SWEEP * value / MOST
+    layer.canvas.crisp.arc(0, 0, RADIUS, TOP - SWEEP, TOP + SWEEP, NOTHING, 12)
     if value:
         ink.arc(0, 0, RADIUS, TOP, end, GOOD if value > 0 else BAD, 12)
     for k in (-1, 0, 1):
         c, s = math.cos(TOP + SWEEP * k), math.sin(TOP + SWEEP * k)
-        pane.page.cold.line(
+        layer.canvas.crisp.line(
             [((RADIUS + 13) * c, (RADIUS + 13) * s), ((RADIUS + 19) * c, (RADIUS + 19) * s)], STEEL, THIN
         )
-    pane.page.cold.disc(RADIUS * math.cos(end), RADIUS * math.sin(end), 13, FOCUS if held else WHITE)
-    pane.page.text(signed(value), LABEL - 8, 0, 2, FOCUS if held else ICE, "head", "c")
+    layer.canvas.crisp.disc(RADIUS * math.cos(end), RADIUS * math.sin(end), 13, FOCUS if held else WHITE)
+    layer.canvas.text(signed(value), LABEL - 8, 0, 2, FOCUS if held else ICE, "head", "c")
     if held:
         for side in (-1, 1):
-            pane.hot.fill([(side * ARROW, 0), (side * (ARROW - 18), -16), (side * (ARROW - 18), 16)], FOCUS)
-    return pane.done()
+            layer.glow.fill([(side * ARROW, 0), (side * (ARROW - 18), -16), (side * (ARROW - 18), 16)], FOCUS)
+    return layer.done()
 
 
 def signed(value: int) -> str:

@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.scenes.lab.layout import CURVE, GOOD, PLOT, RIGHT
 from pigaming_app.ui.draw import BODY, ICE, MIST, STEEL, THIN, TITLE, WHITE, dim
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text, word
 
@@ -92,7 +92,7 @@ def _height(share: float) -> float:
 
 
 @cached
-def number(percent: int) -> Lit:
+def number(percent: int) -> LitImage:
     """How often, round (0, 0)."""
     return word(f"{percent}%", TITLE - 16, ICE, "head", 0.45)
 

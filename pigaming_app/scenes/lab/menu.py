@@ -9,7 +9,7 @@ from pigaming_app.scenes.lab.name_page import Naming
 from pigaming_app.scenes.lab.open_page import Shelf
 from pigaming_app.scenes.play.pause import items, title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import Pane
+from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import word
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
@@ -33,7 +33,7 @@ class LabMenu:
 
     def on(self, press: Press) -> Turn:
         """FIRE takes what has the focus; START and BACK lead back."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         if press.act in (Act.START, Act.BACK):
             self.context.sounds.play("back")
             return Pop()
@@ -76,8 +76,8 @@ class LabMenu:
                 self.sure = True
                 return None
 
-    def _paint(self, pane: Pane) -> None:
+    def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        title(pane, None, words("lab.title"), ICE)
+        title(layer, None, words("lab.title"), ICE)
         for spot in self.focus.spots:
-            pane.page.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+            layer.canvas.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")

@@ -14,10 +14,10 @@ from pigaming_app.ui.draw import (
     STEEL,
     THIN,
     Color,
-    cut,
+    cut_box,
     panel,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Press
@@ -51,7 +51,7 @@ class Naming:
 
     def on(self, press: Press) -> Turn:
         """Choose letters; START saves; BACK goes a letter back, and from the first one to the Lab."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         if self.age < DEAF:
             return None
         if press.act is not Act.START:
@@ -142,9 +142,9 @@ def middle(slot: int) -> float:
 
 
 @cached
-def box() -> Lit:
+def box() -> LitImage:
     """A letter's box, round (0, 0)."""
-    pane = Pane(-W / 2, -H / 2, W, H)
-    panel(pane.hot, -W / 2, -H / 2, W, H)
-    pane.hot.line(cut(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)
-    return pane.done()
+    layer = Layer(-W / 2, -H / 2, W, H)
+    panel(layer.glow, -W / 2, -H / 2, W, H)
+    layer.glow.line(cut_box(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)
+    return layer.done()

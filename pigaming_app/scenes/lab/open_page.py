@@ -7,13 +7,13 @@ import pygame
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.lab.bench import IDLE, Bench
 from pigaming_app.scenes.lab.saved_robots import NotKept, fetch, file_of, names
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop, span
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, text
+from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, heading
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, heading
 
 COLUMNS, ROWS = 3, 4
 TOP, HIGH, PITCH = 236, 140, 164
@@ -35,7 +35,7 @@ class Shelf:
 
     def on(self, press: Press) -> Turn:
         """FIRE opens, BACK leads to the Lab, ALT shows the next page."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         if press.act is Act.BACK or (not self.names and press.act in (Act.FIRE, Act.START)):
             self.context.sounds.play("back")
             return Pop()
@@ -63,7 +63,7 @@ class Shelf:
         count = f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
         heading(words("lab.open_title"), count).draw(screen)
         if self.names:
-            blacked(screen, *(spot.rect for spot in self.focus.spots))
+            black_out(screen, *(spot.rect for spot in self.focus.spots))
             for spot in self.focus.spots:
                 card(spot.name, saved(spot.name), spot.name == self.focus.name).draw(screen, *spot.rect.topleft)
             self.focus.draw(screen)
@@ -78,10 +78,10 @@ class Shelf:
         """How many pages there are."""
         return max(1, -(-len(self.names) // (COLUMNS * ROWS)))
 
-    def _spots(self) -> list[Spot]:
+    def _spots(self) -> list[FocusSpot]:
         first = self.page * COLUMNS * ROWS
-        return [Spot(name, place(i)) for i, name in enumerate(self.names[first : first + COLUMNS * ROWS])] or [
-            Spot("", place(0))
+        return [FocusSpot(name, place(i)) for i, name in enumerate(self.names[first : first + COLUMNS * ROWS])] or [
+            FocusSpot("", place(0))
         ]
 
     def _hints(self) -> list[tuple[Act, str]]:
@@ -114,11 +114,11 @@ def saved(name: str) -> str:
 
 
 @cached
-def card(name: str, when: str, hot: bool) -> Lit:
+def card(name: str, when: str, hot: bool) -> LitImage:
     """A robot's name and when it was saved; upper left at (0, 0)."""
     w = span(0, 4)[1]
-    pane = Pane(0, 0, w, HIGH)
-    pane.hot.line(cut(0, 0, w, HIGH, 16), STEEL, THIN, True)
-    pane.page.text(name, fitted(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
-    pane.page.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
-    return pane.done()
+    layer = Layer(0, 0, w, HIGH)
+    layer.glow.line(cut_box(0, 0, w, HIGH, 16), STEEL, THIN, True)
+    layer.canvas.text(name, fit_size(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
+    layer.canvas.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
+    return layer.done()

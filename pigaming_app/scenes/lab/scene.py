@@ -22,8 +22,8 @@ from pigaming_app.scenes.lab.view import SPEEDS, LabPage, Shown, speed_at, warmi
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import plate
-from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 FIRST = replace(RECIPES[1], behind_always=1)  # each knob counts at every decision, so that turning it is seen soon
 IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
@@ -50,8 +50,8 @@ class Lab:
         self.held = ""  # the knob in hand
         self.age = self.said = self.compiling = 0.0
         self.sentence, self.wrong = "", False
-        self.focus = Focus([Spot("speed", SPEED), Spot("play", PLAY)]
-                           + [Spot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
+        self.focus = Focus([FocusSpot("speed", SPEED), FocusSpot("play", PLAY)]
+                           + [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
         self.prompts = context.prompts(
             [
                 (Act.FIRE, "lab.hint_choose"),
@@ -75,7 +75,7 @@ class Lab:
 
     def on(self, press: Press) -> Turn:
         """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
-        press = (self.turning if self.held else self.prompts).meant(press)
+        press = (self.turning if self.held else self.prompts).as_button(press)
         if self.held and press.act not in (Act.EXTRA, Act.ALT):
             return self._turn(press)
         self.held = ""
@@ -120,11 +120,11 @@ class Lab:
             self.focus.draw(screen)
         words = self.context.words
         if self.said > 0.0:
-            plate(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
+            caption(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
         else:
             (self.turning if self.held else self.prompts).draw(screen)
         if self.context.idle > IDLE - LAST:
-            plate(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
+            caption(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > PATIENT:
             warming(words("lab.warming")).draw(screen)
 

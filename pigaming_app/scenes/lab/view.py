@@ -44,23 +44,23 @@ from pigaming_app.ui.draw import (
     WALL,
     WHITE,
     Color,
-    Ink,
-    Page,
+    GlowCanvas,
+    LayeredCanvas,
     Points,
-    cut,
+    cut_box,
     dim,
     icon,
     mix,
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import Lit, Pane, backdrop
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import balanced, fitted
+from pigaming_app.ui.draw.text import fit_size, wrap_balanced
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.widgets.labels import blacked, stamp
+from pigaming_app.ui.widgets.labels import black_out, blit_sprite
 
 SPEEDS = ("1×", "10×", "max")
 SPEED_SIGNS = ("play", "faster", "fastest")
@@ -107,7 +107,7 @@ class LabPage:
         """Paint everything but the focus and the hints."""
         screen.blit(self.ground, (0, 0))
         self.arena.draw(screen)
-        stamp(screen, tag(self.words("lab.match", number=now.matches + 1)), ARENA.left + 12, ARENA.bottom - 66)
+        blit_sprite(screen, tag(self.words("lab.match", number=now.matches + 1)), ARENA.left + 12, ARENA.bottom - 66)
         self.curve.show(now.measures)
         self.curve.draw(screen, self.words("lab.handmade"), "…")
         self._plan(screen, now)
@@ -127,75 +127,75 @@ class LabPage:
             self.levels[k] += 1 if now.levels[k] > self.levels[k] else -1
         draw_petals(screen, *ROSE, self.levels)
         draw_signs(screen, *ROSE, now.signs)
-        stamp(screen, tank(0, UP), *ROSE)
+        blit_sprite(screen, tank(0, UP), *ROSE)
         left, right = bar_ends(self.words)
         bar_knob().draw(screen, left + (right - left) * now.knowing, BAR_Y)
 
 
 @cached
-@sliced
+@resumable
 def ground(language: str) -> Steps[pygame.Surface]:
     """Everything of the page that never changes."""
-    words, page = Words(language), Page()
-    out = blacked(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
+    words, canvas = Words(language), LayeredCanvas()
+    out = black_out(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
     yield
     title = words("lab.title")
-    page.text(title, TITLE, LEFT, TITLE_Y, ICE)
+    canvas.text(title, TITLE, LEFT, TITLE_Y, ICE)
     yield
-    _saying(page, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
+    _saying(canvas, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
     yield
-    page.hot.line(outline(MATCH, 20), WALL, THIN, True)
+    canvas.glow.line(outline(MATCH, 20), WALL, THIN, True)
     yield
     for x in range(52, ARENA.w, 52):
         for y in range(52, ARENA.h, 52):
-            page.cold.disc(ARENA.x + x, ARENA.y + y, 1.5, (26, 37, 54))
+            canvas.crisp.disc(ARENA.x + x, ARENA.y + y, 1.5, (26, 37, 54))
     yield
     for box in (KNOBS, CURVE, PLAN):
-        panel(page.hot, *box)
+        panel(canvas.glow, *box)
     yield
-    _named(page, words("lab.likes"), KNOBS)
-    _named(page, words("lab.wins"), CURVE)
-    page.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
-    page.cold.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
+    _named(canvas, words("lab.likes"), KNOBS)
+    _named(canvas, words("lab.wins"), CURVE)
+    canvas.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
+    canvas.crisp.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
     yield
-    _legend(page, words)
-    _bar(page, words)
-    _play(page, words("lab.play"))
+    _legend(canvas, words)
+    _bar(canvas, words)
+    _play(canvas, words("lab.play"))
     yield
-    light = yield from page.lighting()
+    light = yield from canvas.lighting()
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     return out
 
 
-def _named(page: Page, name: str, box: pygame.Rect) -> None:
-    page.body(name, box.left + 32, box.top + 40, ICE, "l", fitted(name, BODY + 4, box.w - 64, "body"))
+def _named(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
+    canvas.body(name, box.left + 32, box.top + 40, ICE, "l", fit_size(name, BODY + 4, box.w - 64, "body"))
 
 
-def _saying(page: Page, said: str, x: float) -> None:
+def _saying(canvas: LayeredCanvas, said: str, x: float) -> None:
     """What the Lab is about, in two lines beside its title, where there is room."""
-    lines = balanced(said, 2)
+    lines = wrap_balanced(said, 2)
     if all(text_width(line, BODY, "body") <= MATCH.right - x for line in lines):
         for i, line in enumerate(lines):
-            page.body(line, x, TITLE_Y + 24 * (2 * i + 1 - len(lines)), MIST)
+            canvas.body(line, x, TITLE_Y + 24 * (2 * i + 1 - len(lines)), MIST)
 
 
-def _legend(page: Page, words: Words) -> None:
+def _legend(canvas: LayeredCanvas, words: Words) -> None:
     """What the rose means."""
     y, room = PLAN.top, PLAN.right - WORDS_X - 28
     title = words("lab.plan")
-    page.text(title, fitted(title, 60, room), WORDS_X, y + 56, ICE)
+    canvas.text(title, fit_size(title, 60, room), WORDS_X, y + 56, ICE)
     for i, key in enumerate(("lab.enemy", "lab.does")):
         said = words(key)
-        page.body(said, WORDS_X, y + 116 + 48 * i, MIST, "l", fitted(said, BODY, room, "body"))
+        canvas.body(said, WORDS_X, y + 116 + 48 * i, MIST, "l", fit_size(said, BODY, room, "body"))
     for i, (name, key) in enumerate((("shoot", "shoot"), ("ahead", "drive"), ("turn_right", "turn"))):
-        icon(page.cold, name, WORDS_X + 20, y + 226 + 52 * i, 18, ICE, 5 if name == "shoot" else 6)
-        page.body(words(f"lab.{key}"), WORDS_X + 60, y + 226 + 52 * i)
+        icon(canvas.crisp, name, WORDS_X + 20, y + 226 + 52 * i, 18, ICE, 5 if name == "shoot" else 6)
+        canvas.body(words(f"lab.{key}"), WORDS_X + 60, y + 226 + 52 * i)
     x = float(WORDS_X)
     for key, level in (("good", LEVELS), ("bad", -LEVELS)):
-        page.cold.fill(cut(x, y + 368, 32, 32, 7), dim(tone(level), 0.5)).line(
-            cut(x, y + 368, 32, 32, 7), tone(level), THIN, True
+        canvas.crisp.fill(cut_box(x, y + 368, 32, 32, 7), dim(tone(level), 0.5)).line(
+            cut_box(x, y + 368, 32, 32, 7), tone(level), THIN, True
         )
-        page.body(words(f"lab.{key}"), x + 48, y + 384)
+        canvas.body(words(f"lab.{key}"), x + 48, y + 384)
         x += 48 + text_width(words(f"lab.{key}"), BODY, "body") + 36
 
 
@@ -205,39 +205,39 @@ def bar_ends(words: Words) -> tuple[float, float]:
     return left, PLAN.right - 36 - text_width(words("lab.knowing"), BODY, "body") - 32
 
 
-def _bar(page: Page, words: Words) -> None:
+def _bar(canvas: LayeredCanvas, words: Words) -> None:
     left, right = bar_ends(words)
-    page.body(words("lab.guessing"), PLAN.left + 36, BAR_Y, MIST)
-    page.body(words("lab.knowing"), PLAN.right - 36, BAR_Y, ICE, "r")
+    canvas.body(words("lab.guessing"), PLAN.left + 36, BAR_Y, MIST)
+    canvas.body(words("lab.knowing"), PLAN.right - 36, BAR_Y, ICE, "r")
     steps = 60
     for i in range(steps):
         x, color = left + (right - left) * i / steps, mix((120, 70, 170), GOOD, i / steps)
-        page.cold.fill([(x, BAR_Y - 7), (x + (right - left) / steps + 1, BAR_Y - 7),
+        canvas.crisp.fill([(x, BAR_Y - 7), (x + (right - left) / steps + 1, BAR_Y - 7),
                         (x + (right - left) / steps + 1, BAR_Y + 7), (x, BAR_Y + 7)], color)  # fmt: skip
 
 
-def _play(page: Page, said: str) -> None:
+def _play(canvas: LayeredCanvas, said: str) -> None:
     """The button that leads into a match against it."""
-    page.hot.line(outline(PLAY), GREEN, THIN, True)
-    icon(page.hot, "pad", PLAY.left + 58, PLAY.centery, 34, GREEN, THIN)
-    page.body(said, PLAY.left + 112, PLAY.centery, ICE, "l", fitted(said, BODY + 2, PLAY.w - 136, "body"))
+    canvas.glow.line(outline(PLAY), GREEN, THIN, True)
+    icon(canvas.glow, "pad", PLAY.left + 58, PLAY.centery, 34, GREEN, THIN)
+    canvas.body(said, PLAY.left + 112, PLAY.centery, ICE, "l", fit_size(said, BODY + 2, PLAY.w - 136, "body"))
 
 
 @cached
-def speed(most: str, chosen: int) -> Lit:
+def speed(most: str, chosen: int) -> LitImage:
     """The three speeds, one of them lit; upper left at (0, 0)."""
-    pane = Pane(0, 0, SPEED.w, SPEED.h)
-    pane.hot.line(cut(0, 0, SPEED.w, SPEED.h, 16), BLUE, THIN, True)
+    layer = Layer(0, 0, SPEED.w, SPEED.h)
+    layer.glow.line(cut_box(0, 0, SPEED.w, SPEED.h, 16), BLUE, THIN, True)
     for i, (said, name) in enumerate(zip((*SPEEDS[:-1], most), SPEED_SIGNS, strict=True)):
         x, w = speed_part(i)
         on = i == chosen
         if on:
-            pane.page.cold.fill(cut(x + 8, 8, w - 16, SPEED.h - 16, 10), dim(BLUE, 0.3))
+            layer.canvas.crisp.fill(cut_box(x + 8, 8, w - 16, SPEED.h - 16, 10), dim(BLUE, 0.3))
         wide = text_width(said, BODY)
         left = x + (w - wide - 44) / 2
-        icon(pane.page.cold, name, left + 16, SPEED.h / 2, 17, BLUE if on else STEEL, THIN)
-        pane.page.cold.text(said, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
-    return pane.done()
+        icon(layer.canvas.crisp, name, left + 16, SPEED.h / 2, 17, BLUE if on else STEEL, THIN)
+        layer.canvas.crisp.text(said, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
+    return layer.done()
 
 
 def speed_part(i: int) -> tuple[int, int]:
@@ -251,45 +251,45 @@ def speed_at(x: float) -> int:
 
 
 @cached
-def knob_name(said: str, focus: bool) -> Lit:
+def knob_name(said: str, focus: bool) -> LitImage:
     """What a knob turns, in two lines at most below it; round the middle of the knob."""
     color: Color = FOCUS if focus else ICE
-    lines = balanced(said, 2)
-    pane = Pane(-104, 60, 208, 90)
+    lines = wrap_balanced(said, 2)
+    layer = Layer(-104, 60, 208, 90)
     for i, line in enumerate(lines):
         y = 84 + 40 * i + (20 if len(lines) == 1 else 0)
-        pane.page.body(line, 0, y, color, "c", fitted(line, BODY, 200, "body"))
-    return pane.done()
+        layer.canvas.body(line, 0, y, color, "c", fit_size(line, BODY, 200, "body"))
+    return layer.done()
 
 
 @cached
-def warming(said: str) -> Lit:
+def warming(said: str) -> LitImage:
     """What is being waited for, beside a clock: above the middle of the plot, where no curve comes so early."""
-    pane = Pane(PLOT.x, PLOT.y - 10, PLOT.w, 92)
-    icon(pane.page.cold, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
-    for i, line in enumerate(balanced(said, 2)):
-        size = fitted(line, BODY, PLOT.w - 92, "body")
-        pane.page.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
-    return pane.done()
+    layer = Layer(PLOT.x, PLOT.y - 10, PLOT.w, 92)
+    icon(layer.canvas.crisp, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
+    for i, line in enumerate(wrap_balanced(said, 2)):
+        size = fit_size(line, BODY, PLOT.w - 92, "body")
+        layer.canvas.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
+    return layer.done()
 
 
 @cached
 def tag(said: str) -> Sprite:
     """A word on a black plate, from its upper left corner."""
     w = round(text_width(said, BODY, "body")) + 40
-    ink = Ink(w + 48, 102).to(24, 24)
-    ink.solid(cut(0, 0, w, 54, 12)).line(cut(0, 0, w, 54, 12), STEEL, 3, True)
+    ink = GlowCanvas(w + 48, 102).to(24, 24)
+    ink.solid(cut_box(0, 0, w, 54, 12)).line(cut_box(0, 0, w, 54, 12), STEEL, 3, True)
     ink.text(said, BODY, w / 2, 27, ICE, "body", "c")
     return Sprite(ink.sprite(0.5), -24, -24)
 
 
 @cached
-def bar_knob() -> Lit:
+def bar_knob() -> LitImage:
     """Where on the bar it is, round (0, 0)."""
-    ink = Ink(80, 80).disc(40, 40, 17, WHITE)
-    return Lit(ink.lit(0.5), (-40, -40))
+    ink = GlowCanvas(80, 80).disc(40, 40, 17, WHITE)
+    return LitImage(ink.lit(0.5), (-40, -40))
 
 
 def outline(box: pygame.Rect, c: float = 16) -> Points:
     """The house shape of a box."""
-    return cut(box.x, box.y, box.w, box.h, c)
+    return cut_box(box.x, box.y, box.w, box.h, c)

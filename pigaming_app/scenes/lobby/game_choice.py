@@ -13,8 +13,8 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Turn
 from pigaming_app.scenes.views.game_tile import TILE_H, tile, tile_rect
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, heading
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, heading
 
 IDLE = 60.0  # seconds without a press until the title
 DOWN = (1080 - TILE_H) // 2 - tile_rect(0).y + 20  # px by which the tiles stand lower than on the title
@@ -30,7 +30,7 @@ class GameChoice:
         self.access = Access(context, lambda: self.devices)
         games = list(GAMES)
         after = games[(games.index(setup.game) + 1) % len(games)]
-        self.focus = Focus([Spot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(games)], after)
+        self.focus = Focus([FocusSpot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(games)], after)
         hints = [(Act.FIRE, "choice.hint_ok"), (Act.BACK, "choice.hint_back")]
         self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
 
@@ -39,7 +39,7 @@ class GameChoice:
 
     def on(self, press: Press) -> Turn:
         """FIRE chooses a game, BACK leads back to the results."""
-        admitted = self.access.admit(self.prompts.meant(press))
+        admitted = self.access.admit(self.prompts.as_button(press))
         if admitted is None:
             return None
         if admitted.act is Act.BACK:
@@ -63,7 +63,7 @@ class GameChoice:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("choice.title")).draw(screen)
-        blacked(screen, *(spot.rect for spot in self.focus.spots))
+        black_out(screen, *(spot.rect for spot in self.focus.spots))
         for spot in self.focus.spots:
             game = spot.name
             line = tagline(words, game, kept_goal(self.context.settings, game))

@@ -27,12 +27,12 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import PLAYERS
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, backdrop, span
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, frame, heading
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, frame, heading
 
 IDLE = 60.0  # seconds without a press until the title
 DEAF = 0.35  # seconds in which nobody can begin: the press that said "ready" may be hammered
@@ -59,7 +59,7 @@ class SetupPage:
         self.access = Access(context, seats.devices)
         self.going = False  # a match was asked for
         hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
-        self.focus = Focus([Spot(name, box) for name, box in self.rows.items()], "arena")
+        self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
         self.navigation = Navigation(context, self.focus, hints, IDLE, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
@@ -69,7 +69,7 @@ class SetupPage:
 
     def on(self, press: Press) -> Turn:
         """Change, begin, or go back."""
-        admitted = self.access.admit(self.navigation.prompts.meant(press))
+        admitted = self.access.admit(self.navigation.prompts.as_button(press))
         if admitted is None or self.going:
             return None
         press = admitted
@@ -103,12 +103,12 @@ class SetupPage:
         screen.blit(backdrop(), (0, 0))
         heading(words("setup.title")).draw(screen)
         choice.lineup(self._signs()).draw(screen, RIGHT, 112)
-        blacked(screen, FRAME, *self.rows.values())
+        black_out(screen, FRAME, *self.rows.values())
         self._picture(screen)
         for name, box in self.rows.items():
             self._row(name).draw(screen, *box.topleft)
         self._records(screen)
-        choice.meant(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
+        choice.as_button(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
         self.focus.draw(screen)
         self.navigation.prompts.draw(screen)
 
@@ -145,7 +145,7 @@ class SetupPage:
         except NotSaved as trouble:
             log.warning("%s", trouble)
 
-    def _row(self, name: str) -> Lit:
+    def _row(self, name: str) -> LitImage:
         """What a row says."""
         words, now, game = self.context.words, self.chosen, self.game
         if name == "arena":
@@ -239,11 +239,11 @@ class SetupPage:
 
 
 @cached
-@sliced
-def picture(game: str, name: str) -> Steps[Lit]:
+@resumable
+def picture(game: str, name: str) -> Steps[LitImage]:
     """A large picture of an arena, where the page shows it."""
     image = yield from preview(load_kept(game, name), *PICTURE.size)
-    return Lit(image, PICTURE.topleft)
+    return LitImage(image, PICTURE.topleft)
 
 
 @lru_cache(maxsize=16)

@@ -11,14 +11,14 @@ from pigaming_app.ui.draw import (
     SUB,
     THIN,
     badge,
-    cut,
+    cut_box,
     dim,
     icon,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, shrunk_lines
+from pigaming_app.ui.draw.text import fit_lines, fit_size
 
 W = span(8, 4)[1]
 PAD = 32  # px between a row's edge and what is in it
@@ -27,32 +27,32 @@ FEW = 4  # chips that have all the room they want
 
 
 @cached
-def row(name: str, value: str, aside: str = "", line: str = "") -> Lit:
+def row(name: str, value: str, aside: str = "", line: str = "") -> LitImage:
     """What is chosen, a fact beside it, the value between arrows, and a sentence about it; upper left at (0, 0)."""
     high = 236 if line else 140
-    pane = _named(name, high)
-    pane.page.body(aside, W - PAD, 38, MIST, "r")
-    size = fitted(value, LABEL, W - 2 * PAD - 100)
-    pane.page.text(value, size, W / 2, 94, ICE, "head", "c")
+    layer = _named(name, high)
+    layer.canvas.body(aside, W - PAD, 38, MIST, "r")
+    size = fit_size(value, LABEL, W - 2 * PAD - 100)
+    layer.canvas.text(value, size, W / 2, 94, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
-        icon(pane.hot, sign, x, 94, 20, MIST, LINE)
+        icon(layer.glow, sign, x, 94, 20, MIST, LINE)
     room = W - 2 * PAD
-    size, parts = shrunk_lines(line, room, 2)
+    size, parts = fit_lines(line, room, 2)
     for i, part in enumerate(parts):
-        pane.page.body(part, PAD, 156 + 48 * i, MIST, "l", size)
-    return pane.done()
+        layer.canvas.body(part, PAD, 156 + 48 * i, MIST, "l", size)
+    return layer.done()
 
 
 @cached
-def chips(name: str, values: tuple[str, ...], value: str) -> Lit:
+def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
     """All values side by side, the chosen one lit; upper left at (0, 0)."""
-    pane = _named(name, 140)
+    layer = _named(name, 140)
     wide, pitch = chip_size(len(values))
     for i, said in enumerate(values):
         x, on = PAD + i * pitch, said == value
-        pane.hot.line(cut(x, 66, wide, 60, 12 if wide == CHIP else 10), ICE if on else STEEL, THIN, True)
-        pane.page.cold.text(said, BODY, x + wide / 2, 96, ICE if on else MIST, "head", "c")
-    return pane.done()
+        layer.glow.line(cut_box(x, 66, wide, 60, 12 if wide == CHIP else 10), ICE if on else STEEL, THIN, True)
+        layer.canvas.crisp.text(said, BODY, x + wide / 2, 96, ICE if on else MIST, "head", "c")
+    return layer.done()
 
 
 def chip_size(count: int) -> tuple[int, int]:
@@ -70,16 +70,16 @@ def chip_at(count: int, x: float) -> int | None:
 
 
 @cached
-def records(lines: tuple[tuple[str, str, str], ...]) -> Lit:
+def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
     """The best so far: what, how much and whose, a line for each; upper left at (0, 0)."""
-    pane = Pane(0, 0, W, records_high(len(lines)))
+    layer = Layer(0, 0, W, records_high(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
         y = 38 + 56 * i
-        icon(pane.hot, "crown", PAD + 18, y - 2, 16, FOCUS, 3)
-        pane.page.body(name, PAD + 52, y, MIST, "l", fitted(name, BODY, W - 2 * PAD - 364, "body"))
-        pane.page.text(value, BODY, W - PAD - 110, y, ICE, "head", "r")
-        pane.page.text(initials, BODY, W - PAD, y, FOCUS, "head", "r")
-    return pane.done()
+        icon(layer.glow, "crown", PAD + 18, y - 2, 16, FOCUS, 3)
+        layer.canvas.body(name, PAD + 52, y, MIST, "l", fit_size(name, BODY, W - 2 * PAD - 364, "body"))
+        layer.canvas.text(value, BODY, W - PAD - 110, y, ICE, "head", "r")
+        layer.canvas.text(initials, BODY, W - PAD, y, FOCUS, "head", "r")
+    return layer.done()
 
 
 def records_high(lines: int) -> int:
@@ -88,47 +88,47 @@ def records_high(lines: int) -> int:
 
 
 @cached
-def begin(said: str) -> Lit:
+def begin(said: str) -> LitImage:
     """The button that begins; upper left at (0, 0)."""
-    pane = Pane(0, 0, W, 96)
-    pane.hot.line(cut(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)
-    size = fitted(said, SUB, W - 200)
+    layer = Layer(0, 0, W, 96)
+    layer.glow.line(cut_box(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)
+    size = fit_size(said, SUB, W - 200)
     x = W / 2 - text_width(said, size) / 2
-    icon(pane.hot, "right", x - 30, 48, 24, FOCUS, LINE)
-    pane.page.text(said, size, W / 2 + 16, 48, FOCUS, "head", "c")
-    return pane.done()
+    icon(layer.glow, "right", x - 30, 48, 24, FOCUS, LINE)
+    layer.canvas.text(said, size, W / 2 + 16, 48, FOCUS, "head", "c")
+    return layer.done()
 
 
 @cached
-def lineup(seats: tuple[tuple[int, str], ...]) -> Lit:
+def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
     """Who plays: badges and the icons of what drives them, ending at x = 0."""
     pitch = 168
-    pane = Pane(-pitch * len(seats), -40, pitch * len(seats), 80)
+    layer = Layer(-pitch * len(seats), -40, pitch * len(seats), 80)
     for k, (seat, sign) in enumerate(seats):
         x = -pitch * (len(seats) - k)
-        badge(pane.hot, seat, x + 50, 0, 30)
-        icon(pane.hot, sign, x + 124, 0, 30, MIST, THIN)
-    return pane.done()
+        badge(layer.glow, seat, x + 50, 0, 30)
+        icon(layer.glow, sign, x + 124, 0, 30, MIST, THIN)
+    return layer.done()
 
 
 @cached
-def mark(seat: int) -> Lit:
+def mark(seat: int) -> LitImage:
     """Who begins here; round (0, 0)."""
-    pane = Pane(-24, -24, 48, 48)
-    badge(pane.hot, seat, 0, 0, 17)
-    return pane.done()
+    layer = Layer(-24, -24, 48, 48)
+    badge(layer.glow, seat, 0, 0, 17)
+    return layer.done()
 
 
 @cached
-def meant(high: int) -> Lit:
+def as_button(high: int) -> LitImage:
     """What a row in focus gets on top of its outline; upper left at (0, 0)."""
-    pane = Pane(0, 0, W, high)
-    pane.hot.line(cut(0, 0, W, high, 16), dim(FOCUS, 0.55), THIN, True)
-    return pane.done()
+    layer = Layer(0, 0, W, high)
+    layer.glow.line(cut_box(0, 0, W, high, 16), dim(FOCUS, 0.55), THIN, True)
+    return layer.done()
 
 
-def _named(name: str, high: int) -> Pane:
-    pane = Pane(0, 0, W, high)
-    pane.hot.line(cut(0, 0, W, high, 16), STEEL, THIN, True)
-    pane.page.body(name, PAD, 38, MIST)
-    return pane
+def _named(name: str, high: int) -> Layer:
+    layer = Layer(0, 0, W, high)
+    layer.glow.line(cut_box(0, 0, W, high, 16), STEEL, THIN, True)
+    layer.canvas.body(name, PAD, 38, MIST)
+    return layer

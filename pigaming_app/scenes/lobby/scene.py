@@ -25,7 +25,7 @@ from pigaming_app.scenes.lobby.match_setup import SetupPage
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES, Seats
 from pigaming_app.scenes.lobby.view import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.play.runner import Stage
-from pigaming_app.ui.draw.frame_budget import Ahead
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.focus import Focus
 
@@ -51,7 +51,7 @@ class Lobby:
         self.access = Access(context, self.seats.devices)
         self.page = LobbyPage(context, self.seats, self.now, lambda: summary(context, game), self.access)
         self.focus = Focus(spots(self.seats))
-        self.ahead = Ahead(card.ahead())
+        self.ahead = PrewarmQueue(card.ahead())
         self.rehearsal: Stage | None = None
 
     def entered(self) -> None:
@@ -66,7 +66,7 @@ class Lobby:
 
     def on(self, press: Press) -> Turn:
         """Join, be ready, leave, call AIs, choose teams, begin."""
-        meant = self.page.prompts.meant(press)
+        meant = self.page.prompts.as_button(press)
         admitted = self.access.admit(meant)
         if admitted is None:
             self._knock(meant)

@@ -23,22 +23,22 @@ from pigaming_app.ui.draw import (
     STEEL,
     THIN,
     Color,
-    Ink,
+    GlowCanvas,
     badge,
     button,
     button_width,
-    cut,
+    cut_box,
     dim,
     icon,
     panel,
     shape_points,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 
@@ -55,46 +55,46 @@ UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and
 
 
 @cached
-@sliced
-def frame(player: int, said: str, bold: bool) -> Steps[Lit]:
+@resumable
+def frame(player: int, said: str, bold: bool) -> Steps[LitImage]:
     """The card of somebody."""
-    pane = Pane(0, 0, W, H)
-    panel(pane.hot, 0, 0, W, H, PLAYERS[player], LINE if bold else THIN)
-    badge(pane.hot, player, 72, 76, 36)
-    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, ICE)
+    layer = Layer(0, 0, W, H)
+    panel(layer.glow, 0, 0, W, H, PLAYERS[player], LINE if bold else THIN)
+    badge(layer.glow, player, 72, 76, 36)
+    layer.canvas.text(said, fit_size(said, LABEL, W - 160), 136, 76, ICE)
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 @cached
-@sliced
-def empty(player: int, said: str) -> Steps[Lit]:
+@resumable
+def empty(player: int, said: str) -> Steps[LitImage]:
     """The card of nobody."""
-    pane, color = Pane(0, 0, W, H), PLAYERS[player]
-    pane.hot.dashes(cut(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
-    badge(pane.hot, player, 72, 76, 36, dim(color, 0.75))
-    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, MIST)
+    layer, color = Layer(0, 0, W, H), PLAYERS[player]
+    layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
+    badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
+    layer.canvas.text(said, fit_size(said, LABEL, W - 160), 136, 76, MIST)
     outline = [(MIDDLE + y * OUTLINE, PLUS_Y - x * OUTLINE) for x, y in shape_points(player, 1)]
-    pane.hot.dashes(outline, dim(color, 0.7), LINE, 24, 18)
+    layer.glow.dashes(outline, dim(color, 0.7), LINE, 24, 18)
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 @cached
-def invitation(player: int, said: str, labels: tuple[str, ...], level: int) -> Lit:
+def invitation(player: int, said: str, labels: tuple[str, ...], level: int) -> LitImage:
     """What an empty seat asks for: one of the buttons `labels`. A `level` of 0 means: another seat comes first."""
     if 0 < level < LEVELS:
         return dimmed(invitation(player, said, labels, LEVELS), level / LEVELS)
-    pane = Pane(0, 230, W, 370)
-    icon(pane.hot, "plus", MIDDLE, PLUS_Y, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
-    pane.page.body(said, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fitted(said, BODY, W - 48, "body"))
+    layer = Layer(0, 230, W, 370)
+    icon(layer.glow, "plus", MIDDLE, PLUS_Y, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
+    layer.canvas.body(said, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fit_size(said, BODY, W - 48, "body"))
     rows = rows_of(labels)
     for i, row in enumerate(rows):
         x = MIDDLE - (sum(map(button_width, row)) + GAP * (len(row) - 1)) / 2
         y = BUTTONS_Y + BUTTON_PITCH * (i - (len(rows) - 1) / 2)
         for label in row:
-            x += button(pane.page, x, y, label, FOCUS if level else STEEL) + GAP
-    return pane.done()
+            x += button(layer.canvas, x, y, label, FOCUS if level else STEEL) + GAP
+    return layer.done()
 
 
 def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
@@ -111,84 +111,84 @@ def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
 
 
 @cached
-def driver(sign: str, name: str) -> Lit:
+def driver(sign: str, name: str) -> LitImage:
     """An icon and who drives: the name of a pad, the keys that steer, or an AI."""
-    pane = Pane(24, DEVICE_Y - 44, W - 48, 88)
-    icon(pane.hot, sign, 78, DEVICE_Y, 36, MIST, THIN)
+    layer = Layer(24, DEVICE_Y - 44, W - 48, 88)
+    icon(layer.glow, sign, 78, DEVICE_Y, 36, MIST, THIN)
     marks = name.split()
     if marks and all(mark in ARROWS for mark in marks):
         for i, mark in enumerate(marks):
-            icon(pane.hot, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
+            icon(layer.glow, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
     else:
-        pane.page.body(name, 136, DEVICE_Y, ICE, "l", fitted(name, BODY, W - 160, "body"))
-    return pane.done()
+        layer.canvas.body(name, 136, DEVICE_Y, ICE, "l", fit_size(name, BODY, W - 160, "body"))
+    return layer.done()
 
 
 @cached
-def strength(said: str, upright: bool) -> Lit:
+def strength(said: str, upright: bool) -> LitImage:
     """The bar of an AI: how strong it is, between the arrows that change that."""
-    pane = Pane(*BAR)
-    pane.hot.line(cut(*BAR, 14), STEEL, THIN, True)
-    pane.page.text(said, fitted(said, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
+    layer = Layer(*BAR)
+    layer.glow.line(cut_box(*BAR, 14), STEEL, THIN, True)
+    layer.canvas.text(said, fit_size(said, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
     for name, x in zip(("down", "up") if upright else ("left", "right"), (60, W - 60), strict=True):
-        icon(pane.hot, name, x, BAR_Y, 20, MIST, LINE)
-    return pane.done()
+        icon(layer.glow, name, x, BAR_Y, 20, MIST, LINE)
+    return layer.done()
 
 
 @cached
-def team(said: str, number: int) -> Lit:
+def team(said: str, number: int) -> LitImage:
     """Which team, with the bars that its robots wear, between the arrows that change it."""
-    pane, x, size = _team(said)
+    layer, x, size = _team(said)
     for i in range(number + 1):
-        pane.hot.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
-    pane.page.cold.text(said, size, x + 44, TEAM_Y, ICE, "head")
-    return pane.done()
+        layer.glow.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
+    layer.canvas.crisp.text(said, size, x + 44, TEAM_Y, ICE, "head")
+    return layer.done()
 
 
 @cached
-def side(said: str, number: int) -> Lit:
+def side(said: str, number: int) -> LitImage:
     """Which of the two sides of the factory, with its emblem and in its colour, between the arrows that change it."""
-    pane, x, size = _team(said)
-    emblem(pane.hot, number, x + 10, TEAM_Y, 24)
-    pane.page.cold.text(said, size, x + 48, TEAM_Y, TEAMS[number], "head")
-    return pane.done()
+    layer, x, size = _team(said)
+    emblem(layer.glow, number, x + 10, TEAM_Y, 24)
+    layer.canvas.crisp.text(said, size, x + 48, TEAM_Y, TEAMS[number], "head")
+    return layer.done()
 
 
 @cached
-def real(said: str, on: bool, middle: int) -> Lit:
+def real(said: str, on: bool, middle: int) -> LitImage:
     """Whether a seat's robot is real, as it is lit on the mat, or a drawn one; between the arrows that change it."""
-    pane = Pane(24, middle - 30, W - 48, 60)
-    size = fitted(said, BODY - 4, W - 250, "body")
+    layer = Layer(24, middle - 30, W - 48, 60)
+    size = fit_size(said, BODY - 4, W - 250, "body")
     x = MIDDLE - (text_width(said, size, "body") + 54) / 2
     color = GREEN if on else MIST
-    pane.hot.ring(x + 18, middle, 18, color, THIN)
+    layer.glow.ring(x + 18, middle, 18, color, THIN)
     if on:
-        pane.page.cold.disc(x + 18, middle, 12, GREY)
-    pane.page.body(said, x + 54, middle, ICE if on else MIST, "l", size)
+        layer.canvas.crisp.disc(x + 18, middle, 12, GREY)
+    layer.canvas.body(said, x + 54, middle, ICE if on else MIST, "l", size)
     for name, cx in (("up", 60), ("down", W - 60)):
-        icon(pane.hot, name, cx, middle, 16, MIST, LINE)
-    return pane.done()
+        icon(layer.glow, name, cx, middle, 16, MIST, LINE)
+    return layer.done()
 
 
-def _team(said: str) -> tuple[Pane, float, int]:
+def _team(said: str) -> tuple[Layer, float, int]:
     """A pane with the arrows that change a team; where its sign begins, px, and the size of its name."""
-    pane = Pane(24, TEAM_Y - 34, W - 48, 68)
-    size = fitted(said, BODY, W - 240)
+    layer = Layer(24, TEAM_Y - 34, W - 48, 68)
+    size = fit_size(said, BODY, W - 240)
     for name, cx in (("left", 60), ("right", W - 60)):
-        icon(pane.hot, name, cx, TEAM_Y, 18, MIST, LINE)
-    return pane, MIDDLE - (text_width(said, size) + 44) / 2, size
+        icon(layer.glow, name, cx, TEAM_Y, 18, MIST, LINE)
+    return layer, MIDDLE - (text_width(said, size) + 44) / 2, size
 
 
 @cached
-def turntable(player: int, turn: int, lit: bool, r: int) -> Lit:
+def turntable(player: int, turn: int, lit: bool, r: int) -> LitImage:
     """Arcs round a robot at (0, 0), `turn` of TURNS on their way to the next, on a circle of `r` px."""
     half = r + 30
-    ink = Ink(2 * half, 2 * half)
+    ink = GlowCanvas(2 * half, 2 * half)
     color: Color = dim(PLAYERS[player], 0.8 if lit else 0.35)
     for i in range(SPOKES):
         start = 0.25 + (i + turn / TURNS) * math.tau / SPOKES
         ink.arc(half, half, r, start, start + 0.7, color, THIN)
-    return Lit(ink.lit(1.0), (-half, -half))
+    return LitImage(ink.lit(1.0), (-half, -half))
 
 
 @cached

@@ -16,10 +16,10 @@ from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.focus import Spot
-from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse, stamp
-from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, asked, ready
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
+from pigaming_app.ui.widgets.focus import FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_action, heading, pulse
+from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar
 
 TOP, MESSAGE_Y, LINE_Y = 216, 884, 932
 ROLL_IN = 0.35  # seconds in which a robot comes onto its turntable
@@ -56,14 +56,14 @@ class LobbyPage:
         """Paint the page; `fact` tells what stands beside its title."""
         screen.blit(backdrop(), (0, 0))
         heading(self.context.words("lobby.title"), self.fact()).draw(screen)
-        blacked(screen, *map(card_rect, range(PLACES)))
+        black_out(screen, *map(card_rect, range(PLACES)))
         for seat in range(PLACES):
             self._card(screen, seat)
         self._message(screen)
         self.prompts.draw(screen)
 
     @property
-    def prompts(self) -> Prompts:
+    def prompts(self) -> ButtonPrompts:
         """The hints that are true for the device used last, if it may act."""
         seat = self.seats.of(self.access.voice)
         full = not self.seats.like(EMPTY)
@@ -115,10 +115,10 @@ class LobbyPage:
         if place.kind == AI:
             card.strength(words(f"lobby.{place.strength}"), self.seats.teams).draw(screen, x, y)
         elif place.ready:
-            ready(seat, words("lobby.ready")).draw(screen, x, y)
+            ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
         else:
             label = words.printed(self.context.controls.label(place.device, Act.FIRE))
-            asked(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
+            ask_bar(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
 
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
         place, (x, y) = self.seats.places[seat], card_rect(seat).topleft
@@ -131,18 +131,18 @@ class LobbyPage:
         hop = 8 * abs(math.sin(self.now.clock * 7 + seat)) if place.ready else 0.0
         look = 0.0 if place.ready else glance(self.now.clock, seat)
         sprite = card.robot(seat, step(card.UP + look, HEADINGS), scale)
-        stamp(screen, sprite, x + MIDDLE, y + middle_y + 120 * coming - hop)
+        blit_sprite(screen, sprite, x + MIDDLE, y + middle_y + 120 * coming - hop)
 
     def _message(self, screen: pygame.Surface) -> None:
         words, waiting = self.context.words, self.seats.waiting
         if self.now.starting is not None:
-            calling(words("lobby.starting"), "", LABEL).draw(screen, 960, MESSAGE_Y)
+            call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, MESSAGE_Y)
             reach = round(864 * (1.0 - max(0.0, self.now.starting) / self.now.whole))
             screen.fill(dim(FOCUS, 0.25), (960 - reach, LINE_Y - 5, 2 * reach, 10))
             screen.fill(FOCUS, (960 - reach, LINE_Y - 2, 2 * reach, 4))
             return
         if self.now.said > 0.0:
-            calling(self.now.message, self.now.label, LABEL).draw(screen, 960, MESSAGE_Y)
+            call_to_action(self.now.message, self.now.label, LABEL).draw(screen, 960, MESSAGE_Y)
             return
         if waiting:
             place = self.seats.places[waiting[0]]
@@ -150,23 +150,23 @@ class LobbyPage:
             label = words.printed(self.context.controls.label(place.device, Act.FIRE))
         else:
             said, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
-        calling(said, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
+        call_to_action(said, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
 
 
-def spots(seats: Seats) -> list[Spot]:
+def spots(seats: Seats) -> list[FocusSpot]:
     """What the mouse can hit: arrows and teams on the cards, then the cards."""
     found = []
     for seat, place in enumerate(seats.places):
         x, y = card_rect(seat).topleft
         if place.kind == AI:
-            found.append(Spot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
-            found.append(Spot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
+            found.append(FocusSpot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
+            found.append(FocusSpot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
         if seats.teams and place.kind != EMPTY:
-            found.append(Spot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
+            found.append(FocusSpot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
         if seats.mat and place.kind != EMPTY:
             middle = card.REAL_Y if seats.teams else card.TEAM_Y
-            found.append(Spot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
-    return [*found, *(Spot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
+            found.append(FocusSpot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
+    return [*found, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
 
 
 def problem(seats: Seats, words: Words) -> str:

@@ -16,16 +16,16 @@ from pigaming_app.ui.draw import (
     STEEL,
     THIN,
     Color,
-    Ink,
-    cut,
+    GlowCanvas,
+    cut_box,
     dim,
     icon,
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Act
 
 W, H = span(0, 3)[1], 340
@@ -42,75 +42,75 @@ KEYS = {
 ROBOT = (326, 106)
 DIAMOND = {Act.FIRE: (296, 262), Act.BACK: (352, 206), Act.EXTRA: (240, 206), Act.ALT: (296, 150)}
 START = pygame.Rect(28, 286, 168, 40)
-START_LINE = cut(START.x, START.y, START.w, START.h, 10)
+START_LINE = cut_box(START.x, START.y, START.w, START.h, 10)
 
 
 @cached
-def no_pad(said: str, line: str) -> Lit:
+def no_pad(said: str, line: str) -> LitImage:
     """A place where a pad could be."""
-    pane = Pane(0, 0, W, H)
-    pane.hot.dashes(cut(0, 0, W, H, 20), STEEL, THIN, 22, 16)
-    icon(pane.hot, "pad", W / 2, 118, 62, STEEL, THIN)
-    pane.page.body(said, W / 2, 222, MIST, "c", fitted(said, BODY, W - 40, "body"))
-    pane.page.body(line, W / 2, 276, dim(MIST, 0.7), "c", fitted(line, BODY, W - 40, "body"))
-    return pane.done()
+    layer = Layer(0, 0, W, H)
+    layer.glow.dashes(cut_box(0, 0, W, H, 20), STEEL, THIN, 22, 16)
+    icon(layer.glow, "pad", W / 2, 118, 62, STEEL, THIN)
+    layer.canvas.body(said, W / 2, 222, MIST, "c", fit_size(said, BODY, W - 40, "body"))
+    layer.canvas.body(line, W / 2, 276, dim(MIST, 0.7), "c", fit_size(line, BODY, W - 40, "body"))
+    return layer.done()
 
 
 @cached
-def pad(name: str, labels: tuple[str, ...]) -> Lit:
+def pad(name: str, labels: tuple[str, ...]) -> LitImage:
     """A pad of that name; `labels` of fire, back, extra, alt and start."""
-    pane = Pane(0, 0, W, H)
-    panel(pane.hot, 0, 0, W, H, STEEL)
-    icon(pane.hot, "pad", 62, 56, 34, MIST, THIN)
-    pane.page.cold.text(name, fitted(name, BODY, W - 140), 116, 56, ICE, "head")
-    pane.hot.ring(*STICK, REACH + 20, STEEL, LINE)
+    layer = Layer(0, 0, W, H)
+    panel(layer.glow, 0, 0, W, H, STEEL)
+    icon(layer.glow, "pad", 62, 56, 34, MIST, THIN)
+    layer.canvas.crisp.text(name, fit_size(name, BODY, W - 140), 116, 56, ICE, "head")
+    layer.glow.ring(*STICK, REACH + 20, STEEL, LINE)
     for (x, y), label in zip(DIAMOND.values(), labels, strict=False):
-        pane.hot.ring(x, y, 30, STEEL, THIN)
-        _printed(pane.hot, label, x, y, MIST)
+        layer.glow.ring(x, y, 30, STEEL, THIN)
+        _printed(layer.glow, label, x, y, MIST)
     if labels[-1]:
-        pane.hot.line(START_LINE, STEEL, THIN, True)
-        size = fitted(labels[-1], 30, START.w - 16)
-        pane.page.cold.text(labels[-1], size, START.centerx, START.centery, MIST, "head", "c")
-    return pane.done()
+        layer.glow.line(START_LINE, STEEL, THIN, True)
+        size = fit_size(labels[-1], 30, START.w - 16)
+        layer.canvas.crisp.text(labels[-1], size, START.centerx, START.centery, MIST, "head", "c")
+    return layer.done()
 
 
 @cached
-def pad_light(act: Act, label: str) -> Lit:
+def pad_light(act: Act, label: str) -> LitImage:
     """A pressed button of a pad, over its card."""
     if act is Act.START:
-        pane = Pane(*START)
-        pane.hot.fill(START_LINE, dim(FOCUS, 0.35)).line(START_LINE, FOCUS, THIN, True)
-        return pane.done()
+        layer = Layer(*START)
+        layer.glow.fill(START_LINE, dim(FOCUS, 0.35)).line(START_LINE, FOCUS, THIN, True)
+        return layer.done()
     x, y = DIAMOND[act]
-    pane = Pane(x - 32, y - 32, 64, 64)
-    pane.hot.disc(x, y, 30, dim(FOCUS, 0.35)).ring(x, y, 30, FOCUS, THIN)
-    _printed(pane.hot, label, x, y, FOCUS)
-    return pane.done()
+    layer = Layer(x - 32, y - 32, 64, 64)
+    layer.glow.disc(x, y, 30, dim(FOCUS, 0.35)).ring(x, y, 30, FOCUS, THIN)
+    _printed(layer.glow, label, x, y, FOCUS)
+    return layer.done()
 
 
 @cached
-def knob() -> Lit:
+def knob() -> LitImage:
     """The head of a stick, round (0, 0)."""
-    return Lit(Ink(96, 96).disc(48, 48, 20, FOCUS).lit(1.0), (-48, -48))
+    return LitImage(GlowCanvas(96, 96).disc(48, 48, 20, FOCUS).lit(1.0), (-48, -48))
 
 
 @cached
-def cap(label: str, w: int, h: int, down: bool) -> Lit:
+def cap(label: str, w: int, h: int, down: bool) -> LitImage:
     """A key, held down or not."""
-    pane = Pane(0, 0, w, h)
+    layer = Layer(0, 0, w, h)
     edge = FOCUS if down else STEEL
     if down:
-        pane.hot.fill(cut(0, 0, w, h, 12), dim(FOCUS, 0.35))
-    pane.hot.line(cut(0, 0, w, h, 12), edge, THIN, True)
+        layer.glow.fill(cut_box(0, 0, w, h, 12), dim(FOCUS, 0.35))
+    layer.glow.line(cut_box(0, 0, w, h, 12), edge, THIN, True)
     color = FOCUS if down else MIST
     if label in ARROWS:
-        icon(pane.hot, ARROWS[label], w / 2, h / 2, 18, color, LINE)
+        icon(layer.glow, ARROWS[label], w / 2, h / 2, 18, color, LINE)
     else:
-        pane.page.cold.text(label, fitted(label, BODY, w - 20), w / 2, h / 2, color, "head", "c")
-    return pane.done()
+        layer.canvas.crisp.text(label, fit_size(label, BODY, w - 20), w / 2, h / 2, color, "head", "c")
+    return layer.done()
 
 
-def _printed(ink: Ink, label: str, x: float, y: float, color: Color) -> None:
+def _printed(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -> None:
     """A letter, or the shape that stands for one."""
     if label in SIGNS:
         icon(ink, SIGNS[label], x, y, 17, color, THIN)

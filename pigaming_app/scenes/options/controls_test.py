@@ -18,8 +18,8 @@ from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.input.events import Act, Device, Drive, Press
 from pigaming_app.ui.input.keyboard import CLUSTERS
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.labels import blacked, heading, stamp
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
+from pigaming_app.ui.widgets.labels import black_out, blit_sprite, heading
 
 PLACES = 4
 PADS_Y, KEYS_Y = 216, 580
@@ -46,7 +46,7 @@ class PadTest:
 
     def on(self, press: Press) -> Turn:
         """Light up; Escape, the hint, and B after a while, leave."""
-        meant = self._prompts().meant(press)
+        meant = self._prompts().as_button(press)
         if meant.act is Act.BACK and meant.device.kind != "pad":
             return self._leave()
         if meant.act is Act.BACK:
@@ -81,7 +81,7 @@ class PadTest:
         pads = self.context.controls.pads()[:PLACES]
         for i in range(PLACES):
             x = span(3 * i, 3)[0]
-            blacked(screen, *(pygame.Rect(x, y, gadgets.W, gadgets.H) for y in (PADS_Y, KEYS_Y)))
+            black_out(screen, *(pygame.Rect(x, y, gadgets.W, gadgets.H) for y in (PADS_Y, KEYS_Y)))
             if i < len(pads):
                 self._pad(screen, x, PADS_Y, pads[i])
             else:
@@ -94,7 +94,7 @@ class PadTest:
 
     # ---- inside
 
-    def _prompts(self) -> Prompts:
+    def _prompts(self) -> ButtonPrompts:
         pad = self.context.controls.last.kind == "pad"
         return self.context.prompts([(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
@@ -126,7 +126,7 @@ class PadTest:
         ry = y + gadgets.ROBOT[1] + ahead * math.sin(heading)
         if drive.turbo:
             _add(screen, effects.flame(number, step(heading, effects.TURNS), pygame.time.get_ticks() // 60 % 2), rx, ry)
-        stamp(screen, tank(number, step(heading, HEADINGS)), rx, ry)
+        blit_sprite(screen, tank(number, step(heading, HEADINGS)), rx, ry)
         if drive.fire or (device, Act.FIRE) in self.lit:
             muzzle = rx + 70 * math.cos(heading), ry + 70 * math.sin(heading)
             _add(screen, effects.flash(number, step(heading, effects.TURNS)), *muzzle)

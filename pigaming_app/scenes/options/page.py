@@ -17,15 +17,15 @@ from pigaming_app.scenes.views.race.ghost_files import forget
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import LABEL
-from pigaming_app.ui.draw.frame_budget import Ahead
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.input.hold import Holds
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.focus import Focus, Spot
-from pigaming_app.ui.widgets.labels import blacked, calling, frame, heading
-from pigaming_app.ui.widgets.setting_row import Value
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
 
 IDLE = 90.0  # seconds without a press until the title
 SAID = 3.0  # seconds for which a sentence stays
@@ -49,8 +49,8 @@ class OptionsPage:
         self.clock = 0.0
         self.cleared = False
         self.clearing = Holds(context.controls, CLEAR)
-        self.focus = Focus([Spot(name, self._box(i)) for i, name in enumerate(self.rows)])
-        self.ahead = Ahead(self._ahead())
+        self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(self.rows)])
+        self.ahead = PrewarmQueue(self._ahead())
         hints = [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
@@ -59,7 +59,7 @@ class OptionsPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
-        press = self.navigation.prompts.meant(press)
+        press = self.navigation.prompts.as_button(press)
         match press.act:
             case Act.LEFT | Act.RIGHT:
                 self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
@@ -88,7 +88,7 @@ class OptionsPage:
         words, focus = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("options.operator" if self.operator else "options.title")).draw(screen)
-        blacked(screen, dials.PANEL)
+        black_out(screen, dials.PANEL)
         values = {name: self._value(name) for name in self.rows}
         dials.draw(screen, words, self.focus, "options", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
@@ -97,7 +97,7 @@ class OptionsPage:
         if self.clearing.share:
             pictures.ring(screen, self.clearing.share)
         if self.navigation.sentence:
-            calling(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
+            call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
         self.navigation.prompts.draw(screen)
 
     # ---- what is seen
@@ -124,27 +124,27 @@ class OptionsPage:
 
     # ---- what the rows are
 
-    def _value(self, name: str) -> Value:
+    def _value(self, name: str) -> SettingValue:
         settings, words, canvas = self.context.settings, self.context.words, self.context.canvas
         off_on = (words("options.off"), words("options.on"))
         match name:
             case "language":
-                return Value("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
+                return SettingValue("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
             case "music" | "sounds":
-                return Value("meter", (), settings.music if name == "music" else settings.sounds)
+                return SettingValue("meter", (), settings.music if name == "music" else settings.sounds)
             case "flashes":
                 flashes = tuple(words(f"options.{one}") for one in FLASHES)
-                return Value("toggle", flashes, FLASHES.index(settings.flashes))
+                return SettingValue("toggle", flashes, FLASHES.index(settings.flashes))
             case "shake":
-                return Value("toggle", off_on, int(settings.shake))
+                return SettingValue("toggle", off_on, int(settings.shake))
             case "fullscreen":
-                return Value("toggle", off_on, int(canvas.fullscreen))
+                return SettingValue("toggle", off_on, int(canvas.fullscreen))
             case "display":
-                return Value("arrows", tuple(canvas.displays()), canvas.display)
+                return SettingValue("arrows", tuple(canvas.displays()), canvas.display)
             case "reset":
                 key = "cleared" if self.cleared else "clear"
-                return Value("deed", (words(f"options.{key}"),))
-        return Value("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
+                return SettingValue("deed", (words(f"options.{key}"),))
+        return SettingValue("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
         """The next value of a row, or the one before it."""
@@ -181,7 +181,7 @@ class OptionsPage:
         value = self._value(name)
         if value.kind == "deed":
             return self._do(name, press)
-        hit = dials.hit(value.kind, value.options, value.chosen, press.at[0] - self.focus.rect(name).x)
+        hit = dials.value_at(value.kind, value.options, value.chosen, press.at[0] - self.focus.rect(name).x)
         if hit is not None:
             self._take(name, hit)
         return None
@@ -195,7 +195,7 @@ class OptionsPage:
             case "language":
                 settings.language = LANGUAGES[chosen]
                 context.words.switch(settings.language)
-                self.ahead = Ahead(self._ahead())
+                self.ahead = PrewarmQueue(self._ahead())
             case "music" | "sounds":
                 setattr(settings, name, chosen)
                 context.sounds.volume(settings.music, settings.sounds)

@@ -5,11 +5,25 @@ import math
 import pygame
 
 from pigaming_app.scenes.views.sprites.robot import seat_robot
-from pigaming_app.ui.draw import ALARM, FOCUS, HAIR, ICE, LABEL, LINE, STEEL, THIN, Color, Ink, cut, dim, icon
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw import (
+    ALARM,
+    FOCUS,
+    HAIR,
+    ICE,
+    LABEL,
+    LINE,
+    STEEL,
+    THIN,
+    Color,
+    GlowCanvas,
+    cut_box,
+    dim,
+    icon,
+)
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.widgets.labels import blit_sprite
 from pigaming_app.ui.widgets.setting_row import CENTRE
 
 RING_R, RING_STEPS = 150, 24  # px, and pictures of the ring
@@ -24,7 +38,7 @@ def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> No
     if name == "shake" and chosen and since < 0.35:
         jolt = round(12 * math.sin(since * 64) * (1 - since / 0.35))
     if name in ("flashes", "shake"):
-        stamp(screen, _robot(), x + jolt, y + jolt // 2)
+        blit_sprite(screen, _robot(), x + jolt, y + jolt // 2)
     else:
         drawn(name, chosen, seconds).draw(screen, x, y)
 
@@ -39,12 +53,12 @@ def ring(screen: pygame.Surface, share: float) -> None:
 def filling(step: int) -> Sprite:
     """A ring, `step` of RING_STEPS full, round (0, 0)."""
     half = RING_R + 22
-    ink = Ink(2 * half, 2 * half)
+    ink = GlowCanvas(2 * half, 2 * half)
     ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), ALARM, LINE)
     return trim(ink.lit(0.8), half, half)
 
 
-def drawn(name: str, chosen: int, seconds: float = 0.0) -> Lit:
+def drawn(name: str, chosen: int, seconds: float = 0.0) -> LitImage:
     """The picture of a row at a moment."""
     if name == "sounds":
         return _speaker(chosen, int(seconds * 6) % 4)
@@ -57,47 +71,47 @@ def _robot() -> Sprite:
 
 
 @cached
-def _burst(strength: int, stage: int) -> Lit:
-    ink = Ink(400, 400).to(200, 200)
+def _burst(strength: int, stage: int) -> LitImage:
+    ink = GlowCanvas(400, 400).to(200, 200)
     fade = (1.0 - stage / 6) * (0.25, 0.6, 1.0)[strength]
     for i in range(12):
         c, s = math.cos(i * math.tau / 12 + 0.2), math.sin(i * math.tau / 12 + 0.2)
         near, far = 96 + 8 * stage, 112 + (4 + 8 * strength) + 10 * stage
         ink.line([(near * c, near * s), (far * c, far * s)], dim(FOCUS, fade), LINE)
-    return Lit(ink.lit(0.5 + 0.5 * strength), (-200, -200))
+    return LitImage(ink.lit(0.5 + 0.5 * strength), (-200, -200))
 
 
 @cached
-def _speaker(loud: int, wave: int) -> Lit:
-    ink = Ink(400, 320).to(200, 160)
+def _speaker(loud: int, wave: int) -> LitImage:
+    ink = GlowCanvas(400, 320).to(200, 160)
     ink.line([(-92, -26), (-56, -26), (-10, -68), (-10, 68), (-56, 26), (-92, 26)], FOCUS, LINE, True)
     reach = (loud + 3) // 4  # of three waves
     for i, r in enumerate((46, 82, 118)):
         lit = i < reach
         bright = 1.0 if wave == i or wave == 3 else 0.7
         ink.arc(-10, 0, r, -0.62, 0.62, dim(FOCUS, bright) if lit else STEEL, LINE)
-    return Lit(ink.lit(1.0), (-200, -160))
+    return LitImage(ink.lit(1.0), (-200, -160))
 
 
 @cached
-def _note(loud: int, beat: int) -> Lit:
+def _note(loud: int, beat: int) -> LitImage:
     """Bars that dance, as high as the music is loud."""
-    ink = Ink(440, 320).to(220, 160)
+    ink = GlowCanvas(440, 320).to(220, 160)
     for i in range(8):
         share = 0.35 + 0.65 * abs(math.sin(1.7 * i + beat * math.pi / 4))
         cells = round(6 * share * (loud / 10)) if loud else 0
         for j in range(6):
-            box = cut(-166 + 42 * i, 74 - 30 * j, 30, 22, 5)
+            box = cut_box(-166 + 42 * i, 74 - 30 * j, 30, 22, 5)
             if j < cells:
                 ink.fill(box, FOCUS)
             else:
                 ink.line(box, dim(STEEL, 0.7), HAIR, True)
-    return Lit(ink.lit(0.7), (-220, -160))
+    return LitImage(ink.lit(0.7), (-220, -160))
 
 
 @cached
-def _drawn(name: str, chosen: int, beat: int) -> Lit:
-    ink = Ink(480, 340).to(240, 170)
+def _drawn(name: str, chosen: int, beat: int) -> LitImage:
+    ink = GlowCanvas(480, 340).to(240, 170)
     if name == "language":
         for i, said in enumerate(("EN", "PT")):
             lit: Color = FOCUS if i == chosen else STEEL
@@ -111,7 +125,7 @@ def _drawn(name: str, chosen: int, beat: int) -> Lit:
         if beat:
             ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)
     elif name == "robots":
-        ink.ring(0, 0, 104, FOCUS, LINE).line(cut(-46, -46, 92, 92, 4), ICE, LINE, True)
+        ink.ring(0, 0, 104, FOCUS, LINE).line(cut_box(-46, -46, 92, 92, 4), ICE, LINE, True)
         ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)
         for y in (-118, 118):
             ink.line([(-34, y), (34, y)], FOCUS, LINE)
@@ -122,17 +136,17 @@ def _drawn(name: str, chosen: int, beat: int) -> Lit:
     else:
         ink.arc(0, 6, 84, -math.pi / 2 + 0.5, 1.5 * math.pi - 0.5, FOCUS, LINE)
         ink.line([(0, -110), (0, -10)], FOCUS, LINE)
-    return Lit(ink.lit(0.9), (-240, -170))
+    return LitImage(ink.lit(0.9), (-240, -170))
 
 
-def _bubble(ink: Ink, x: float, y: float, side: int, color: Color) -> None:
+def _bubble(ink: GlowCanvas, x: float, y: float, side: int, color: Color) -> None:
     w, h = 150, 96
-    ink.line(cut(x - w / 2, y - h / 2, w, h, 16), color, LINE, True)
+    ink.line(cut_box(x - w / 2, y - h / 2, w, h, 16), color, LINE, True)
     ink.line([(x + side * 30, y + h / 2), (x + side * 56, y + h / 2 + 30), (x + side * 56, y + h / 2)], color, LINE)
 
 
-def _monitor(ink: Ink, full: bool, beat: int) -> None:
-    ink.line(cut(-150, -104, 300, 184, 16), ICE, LINE, True)
+def _monitor(ink: GlowCanvas, full: bool, beat: int) -> None:
+    ink.line(cut_box(-150, -104, 300, 184, 16), ICE, LINE, True)
     ink.line([(-60, 120), (60, 120)], ICE, LINE).line([(0, 80), (0, 120)], ICE, LINE)
     w, h = (264, 148) if full else (150, 84)
-    ink.line(cut(-w / 2, -12 - h / 2, w, h, 10), FOCUS, LINE if beat else THIN, True)
+    ink.line(cut_box(-w / 2, -12 - h / 2, w, h, 10), FOCUS, LINE if beat else THIN, True)

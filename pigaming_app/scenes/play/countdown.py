@@ -7,8 +7,8 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ui.draw import ALARM, BLACK, BOLD, FOCUS, ICE, Color, Ink, font
-from pigaming_app.ui.draw.frame_budget import Job, Steps, sliced
+from pigaming_app.ui.draw import ALARM, BLACK, BOLD, FOCUS, ICE, Color, GlowCanvas, font
+from pigaming_app.ui.draw.frame_budget import Job, Steps, resumable
 from pigaming_app.ui.draw.sprites import Sprite, faded, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.theme import CAPITALS
@@ -92,7 +92,7 @@ def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
 
 
 @cached
-@sliced
+@resumable
 def _word(text: str, color: Color) -> Steps[Sprite]:
     edge = font("hero", HUGE).render(text, True, BLACK)
     w, h = edge.get_width() + 128, HUGE + 128
@@ -102,7 +102,7 @@ def _word(text: str, color: Color) -> Steps[Sprite]:
         angle = i * math.tau / 24
         out.blit(edge, (64 + MOAT * math.cos(angle), top + MOAT * math.sin(angle)))
     yield
-    light = yield from Ink(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
+    light = yield from GlowCanvas(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     yield
     return trim(out, w / 2, h / 2)
@@ -123,11 +123,11 @@ def show(screen: pygame.Surface, sign: Sprite, at: tuple[int, int] = CENTRE) -> 
 
 
 @cached
-@sliced
+@resumable
 def arcs(count: int) -> Steps[Sprite]:
     """Three arcs round a number, of which `count` are still lit."""
     half = 270
-    ink = Ink(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
     for i in range(3):
         start = -math.pi / 2 + i * math.tau / 3 + 0.14
         lit = i < count

@@ -10,8 +10,8 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.ui.draw.frame_budget import Steps, budget
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Act, Device, Press
 
 TOP, PITCH, HIGH = 236, 164, 140
@@ -24,7 +24,7 @@ class DeviceTable:
     def __init__(self, context: Context, devices: Sequence[Device | None], access: Access) -> None:
         self.context, self.access = context, access
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
-        self.lit: list[Lit] = []
+        self.lit: list[LitImage] = []
         self.making = self._make()
         self.prompts = context.prompts([(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
@@ -33,7 +33,7 @@ class DeviceTable:
 
     def on(self, press: Press) -> Turn:
         """Any button leads back."""
-        admitted = self.access.admit(self.prompts.meant(press))
+        admitted = self.access.admit(self.prompts.as_button(press))
         if admitted and admitted.act in (Act.FIRE, Act.START, Act.BACK):
             self.context.sounds.play("back")
             return Pop()
@@ -56,39 +56,39 @@ class DeviceTable:
     def _make(self) -> Steps[None]:
         """Make one piece of the page after the other."""
         panes = (self._row(i, *row) for i, row in enumerate(self.rows))
-        for pane in chain([self._heading()], panes):
+        for layer in chain([self._heading()], panes):
             yield
-            lit = yield from pane.lighting()
+            lit = yield from layer.lighting()
             self.lit.append(lit)
 
-    def _heading(self) -> Pane:
-        pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
+    def _heading(self) -> Layer:
+        layer = Layer(LEFT, 54, RIGHT - LEFT, 130)
         text = self.context.words("pause.drives")
-        pane.page.text(text, fitted(text, TITLE, RIGHT - LEFT), LEFT, 112)
-        pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], ICE, LINE)
-        return pane
+        layer.canvas.text(text, fit_size(text, TITLE, RIGHT - LEFT), LEFT, 112)
+        layer.glow.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], ICE, LINE)
+        return layer
 
-    def _row(self, i: int, seat: int, device: Device) -> Pane:
+    def _row(self, i: int, seat: int, device: Device) -> Layer:
         words, controls = self.context.words, self.context.controls
         y = TOP + PITCH * i + HIGH // 2
-        pane = Pane(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
-        panel(pane.hot, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
-        badge(pane.hot, seat, LEFT + 84, y, 40)
-        icon(pane.hot, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
+        layer = Layer(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
+        panel(layer.glow, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
+        badge(layer.glow, seat, LEFT + 84, y, 40)
+        icon(layer.glow, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
         name = words(f"devices.{controls.name(device)}")
-        pane.page.body(name, NAMES + 96, y, ICE, "l", fitted(name, BODY, 264, "body"))
-        self._moves(pane, device, y)
+        layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, 264, "body"))
+        self._moves(layer, device, y)
         for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
-            wide = button(pane.page, x, y, words.printed(controls.label(device, act)))
-            pane.page.body(words(name), x + wide + 18, y, MIST)
-        return pane
+            wide = button(layer.canvas, x, y, words.printed(controls.label(device, act)))
+            layer.canvas.body(words(name), x + wide + 18, y, MIST)
+        return layer
 
-    def _moves(self, pane: Pane, device: Device, y: float) -> None:
+    def _moves(self, layer: Layer, device: Device, y: float) -> None:
         x = MOVES
         if device.kind == "pad":
-            pane.hot.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
+            layer.glow.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
             x += 78
         for mark in self.context.controls.moves(device).replace(" ", ""):
-            button(pane.page, x, y, mark)
+            button(layer.canvas, x, y, mark)
             x += 66
-        pane.page.body(self.context.words("pause.moves"), x + 12, y, MIST)
+        layer.canvas.body(self.context.words("pause.moves"), x + 12, y, MIST)

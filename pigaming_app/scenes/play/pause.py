@@ -31,13 +31,13 @@ from pigaming_app.ui.draw import (
     button_width,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, word
+from pigaming_app.ui.draw.text import fit_size, word
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay
-from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 ITEMS = ("continue", "restart", "controls", "end")
 PITCH, ITEM_H = 74, 66
@@ -103,7 +103,7 @@ class Pause:
 
     def on(self, press: Press) -> Turn:
         """START and BACK go on; so does F4, or ALT of a pad, with a look into an AI; FIRE takes what has the focus."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         if press.act is Act.ALT:
             press = replace(press, act=Act.BRAIN)
         admitted = self.access.admit(press)
@@ -152,7 +152,7 @@ class Pause:
             word(self.context.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
         self._draw_owned(screen)
         if self.waits > 0.0:
-            plate(self._why(), FOCUS).draw(screen, 960, PROMPTS)
+            caption(self._why(), FOCUS).draw(screen, 960, PROMPTS)
         else:
             self.prompts.draw(screen)
         self.match.shine(screen)
@@ -190,41 +190,43 @@ class Pause:
                 return Push(self.match.extras[extra](self.access))
         return Pop()
 
-    def _paint(self, pane: Pane) -> None:
+    def _paint(self, layer: Layer) -> None:
         words = self.context.words
         text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
-        title(pane, self.player, text, ICE, RING[0] - 80)
+        title(layer, self.player, text, ICE, RING[0] - 80)
         for spot in self.focus.spots:
-            pane.page.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+            layer.canvas.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
 
 
-def items(names: Sequence[str] = ITEMS) -> list[Spot]:
+def items(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
     """Where the items of a menu are."""
     pitch = min(PITCH, (FOOT - HEAD - 8) // len(names))
     high = pitch - PITCH + ITEM_H
     top = HEAD + (FOOT - HEAD - pitch * len(names)) // 2 + (pitch - high) // 2
-    return [Spot(name, pygame.Rect(960 - ITEM_W // 2, top + pitch * i, ITEM_W, high)) for i, name in enumerate(names)]
+    return [
+        FocusSpot(name, pygame.Rect(960 - ITEM_W // 2, top + pitch * i, ITEM_W, high)) for i, name in enumerate(names)
+    ]
 
 
 @cached
-def sure(said: str, label: str) -> Lit:
+def sure(said: str, label: str) -> LitImage:
     """A question that a second press answers, round (0, 0); {button} in it is the button."""
     before, _, after = said.partition("{button}")
     wide = button_width(label) + 36
-    size = fitted(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
+    size = fit_size(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]
     x = -(sum(ends) + wide) / 2
-    pane = Pane(x, -40, -2 * x, 80)
-    pane.page.text(before.strip(), size, x, 0, ALARM)
-    button(pane.page, x + ends[0] + 18, 0, label, ALARM)
-    pane.page.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
-    return pane.done()
+    layer = Layer(x, -40, -2 * x, 80)
+    layer.canvas.text(before.strip(), size, x, 0, ALARM)
+    button(layer.canvas, x + ends[0] + 18, 0, label, ALARM)
+    layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
+    return layer.done()
 
 
-def title(pane: Pane, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
+def title(layer: Layer, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
     """The head of a sheet: a badge, if it is about somebody, and one line that ends before `right`."""
     x = X + 72
     if player is not None:
-        badge(pane.hot, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
+        badge(layer.glow, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
         x = X + 232
-    pane.page.text(text, fitted(text, TITLE, right - x), x, Y + 116, color)
+    layer.canvas.text(text, fit_size(text, TITLE, right - x), x, Y + 116, color)

@@ -9,9 +9,9 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import Held, Pause, title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, lines_of, word
+from pigaming_app.ui.draw.text import fit_size, word, wrap
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 
@@ -53,7 +53,7 @@ class Reconnect:
 
     def on(self, press: Press) -> Turn:
         """FIRE on a free device takes the seat; EXTRA gives it to an AI; BACK opens the menu."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         admitted = self.match.access.admit(press)
         if press.act is Act.FOUND:
             self.found = True
@@ -95,15 +95,15 @@ class Reconnect:
         self.match.hand(self.seat, device)
         return Pop()
 
-    def _paint(self, pane: Pane) -> None:
-        words, ink = self.context.words, pane.hot
-        title(pane, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
+    def _paint(self, layer: Layer) -> None:
+        words, ink = self.context.words, layer.glow
+        title(layer, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
         x, y = PAD
         icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
         ink.line([(x, y - 16), (x, y - 46)], PLAYERS[self.seat], LINE)
         ink.line([(x - 16, y - 46), (x + 16, y - 46)], PLAYERS[self.seat], LINE)
-        say(pane, words("pause.found" if self.found else "pause.how"), FOCUS if self.found else ICE)
-        after(pane, words("pause.then_ai"))
+        say(layer, words("pause.found" if self.found else "pause.how"), FOCUS if self.found else ICE)
+        after(layer, words("pause.then_ai"))
 
 
 class StillThere:
@@ -141,26 +141,26 @@ class StillThere:
         self.prompts.draw(screen)
         self.match.shine(screen)
 
-    def _paint(self, pane: Pane) -> None:
+    def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        title(pane, None, words("pause.still"), ICE)
-        icon(pane.hot, "clock", PAD[0], PAD[1], 84, MIST, LINE)
-        say(pane, words("pause.still_how"), ICE)
-        after(pane, words("pause.then_title"))
+        title(layer, None, words("pause.still"), ICE)
+        icon(layer.glow, "clock", PAD[0], PAD[1], 84, MIST, LINE)
+        say(layer, words("pause.still_how"), ICE)
+        after(layer, words("pause.then_title"))
 
 
-def say(pane: Pane, text: str, color: Color) -> None:
+def say(layer: Layer, text: str, color: Color) -> None:
     """What to do, in up to three lines beside the picture of a sheet."""
-    lines = lines_of(text, BODY, TEXT_W)
+    lines = wrap(text, BODY, TEXT_W)
     top = HEAD + (54 if len(lines) > 2 else 80)
     for i, line in enumerate(lines):
-        pane.page.body(line, TEXT_X, top + 56 * i, color)
+        layer.canvas.body(line, TEXT_X, top + 56 * i, color)
 
 
-def after(pane: Pane, text: str) -> None:
+def after(layer: Layer, text: str) -> None:
     """What happens when the ring has run out."""
     room = TEXT_W - 120
-    pane.page.body(text, X + 472, RING[1], MIST, "l", fitted(text, BODY, room, "body"))
+    layer.canvas.body(text, X + 472, RING[1], MIST, "l", fit_size(text, BODY, room, "body"))
 
 
 def ring(screen: pygame.Surface, left: float, whole: float) -> None:
@@ -172,26 +172,26 @@ def ring(screen: pygame.Surface, left: float, whole: float) -> None:
 
 
 @cached
-def empty() -> Lit:
+def empty() -> LitImage:
     """The ground of a ring."""
-    pane = Pane(-50, -50, 100, 100)
-    pane.page.cold.ring(0, 0, 46, (34, 44, 64), LINE)
-    return pane.done()
+    layer = Layer(-50, -50, 100, 100)
+    layer.canvas.crisp.ring(0, 0, 46, (34, 44, 64), LINE)
+    return layer.done()
 
 
 @cached
-def plug(color: Color, joined: bool) -> Lit:
+def plug(color: Color, joined: bool) -> LitImage:
     """The end of a cable over the pad whose middle is (0, 0)."""
-    pane = Pane(-40, -120, 80, 120)
+    layer = Layer(-40, -120, 80, 120)
     dy = 36 if joined else 0
-    pane.hot.line([(-16, dy - 84), (16, dy - 84)], color, LINE).line([(0, dy - 84), (0, -112)], color, LINE)
-    return pane.done()
+    layer.glow.line([(-16, dy - 84), (16, dy - 84)], color, LINE).line([(0, dy - 84), (0, -112)], color, LINE)
+    return layer.done()
 
 
 @cached
-def bolt() -> Lit:
+def bolt() -> LitImage:
     """Two dashes where plug and pad should meet."""
-    pane = Pane(-60, -80, 120, 30)
+    layer = Layer(-60, -80, 120, 30)
     for side in (-1, 1):
-        pane.hot.line([(26 * side, -65), (52 * side, -65)], FOCUS, LINE)
-    return pane.done()
+        layer.glow.line([(26 * side, -65), (52 * side, -65)], FOCUS, LINE)
+    return layer.done()

@@ -10,8 +10,8 @@ from pigaming_app.scenes.play.side_hints import Column, note
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
+from pigaming_app.ui.widgets.caption import caption
 
 SPEEDS = (1, 2, 4)
 SHOWN = 4.0  # seconds for which the hints stay after a press
@@ -32,7 +32,7 @@ class ReplayScene:
 
     def on(self, press: Press) -> Turn:
         """FIRE holds and goes on, LEFT and RIGHT change the speed, EXTRA begins again, BACK leaves."""
-        press = self.hints.meant(press)
+        press = self.hints.as_button(press)
         self.shown = SHOWN
         match press.act:
             case Act.FIRE | Act.START:
@@ -73,7 +73,7 @@ class ReplayScene:
         pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (x, LINE_Y), 6)
         pygame.draw.circle(screen, FOCUS, (x, LINE_Y), 9)
         if self.ended:
-            plate(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
+            caption(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
         elif not self.playing or self.speed or seconds < SHOWN:
             said = words("replay.title") if self.playing else words("replay.hint_pause")
             note(said, f"{SPEEDS[self.speed]}×").draw(screen)
@@ -86,7 +86,7 @@ class ReplayScene:
         return Column(self.prompts)
 
     @property
-    def prompts(self) -> Prompts:
+    def prompts(self) -> ButtonPrompts:
         """What the buttons do now; at the end there is nothing to hold and nothing to hurry."""
         hints = [(Act.FIRE, "replay.hint_again"), (Act.BACK, "replay.hint_back")]
         if not self.ended:

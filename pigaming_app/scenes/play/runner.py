@@ -19,7 +19,7 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.events import Act, Device
-from pigaming_app.ui.widgets.caption import Plate, plate
+from pigaming_app.ui.widgets.caption import Caption, caption
 
 BEHIND = 72  # of 255: how bright a match is behind a page
 LAST = 10  # seconds before the end in which each second is heard
@@ -87,9 +87,9 @@ class Stage:
         for seat, robot in enumerate(self.match.state.robots):
             if robot.present:
                 name, sign = self.driver(seat, devices[seat])
-                self.beside(screen, seat, plate(name, PLAYERS[seat], sign=sign))
+                self.beside(screen, seat, caption(name, PLAYERS[seat], sign=sign))
 
-    def beside(self, screen: pygame.Surface, seat: int, sheet: Plate) -> None:
+    def beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
         """Paint something beside a robot, on the side where the arena has more room."""
         robot = self.match.state.robots[seat]
         margin = LEFT + 24 + sheet.width / 2

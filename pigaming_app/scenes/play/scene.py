@@ -29,11 +29,11 @@ from pigaming_app.scenes.results.scene import After, Results
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
-from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.text import lines_of, text
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
+from pigaming_app.ui.draw.text import text, wrap
 from pigaming_app.ui.input.events import Act, Device, Drive, Press
 from pigaming_app.ui.input.hold import Holds
-from pigaming_app.ui.widgets.caption import RING_STEPS, Plate, filling, plate
+from pigaming_app.ui.widgets.caption import RING_STEPS, Caption, caption, hold_ring
 
 LEAD = 0.8  # seconds in which one looks round before the countdown
 RESUME = 0.5  # seconds for each number after an interruption
@@ -67,10 +67,10 @@ class MatchScene:
         self.stage = Stage(context, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
-        self.signs = Ahead(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
+        self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.warm = self.stopped = self.repeated = False
         self.idle = self.frozen = self.noticed = 0.0
-        self.notice: Plate | None = None
+        self.notice: Caption | None = None
         self.results: Results | None = None
         self.access = Access(context, lambda: self.devices)
         self.joining = Holds(context.controls, TAKE)
@@ -161,7 +161,7 @@ class MatchScene:
             self.count.draw(screen, words("match.go"), self.spot)
         for seat, left in self.walkoff.asked().items():
             said = words("match.still", seconds=max(1, math.ceil(left)))
-            self.stage.beside(screen, seat, plate(said, PLAYERS[seat], player=seat))
+            self.stage.beside(screen, seat, caption(said, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
         if self.notice and self.noticed > 0.0:
             self.notice.draw(screen, 960, 206)
@@ -170,7 +170,7 @@ class MatchScene:
         """How many laps the race has, in the place of its clock, which stands still."""
         box = self.stage.view.clock
         screen.fill("black", box)
-        lines = lines_of(tagline(self.context.words, "race", self.match.setup.goal), LABEL, box.w, "head")
+        lines = wrap(tagline(self.context.words, "race", self.match.setup.goal), LABEL, box.w, "head")
         for i, line in enumerate(lines):
             text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
 
@@ -197,7 +197,7 @@ class MatchScene:
         self.walkoff.settle(seat, device)
         name, sign = self.stage.driver(seat, device)
         name = name if device else self.context.words("match.back_in")
-        self.notice, self.noticed = plate(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
+        self.notice, self.noticed = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.context.sounds.play("join", seat)
 
     def welcome(self, press: Press) -> bool:
@@ -211,7 +211,7 @@ class MatchScene:
     def think_aloud(self) -> None:
         """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
         if not self.stage.brain.seats:
-            self.notice, self.noticed = plate(self.context.words("brain.nobody"), sign="ai"), NOTICE
+            self.notice, self.noticed = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
         self.stage.brain.next()
 
     def picture(self) -> pygame.Surface:
@@ -268,7 +268,7 @@ class MatchScene:
             self.hand(vacant[0], press.device)
         elif self.takeable:
             self.joining.begin(press)
-            self.notice, self.noticed = plate(self.context.words("match.hold"), sign="ai"), NOTICE
+            self.notice, self.noticed = caption(self.context.words("match.hold"), sign="ai"), NOTICE
 
     def _join(self, device: Device) -> None:
         """Give a device the seat of an AI."""
@@ -284,7 +284,7 @@ class MatchScene:
         """A ring that fills beside each robot that is about to be taken."""
         for (device, share), seat in zip(self.joining.shares.items(), self.takeable, strict=False):
             if self.free(device):
-                self.stage.beside(screen, seat, filling(seat, math.ceil(share * RING_STEPS)))
+                self.stage.beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
 
     def _miss(self, seconds: float) -> None:
         """Let an AI drive on for everybody who has walked off."""

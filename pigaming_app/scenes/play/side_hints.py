@@ -7,11 +7,11 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, button, button_width, text_width
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import lines_of
+from pigaming_app.ui.draw.text import wrap
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.button_prompts import Prompts
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 
 ROOM = 136  # px of the 160 px between the arena and the edge of the picture
 X = LEFT + WIDTH + (1920 - LEFT - WIDTH) // 2  # middle of the right margin; that of the left one is 1920 - X
@@ -23,10 +23,10 @@ LARGEST = 0.8  # of the size that hints have elsewhere
 class Column:
     """The hints of `prompts` in the right margin."""
 
-    def __init__(self, prompts: Prompts) -> None:
+    def __init__(self, prompts: ButtonPrompts) -> None:
         self.prompts = prompts
 
-    def meant(self, press: Press) -> Press:
+    def as_button(self, press: Press) -> Press:
         """A click on one of the hints as the press that it stands for; any other press as it is."""
         if press.act is not Act.CLICK or press.at is None:
             return press
@@ -44,7 +44,7 @@ def boxes(said: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
     """Where each hint stands."""
     k, y, found = shrunk(said), float(TOP), []
     for _, text in said:
-        high = k * (60 + LINE * len(lines_of(text, BODY, LONGEST)))
+        high = k * (60 + LINE * len(wrap(text, BODY, LONGEST)))
         found.append(pygame.Rect(X - ROOM // 2, round(y), ROOM, round(high)))
         y += high + k * APART
     return found
@@ -52,29 +52,29 @@ def boxes(said: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
 
 def shrunk(said: tuple[tuple[str, str], ...]) -> float:
     """How much smaller hints are drawn here so that the widest fits."""
-    lines = [text_width(line, BODY, "body") for _, text in said for line in lines_of(text, BODY, LONGEST)]
+    lines = [text_width(line, BODY, "body") for _, text in said for line in wrap(text, BODY, LONGEST)]
     return min(LARGEST, ROOM / max(*lines, *(button_width(label) for label, _ in said)))
 
 
 @cached
-def column(said: tuple[tuple[str, str], ...]) -> Lit:
+def column(said: tuple[tuple[str, str], ...]) -> LitImage:
     """Each button over its text."""
     k, places = shrunk(said), boxes(said)
-    pane = Pane(X - ROOM / 2, TOP, ROOM, places[-1].bottom - TOP)
+    layer = Layer(X - ROOM / 2, TOP, ROOM, places[-1].bottom - TOP)
     for (label, text), box in zip(said, places, strict=True):
-        for ink in (pane.page.hot, pane.page.warm, pane.page.cold):
-            ink.to(box.centerx - pane.at[0], box.top - pane.at[1], 0.0, k)
-        button(pane.page, -button_width(label) / 2, 30, label)
-        for i, line in enumerate(lines_of(text, BODY, LONGEST)):
-            pane.page.body(line, 0, 60 + LINE * (i + 0.5), MIST, "c")
-    return pane.done()
+        for ink in (layer.canvas.glow, layer.canvas.soft, layer.canvas.crisp):
+            ink.to(box.centerx - layer.at[0], box.top - layer.at[1], 0.0, k)
+        button(layer.canvas, -button_width(label) / 2, 30, label)
+        for i, line in enumerate(wrap(text, BODY, LONGEST)):
+            layer.canvas.body(line, 0, 60 + LINE * (i + 0.5), MIST, "c")
+    return layer.done()
 
 
 @cached
-def note(said: str, figure: str) -> Lit:
+def note(said: str, figure: str) -> LitImage:
     """A word over a figure, in the left margin."""
     size = min(BODY, round(BODY * ROOM / text_width(said, BODY)))
-    pane = Pane(1920 - X - ROOM / 2, TOP, ROOM, 140)
-    pane.page.text(said, size, 1920 - X, TOP + 24, ICE, "head", "c")
-    pane.page.text(figure, LABEL, 1920 - X, TOP + 84, FOCUS, "head", "c")
-    return pane.done()
+    layer = Layer(1920 - X - ROOM / 2, TOP, ROOM, 140)
+    layer.canvas.text(said, size, 1920 - X, TOP + 24, ICE, "head", "c")
+    layer.canvas.text(figure, LABEL, 1920 - X, TOP + 84, FOCUS, "head", "c")
+    return layer.done()

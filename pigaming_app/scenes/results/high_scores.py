@@ -14,8 +14,8 @@ from pigaming_app.scenes.flow.match_words import measure
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, older_boards, told
 from pigaming_app.storage.scores import Score, Table
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, Ink, cut, text_width
-from pigaming_app.ui.draw.layers import RIGHT, Lit, backdrop, span
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, GlowCanvas, cut_box, text_width
+from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
@@ -53,7 +53,7 @@ class Best:
 
     def on(self, press: Press) -> Turn:
         """Directions and arrows show other tables; any button leads on."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         self.idle = 0.0
         if press.act is Act.CLICK and press.at:
             near = (act for act, at in self.arrows.items() if hit(at, press.at))
@@ -195,6 +195,8 @@ def conditions(words: Words, contest: Table) -> str:
 
 
 @cached
-def frame(w: int) -> Lit:
+def frame(w: int) -> LitImage:
     """The outline of a table, its upper left at (0, 0)."""
-    return Lit(Ink(w + 8, HIGH + 8).to(4, 4).line(cut(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4))
+    return LitImage(
+        GlowCanvas(w + 8, HIGH + 8).to(4, 4).line(cut_box(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4)
+    )

@@ -22,10 +22,11 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, Table
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, LABEL
-from pigaming_app.ui.draw.frame_budget import Ahead
-from pigaming_app.ui.draw.layers import Lit, backdrop
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
+from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.labels import blacked, calling, heading, pulse
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, heading, pulse
+from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
 
 TOP = 8  # places of today's best, and of the best ever, for which letters are asked
 SECONDS = 10.0  # for all players together
@@ -101,7 +102,7 @@ class Initials:
         self.context, self.setup, self.claims = context, setup, sorted(claims, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
-        self.ahead = Ahead(self._ahead())
+        self.ahead = PrewarmQueue(self._ahead())
 
     def warm(self) -> None:
         """Make one piece of the page, so that it does not come in one long frame."""
@@ -133,10 +134,10 @@ class Initials:
         heading(words("results.high_score"), color=FOCUS).draw(screen)
         page.clock(screen, max(0.0, SECONDS - self.age), SECONDS)
         corners = page.corners(len(self.claims))
-        blacked(screen, *(page.panel_at(x) for x in corners))
+        black_out(screen, *(page.panel_at(x) for x in corners))
         for x, claim in zip(corners, self.claims, strict=True):
             self._panel(screen, x, claim)
-        calling(words("results.three"), "", LABEL).draw(screen, 960, page.FOOT_Y)
+        call_to_action(words("results.three"), "", LABEL).draw(screen, 960, page.FOOT_Y)
 
     # ---- inside
 
@@ -152,16 +153,16 @@ class Initials:
         self._frame(claim, spelling.done).draw(screen, x, page.TOP_Y)
         page.letters(screen, x, claim.seat, spelling)
         if spelling.done:
-            page.ready(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
+            ready_bar(claim.seat, words("results.done")).draw(screen, x, page.TOP_Y)
             return
         if spelling.refused:
             page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
             return
         key = "done" if spelling.last else "next_letter"
         label = words.printed(self.context.controls.label(claim.device, Act.FIRE))
-        page.asked(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
+        ask_bar(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
-    def _frame(self, claim: Claim, done: bool) -> Lit:
+    def _frame(self, claim: Claim, done: bool) -> LitImage:
         return page.frame(claim.seat, self.context.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
@@ -171,7 +172,7 @@ class Initials:
             for claim in self.claims:
                 yield partial(self._frame, claim, done)
         for claim in self.claims:
-            yield partial(page.ready, claim.seat, words("results.done"))
+            yield partial(ready_bar, claim.seat, words("results.done"))
 
     def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
         """What the panel says about a claim: each feat with its value, and the places that it has."""

@@ -20,18 +20,16 @@ from pigaming_app.ui.draw import (
     THIN,
     TITLE,
     badge,
-    cut,
+    cut_box,
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import RIGHT, Lit, Pane
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, word
+from pigaming_app.ui.draw.text import fit_size, word
 from pigaming_app.ui.widgets.letter_picker import cursor, draw_letters
-from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W, asked, ready
-
-__all__ = ["asked", "clock", "corners", "frame", "letters", "panel_at", "ready", "refused"]
+from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 
 TOP_Y, FOOT_Y = 226, 916
 PITCH = W + 24
@@ -54,25 +52,25 @@ def panel_at(x: int) -> pygame.Rect:
 
 
 @cached
-@sliced
-def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[Lit]:
+@resumable
+def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[LitImage]:
     """A panel without its letters: who is asked, for what; and the boxes in which the letters stand."""
-    pane = Pane(0, 0, W, H)
-    panel(pane.hot, 0, 0, W, H, PLAYERS[seat], LINE if done else THIN)
-    badge(pane.hot, seat, 72, 76, 36)
-    pane.page.text(said, fitted(said, LABEL, W - 160), 136, 76, ICE)
+    layer = Layer(0, 0, W, H)
+    panel(layer.glow, 0, 0, W, H, PLAYERS[seat], LINE if done else THIN)
+    badge(layer.glow, seat, 72, 76, 36)
+    layer.canvas.text(said, fit_size(said, LABEL, W - 160), 136, 76, ICE)
     for i, (name, value) in enumerate(lines):
         y = LINES_Y + LINE_PITCH * i
         room = W - 48
         if value:
-            pane.page.text(value, LABEL, W - 24, y, FOCUS, "hero", "r")
+            layer.canvas.text(value, LABEL, W - 24, y, FOCUS, "hero", "r")
             room -= round(text_width(value, LABEL, "hero")) + 20
-        pane.page.body(name, 24, y, ICE if value else MIST, "l", fitted(name, BODY, room, "body"))
+        layer.canvas.body(name, 24, y, ICE if value else MIST, "l", fit_size(name, BODY, room, "body"))
     for i in range(3):
-        box = cut(slot_x(i) - SLOT_W / 2, LETTERS_Y - SLOT_H / 2, SLOT_W, SLOT_H, 14)
-        pane.hot.line(box, STEEL, THIN, True)
+        box = cut_box(slot_x(i) - SLOT_W / 2, LETTERS_Y - SLOT_H / 2, SLOT_W, SLOT_H, 14)
+        layer.glow.line(box, STEEL, THIN, True)
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> None:
@@ -87,11 +85,11 @@ def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> No
 
 
 @cached
-def refused(said: str) -> Lit:
+def refused(said: str) -> LitImage:
     """What stands in the place of the button while refused letters shake."""
-    pane = Pane(*BAR)
-    pane.page.body(said, MIDDLE, BAR_Y, ALARM, "c", fitted(said, BODY, W - 48, "body"))
-    return pane.done()
+    layer = Layer(*BAR)
+    layer.canvas.body(said, MIDDLE, BAR_Y, ALARM, "c", fit_size(said, BODY, W - 48, "body"))
+    return layer.done()
 
 
 def slot_x(slot: int) -> float:

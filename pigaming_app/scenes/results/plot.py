@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.ui.draw import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix, text_width
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 
 Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
 Point = tuple[float, float]
@@ -50,10 +50,10 @@ class Plot:
         share = (score - self.low) / (self.high - self.low)
         return self.x + self.w * min(1.0, seconds / self.seconds), self.y + self.h * (1.0 - share)
 
-    def grid(self) -> Lit:
+    def grid(self) -> LitImage:
         """Lines and numbers below the curves."""
-        pane = Pane(*self.box)
-        ink = pane.page.cold
+        layer = Layer(*self.box)
+        ink = layer.canvas.crisp
         faint = dim(STEEL, 0.55)
         for value, said in self.numbers():
             a, b = self.to(0, value), self.to(self.seconds, value)
@@ -62,7 +62,7 @@ class Plot:
         for at, said in self.marks():
             ink.line([self.to(at, self.low), self.to(at, self.high)], faint, HAIR)
             ink.text(said, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
-        return pane.done()
+        return layer.done()
 
     def numbers(self) -> list[tuple[int, str]]:
         """What stands beside the axis, and at which height."""
@@ -72,32 +72,32 @@ class Plot:
         """What stands under the axis, and where."""
         return [(second, f"{second // 60}:{second % 60:02}") for second in moments(self.seconds)]
 
-    def lines(self) -> Lit:
+    def lines(self) -> LitImage:
         """The curves alone."""
-        pane = Pane(self.x, self.y, self.w, self.h)
+        layer = Layer(self.x, self.y, self.w, self.h)
         middle = (len(self.curves) - 1) / 2
         for i, curve in reversed(list(enumerate(self.curves))):
             points = [(x, y + APART * (i - middle)) for x, y in self.corners(curve.series)]
             if points:
-                pane.hot.line(points, PLAYERS[curve.players[0]], 5)
+                layer.glow.line(points, PLAYERS[curve.players[0]], 5)
         for x, y in self.marked():
-            pane.hot.ring(x, y, 16, FOCUS, THIN)
-        return pane.done()
+            layer.glow.ring(x, y, 16, FOCUS, THIN)
+        return layer.done()
 
     def marked(self) -> list[Point]:
         """What stands out."""
         return []
 
-    def ends(self) -> Lit:
+    def ends(self) -> LitImage:
         """The badges where the curves end, none over another."""
         x = self.x + self.w
-        pane = Pane(x, self.y, 1840 - x, self.h)
+        layer = Layer(x, self.y, 1840 - x, self.h)
         drawn = [curve for curve in self.curves if curve.series]
         heights = spread([self.to(0, curve.last)[1] for curve in drawn], ROOM, self.y + self.h)
         for curve, y in zip(drawn, heights, strict=True):
             for i, player in enumerate(curve.players):
-                badge(pane.hot, player, x + 44 + 52 * i, y, 22)
-        return pane.done()
+                badge(layer.glow, player, x + 44 + 52 * i, y, 22)
+        return layer.done()
 
     def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
         """Where each curve has come to when `share` of the time is drawn, with its colour."""

@@ -6,11 +6,11 @@ from collections.abc import Collection, Sequence
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut, dim, icon, text_width
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut_box, dim, icon, text_width
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Device
-from pigaming_app.ui.widgets.caption import RING_STEPS, filling
+from pigaming_app.ui.widgets.caption import RING_STEPS, hold_ring
 
 Y = 884
 PITCH = 160
@@ -89,7 +89,7 @@ class Ballot:
             said = "ai" if seat not in self.humans else "check" if seat in self.votes else ""
             answer(seat, said).draw(screen, x)
             if seat in taken:
-                filling(seat, math.ceil(taken[seat] * RING_STEPS)).draw(screen, x, Y)
+                hold_ring(seat, math.ceil(taken[seat] * RING_STEPS)).draw(screen, x, Y)
             x += PITCH
         if self.votes and self.waited > 0.5 and self.humans:
             left = 1.0 - self.waited / PATIENCE
@@ -97,21 +97,21 @@ class Ballot:
 
 
 @cached
-def question(text: str) -> Lit:
+def question(text: str) -> LitImage:
     """The question, its left edge at x = 0."""
-    pane = Pane(0, Y - 40, text_width(text, LABEL), 80)
-    pane.page.text(text, LABEL, 0, Y, FOCUS)
-    return pane.done()
+    layer = Layer(0, Y - 40, text_width(text, LABEL), 80)
+    layer.canvas.text(text, LABEL, 0, Y, FOCUS)
+    return layer.done()
 
 
 @cached
-def answer(seat: int, said: str) -> Lit:
+def answer(seat: int, said: str) -> LitImage:
     """A badge round x = 0 and what that player said: an icon's name, or nothing yet."""
-    pane = Pane(-40, Y - 40, 140, 80)
-    badge(pane.hot, seat, 0, Y, 28, None if said else dim(PLAYERS[seat], 0.45))
+    layer = Layer(-40, Y - 40, 140, 80)
+    badge(layer.glow, seat, 0, Y, 28, None if said else dim(PLAYERS[seat], 0.45))
     if said:
         color, weight = (ICE, LINE) if said == "check" else (MIST, THIN)
-        icon(pane.hot, said, 66, Y, 20, color, weight)
+        icon(layer.glow, said, 66, Y, 20, color, weight)
     else:
-        pane.hot.dashes(cut(44, Y - 22, 44, 44, 8), MIST, THIN, 10, 8)
-    return pane.done()
+        layer.glow.dashes(cut_box(44, Y - 22, 44, 44, 8), MIST, THIN, 10, 8)
+    return layer.done()

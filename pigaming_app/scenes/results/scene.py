@@ -21,7 +21,7 @@ from pigaming_app.scenes.results.view import ResultsPage
 from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.input.hold import Holds
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.caption import caption
 
 DEAF = 2.5  # seconds in which presses are ignored
 LATE, LEAVE = 5.0, 0.5  # seconds in which BACK is ignored, and for which it then has to be held
@@ -81,7 +81,7 @@ class Results:
 
     def on(self, press: Press) -> Turn:
         """FIRE votes, START begins, EXTRA leads to another game, BACK, held, to the title."""
-        press = self.prompts.meant(press)
+        press = self.prompts.as_button(press)
         admitted = self.access.admit(press)
         if admitted is None and press.act is not Act.FIRE:
             return None
@@ -136,7 +136,7 @@ class Results:
         if self.age >= self.page.ready_at:
             self.ballot.draw(screen, self.joining.shares.values())
             if self.told > 0.0:
-                plate(self.context.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
+                caption(self.context.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
             else:
                 self.prompts.draw(screen)
             if self.leaving.share:

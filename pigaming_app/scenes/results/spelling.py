@@ -3,7 +3,7 @@
 from pigaming_app.storage.scores import LETTERS
 from pigaming_app.ui.input.events import Act
 from pigaming_app.ui.widgets.letter_picker import LetterPicker
-from pigaming_app.ui.widgets.word_filter import HARMLESS, rude
+from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
 SHAKE = 0.5  # seconds for which refused letters shake
 
@@ -29,7 +29,7 @@ class Spelling:
         """The letters that enter the tables when time is up; None: nobody has chosen any."""
         if not (self.done or self.turned):
             return None
-        return HARMLESS if rude(self.spelled) else self.spelled
+        return HARMLESS if is_rude(self.spelled) else self.spelled
 
     @property
     def refused(self) -> bool:
@@ -70,7 +70,7 @@ class Spelling:
         self.shaking += seconds
 
     def _accept(self, chosen: bool) -> str:
-        if not chosen or rude(self.spelled):
+        if not chosen or is_rude(self.spelled):
             self.shaking = 0.0
             return "refused"
         self.done = True

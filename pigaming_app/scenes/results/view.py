@@ -29,7 +29,7 @@ from pigaming_app.ui.draw import (
     TITLE,
     WHITE,
     Color,
-    Ink,
+    GlowCanvas,
     badge,
     icon,
     mix,
@@ -38,8 +38,8 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget
 from pigaming_app.ui.draw.frame_budget import clock as frame_clock
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane, backdrop, span
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
+from pigaming_app.ui.draw.text import fit_size
 
 TOP, ROW, PITCH = 280, 120, 136
 SCORED = ("pitanks",)  # games in which the score itself is a column
@@ -55,7 +55,7 @@ FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row,
 class Part:
     """A piece of the page and when it comes: it is wiped in from the left within `takes` seconds."""
 
-    lit: Lit
+    lit: LitImage
     begins: float
     takes: float = WIPE
 
@@ -171,85 +171,85 @@ class ResultsPage:
     def _color(self) -> Color:
         return winning_color(self.outcome, self.setup) if self.winners else ICE
 
-    def _title(self) -> Lit:
+    def _title(self) -> LitImage:
         """Who won, in the winner's colour, and its crown."""
         words = self.context.words
-        pane = Pane(LEFT, 54, RIGHT - LEFT, 116)
+        layer = Layer(LEFT, 54, RIGHT - LEFT, 116)
         x = LEFT
         for seat in self.winners:
-            badge(pane.hot, seat, x + 52, 110, 50)
+            badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners else 0
         ended = headline(words, self.outcome, self.setup, self.absent)
         text = ended if self.finished else words("results.ended")
-        size = fitted(text, TITLE, self.room - x - (130 if self.winners else 0))
-        pane.page.text(text, size, x, 112, self._color())
+        size = fit_size(text, TITLE, self.room - x - (130 if self.winners else 0))
+        layer.canvas.text(text, size, x, 112, self._color())
         if self.winners:
             at = x + text_width(text, size) + 70
-            ink = Ink(160, 140).to(80, 70)
+            ink = GlowCanvas(160, 140).to(80, 70)
             icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
-            self.crown = Lit(ink.lit(), (round(at) - 80, 108 - 70))
+            self.crown = LitImage(ink.lit(), (round(at) - 80, 108 - 70))
             self.finale = Finale(self.winners[0], at, 108, self.context.settings.flashes != "off")
-        return pane.done()
+        return layer.done()
 
-    def _where(self) -> Lit:
+    def _where(self) -> LitImage:
         """Game, time, arena."""
         words, setup = self.context.words, self.setup
         minutes = measure(words, GAMES[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
         where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
-        size = fitted(where, BODY, 720, "body")
+        size = fit_size(where, BODY, 720, "body")
         self.room = RIGHT - text_width(where, size, "body") - 40  # px, where the title must end
-        pane = Pane(self.room, 60, RIGHT - self.room, 100)
-        pane.page.body(where, RIGHT, 112, MIST, "r", size)
-        return pane.done()
+        layer = Layer(self.room, 60, RIGHT - self.room, 100)
+        layer.canvas.body(where, RIGHT, 112, MIST, "r", size)
+        return layer.done()
 
-    def _columns(self) -> Lit:
+    def _columns(self) -> LitImage:
         """What the numbers are."""
         words = self.context.words
         x, w = span(0, 6)
         plot_x, _ = span(6, 6)
-        pane = Pane(x, 206, 2 * w, 60)
+        layer = Layer(x, 206, 2 * w, 60)
         heads = [words(f"results.{name}") for name in self.columns]
         ends = self._ends()
         if self.by_team:
-            pane.page.body(words("results.team"), x + 24, 236, MIST)
+            layer.canvas.body(words("results.team"), x + 24, 236, MIST)
         begins = [24 + text_width(words("results.team"), BODY, "body") if self.by_team else 0, *ends]
         rooms = [end - begin - APART_X for begin, end in zip(begins, ends, strict=False)]
-        size = min(fitted(head, BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
+        size = min(fit_size(head, BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
         for head, end in zip(heads, ends, strict=True):
-            pane.page.body(head, x + end, 236, MIST, "r", size)
-        pane.page.body(words(f"results.plot_{self.setup.game}"), plot_x, 236, MIST)
-        return pane.done()
+            layer.canvas.body(head, x + end, 236, MIST, "r", size)
+        layer.canvas.body(words(f"results.plot_{self.setup.game}"), plot_x, 236, MIST)
+        return layer.done()
 
-    def _team(self, rows: Sequence[Row], y: int) -> Lit:
+    def _team(self, rows: Sequence[Row], y: int) -> LitImage:
         """A panel with the rows of one robot, or of all robots of a team."""
         x, w = span(0, 6)
         h = PITCH * len(rows) - (PITCH - ROW)
         wins = rows[0].seat in self.winners
-        pane = Pane(x, y, w, h)
-        panel(pane.hot, x, y, w, h, PLAYERS[min(row.seat for row in rows)] if wins else STEEL, LINE if wins else THIN)
+        layer = Layer(x, y, w, h)
+        panel(layer.glow, x, y, w, h, PLAYERS[min(row.seat for row in rows)] if wins else STEEL, LINE if wins else THIN)
         number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
         color = ICE if wins else MIST
-        pane.page.text(number, fitted(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
+        layer.canvas.text(number, fit_size(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
-            self._row(pane, row, x, y + ROW / 2 + PITCH * i, color)
-        return pane.done()
+            self._row(layer, row, x, y + ROW / 2 + PITCH * i, color)
+        return layer.done()
 
-    def _row(self, pane: Pane, row: Row, x: int, y: float, color: Color) -> None:
+    def _row(self, layer: Layer, row: Row, x: int, y: float, color: Color) -> None:
         """One robot: badge, score, what the game counts."""
-        badge(pane.hot, row.seat, x + BADGE_X, y, 38)
+        badge(layer.glow, row.seat, x + BADGE_X, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
-            icon(pane.hot, "ai", x + AI_X, y, 15, MIST, 3)
+            icon(layer.glow, "ai", x + AI_X, y, 15, MIST, 3)
         ends = self._ends()
         for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
             text, room = self.context.words.decimal(cell(name, row)), right - before - APART_X
             if name == self.columns[0]:
-                size = fitted(text, SUB, room - (32 if brain != "human" else 0), "hero")
-                pane.page.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
+                size = fit_size(text, SUB, room - (32 if brain != "human" else 0), "hero")
+                layer.canvas.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
             else:
-                pane.page.cold.text(text, fitted(text, LABEL, room), x + right, y, color, "head", "r")
+                layer.canvas.crisp.text(text, fit_size(text, LABEL, room), x + right, y, color, "head", "r")
 
     def _ends(self) -> list[float]:
         """Where each column ends, px from a row's left edge: as wide as what stands in it."""
@@ -260,7 +260,7 @@ class ResultsPage:
             wanted.append(max(*cells, text_width(words(f"results.{name}"), BODY, "body")))
         return ends(wanted, *FIGURES, APART_X)
 
-    def _records(self) -> Lit | None:
+    def _records(self) -> LitImage | None:
         """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
         scores, setup, words = self.context.scores, self.setup, self.context.words
         tables = [(board, scores.best(board.table, board.days)) for board in boards(contest(setup))]
@@ -268,16 +268,16 @@ class ResultsPage:
             return None
         x, w = span(0, 6)
         y = TOP + 3 * PITCH + ROW // 2
-        pane = Pane(x, y - ROW // 2, w, ROW)
+        layer = Layer(x, y - ROW // 2, w, ROW)
         for left, (board, rows) in zip((x + 24, x + w // 2 + 24), tables, strict=True):
-            icon(pane.hot, "crown", left + 24, y - 34, 20, FOCUS, 3)
+            icon(layer.glow, "crown", left + 24, y - 34, 20, FOCUS, 3)
             heading = words(board.heading, goal=setup.goal)
-            pane.page.body(heading, left + 64, y - 32, MIST, "l", fitted(heading, BODY, 330, "body"))
+            layer.canvas.body(heading, left + 64, y - 32, MIST, "l", fit_size(heading, BODY, 330, "body"))
             if rows:
-                pane.page.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
+                layer.canvas.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
                 best = words.decimal(told(rows[0].score, board.table))
-                pane.page.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
-        return pane.done()
+                layer.canvas.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
+        return layer.done()
 
     def _plot(self, x: int, w: int) -> Plot:
         """How the score went, or the laps."""
@@ -309,16 +309,16 @@ def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> li
     return [left + sum(widths[: i + 1]) + apart * i for i in range(len(widths))]
 
 
-def share_of(lit: Lit, x: float) -> float:
+def share_of(lit: LitImage, x: float) -> float:
     """Which share of a piece of light lies left of x on the canvas."""
     return (x - lit.at[0]) / lit.image.get_width()
 
 
-def line(color: Color, length: float, width: int = LINE) -> Lit:
+def line(color: Color, length: float, width: int = LINE) -> LitImage:
     """The line under a title."""
-    pane = Pane(LEFT, 170, length, 12)
-    pane.hot.line([(LEFT, 176), (LEFT + length, 176)], color, width)
-    return pane.done()
+    layer = Layer(LEFT, 170, length, 12)
+    layer.glow.line([(LEFT, 176), (LEFT + length, 176)], color, width)
+    return layer.done()
 
 
 def signed(number: int) -> str:

@@ -15,11 +15,11 @@ from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
-from pigaming_app.ui.draw.layers import Pane
-from pigaming_app.ui.draw.text import fitted, write
+from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.draw.text import fit_size, write_lines
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import Plate, plate
+from pigaming_app.ui.widgets.caption import Caption, caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, overlay
 
 IDLE = 600.0  # seconds without a press until the title
@@ -57,7 +57,7 @@ class Trouble:
             return None
         press = admitted
         lasting = self.match.plant.safety.lasting
-        press = self.prompts.meant(self.mending.meant(press) if lasting else press)
+        press = self.prompts.as_button(self.mending.as_button(press) if lasting else press)
         if press.act is Act.EXTRA:
             self._simulate()
         elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
@@ -123,27 +123,27 @@ class Trouble:
                 self.match.swap(seat, False)
         self.context.sounds.play("accept")
 
-    def _paint(self, pane: Pane) -> None:
+    def _paint(self, layer: Layer) -> None:
         """The first fault, what camera or radio say themselves, and how many others there are."""
         words = self.context.words
         if not self.faults:
-            title(pane, None, words("mat.stand"), ICE)
+            title(layer, None, words("mat.stand"), ICE)
             return
         first = self.faults[0]
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
-        title(pane, first.robot, about, ICE)
-        sign(pane.hot, first.name, *ICON, 76, ALARM)
+        title(layer, first.robot, about, ICE)
+        sign(layer.glow, first.name, *ICON, 76, ALARM)
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
-            pane.page.body(ending, TEXT_X, FOOT - 40, MIST, "l", fitted(ending, 36, ROOM, "body"))
+            layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
         fire = words.printed(self.context.controls.label(self.match.access.voice, Act.FIRE))
-        y = write(pane, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
+        y = write_lines(layer, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:
-            y = write(pane, tell(words, detail), TEXT_X, y + 8, ROOM, MIST)
+            y = write_lines(layer, tell(words, detail), TEXT_X, y + 8, ROOM, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
         if others and y < FOOT - 130:
-            write(pane, words("mat.also", other=named(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
+            write_lines(layer, words("mat.also", other=named(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
 
 
 def named(fault: Fault, words: Words, button: str) -> str:
@@ -151,6 +151,6 @@ def named(fault: Fault, words: Words, button: str) -> str:
     return words(f"faults.{fault.name}", robot=1 if fault.robot is None else fault.robot + 1, button=button)
 
 
-def shown(sentence: str, color: Color) -> Plate:
+def shown(sentence: str, color: Color) -> Caption:
     """A sentence on a plate, not wider than the arena."""
-    return plate(sentence, color, ICE, fitted(sentence, BODY, 1480, "body"))
+    return caption(sentence, color, ICE, fit_size(sentence, BODY, 1480, "body"))

@@ -26,8 +26,8 @@ from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import places
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import frame, heading, stamp
-from pigaming_app.ui.widgets.setting_row import Value
+from pigaming_app.ui.widgets.labels import blit_sprite, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "stock")
@@ -72,7 +72,7 @@ class RobotsPage:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
-        press = self.navigation.prompts.meant(self._on_sheet(press))
+        press = self.navigation.prompts.as_button(self._on_sheet(press))
         if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
             self.check.stop()
             self.navigation.say(self.context.words("fleet.stopped"))
@@ -80,7 +80,7 @@ class RobotsPage:
         if turn := self.navigation.on(press):
             return turn
         name = self.focus.name
-        if by := dials.pushed(press, self.focus, self._value(name)):
+        if by := dials.step_of(press, self.focus, self._value(name)):
             self._change(name, by, False)
         elif self.focus.chosen(press) and (press.act is not Act.CLICK or self._value(name).kind == "deed"):
             self._do(name)
@@ -160,7 +160,7 @@ class RobotsPage:
         frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
         for robot, (heard, bright, seen, dim) in enumerate(self.lines):
             x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
-            stamp(screen, tag(robot), x, y)
+            blit_sprite(screen, tag(robot), x, y)
             text(heard, 40, bright, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y - 26)
             text(seen, 34, dim, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y + 26)
         moving = self.check.moving
@@ -203,15 +203,15 @@ class RobotsPage:
 
     # ---- what the rows are
 
-    def _value(self, name: str) -> Value:
+    def _value(self, name: str) -> SettingValue:
         words, settings = self.context.words, self.context.settings
         match name:
             case "mat":
-                return Value("toggle", (words("options.off"), words("options.on")), int(settings.mat))
+                return SettingValue("toggle", (words("options.off"), words("options.on")), int(settings.mat))
             case "pair" | "latency":
-                return Value("deed", (words("fleet.begin"),))
+                return SettingValue("deed", (words("fleet.begin"),))
         values, now = self._choices(name)
-        return Value("arrows", tuple(values.values()), list(values).index(now))
+        return SettingValue("arrows", tuple(values.values()), list(values).index(now))
 
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
         """What can be chosen, by what is kept, and what is now."""

@@ -14,7 +14,7 @@ from pigaming_app.hardware.session.real import LIGHT_AFTER
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import BLACK, GREY, LINE, PLAYERS, THIN, Color, Ink, badge, regular
+from pigaming_app.ui.draw import BLACK, GREY, LINE, PLAYERS, THIN, Color, GlowCanvas, badge, regular_polygon
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -91,8 +91,8 @@ def disc(r: int, color: Color) -> pygame.Surface:
 def ring(player: int) -> Sprite:
     """The ring in the player's colour, which hides the ground."""
     half = RING + 24
-    ink = Ink(2 * half, 2 * half).to(half, half)
-    ink.solid(regular(64, RING + 3)).ring(0, 0, RING, PLAYERS[player], LINE)
+    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
+    ink.solid(regular_polygon(64, RING + 3)).ring(0, 0, RING, PLAYERS[player], LINE)
     return trim(ink.sprite(0.9), half, half)
 
 
@@ -113,7 +113,7 @@ def _pointer(player: int) -> pygame.Surface:
 @cached
 def tag(player: int) -> Sprite:
     """The badge of a player on black."""
-    ink = Ink(96, 96).to(48, 48)
-    ink.solid(regular(40, 32))
+    ink = GlowCanvas(96, 96).to(48, 48)
+    ink.solid(regular_polygon(40, 32))
     badge(ink, player, 0, -4 if player == 1 else 0, 24)
     return trim(ink.sprite(0.5), 48, 48)

@@ -28,7 +28,7 @@ from pigaming_app.scenes.robots.take_places import Gathering
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.caption import caption
 
 IDLE = 180.0  # seconds without a press while robots take their places, until the title
 TOLD = ("low", "drifts", "deadman")  # what is only said
@@ -100,7 +100,7 @@ class RealMatch(MatchScene):
             return Push(Trouble(self, press.device))
         if self.gathering is None:
             return super().on(press)
-        admitted = self.access.admit(self.gathering.prompts.meant(press))
+        admitted = self.access.admit(self.gathering.prompts.as_button(press))
         if admitted is None:
             return None
         press = admitted
@@ -239,7 +239,7 @@ class RealMatch(MatchScene):
             log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), detail))))
             if now[key].name in TOLD:
                 said = named(now[key], self.context.words, "")
-                self.notice, self.noticed = plate(said, ALARM, player=now[key].robot), 2 * NOTICE
+                self.notice, self.noticed = caption(said, ALARM, player=now[key].robot), 2 * NOTICE
         self.logged = set(now)
 
     def _worth(self, fault: Fault) -> bool:

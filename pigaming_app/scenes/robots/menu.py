@@ -10,15 +10,15 @@ from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.storage.safe_files import NotSaved, write
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, Ink, cut
-from pigaming_app.ui.draw.layers import Lit, backdrop
+from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, GlowCanvas, cut_box
+from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import blacked, frame, heading
-from pigaming_app.ui.widgets.setting_row import Value
+from pigaming_app.ui.widgets.labels import black_out, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("robots", "calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
@@ -42,7 +42,7 @@ class RobotsMenu:
 
     def on(self, press: Press) -> Turn:
         """Up and down choose, FIRE opens."""
-        press = self.navigation.prompts.meant(press)
+        press = self.navigation.prompts.as_button(press)
         if turn := self.navigation.on(press):
             return turn
         chosen = self.focus.chosen(press)
@@ -57,8 +57,10 @@ class RobotsMenu:
         words, name = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("robots.title")).draw(screen)
-        blacked(screen, dials.PANEL)
-        values = {one: Value("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS}
+        black_out(screen, dials.PANEL)
+        values = {
+            one: SettingValue("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS
+        }
         dials.draw(screen, self.context.words, self.focus, "robots", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         sketch(name).draw(screen, *dials.CENTRE)
@@ -107,37 +109,37 @@ class RobotsMenu:
 
 
 @cached
-def sketch(name: str) -> Lit:
+def sketch(name: str) -> LitImage:
     """The picture of a row, round (0, 0)."""
-    ink = Ink(480, 340).to(240, 170)
+    ink = GlowCanvas(480, 340).to(240, 170)
     if name == "robots":
         for x, y, player in ((-120, -70, 0), (120, -70, 1), (-120, 80, 2), (120, 80, 3)):
             ink.ring(x, y, 46, PLAYERS[player], LINE).disc(x, y, 34, GREY)
             ink.arc(x, y, 68, -0.5, 1.1, FOCUS, THIN).arc(x, y, 68, 2.6, 4.2, FOCUS, THIN)
     elif name == "calibrate":
-        ink.line(cut(-46, -146, 92, 60, 12), ICE, LINE, True).ring(0, -84, 16, ICE, LINE)
+        ink.line(cut_box(-46, -146, 92, 60, 12), ICE, LINE, True).ring(0, -84, 16, ICE, LINE)
         for x in (-150, 150):
             ink.dashes([(x * 0.16, -62), (x, 60)], FOCUS, THIN, 14, 10, False)
         ink.line([(-150, 60), (150, 60), (196, 146), (-196, 146)], ICE, LINE, True)
         for x, y in ((-90, 102), (0, 102), (90, 102)):
-            ink.line(cut(x - 16, y - 14, 32, 28, 4), FOCUS, THIN, True)
+            ink.line(cut_box(x - 16, y - 14, 32, 28, 4), FOCUS, THIN, True)
     elif name == "check":
-        ink.line(cut(-176, -110, 352, 220, 12), STEEL, THIN, True)
+        ink.line(cut_box(-176, -110, 352, 220, 12), STEEL, THIN, True)
         for x, y in ((-140, -76), (140, -76), (140, 76), (-140, 76)):
-            ink.line(cut(x - 22, y - 22, 44, 44, 4), FOCUS, LINE, True)
+            ink.line(cut_box(x - 22, y - 22, 44, 44, 4), FOCUS, LINE, True)
         ink.line([(-50, 4), (-14, 38), (56, -36)], ICE, 12)
     elif name == "pin":
-        ink.line(cut(-170, -110, 340, 220, 12), STEEL, THIN, True)
+        ink.line(cut_box(-170, -110, 340, 220, 12), STEEL, THIN, True)
         points = [(-150, -120), (176, -92), (150, 118), (-182, 96)]
         ink.line(points, FOCUS, LINE, True)
         for x, y in points:
-            ink.solid(cut(x - 15, y - 15, 30, 30, 4)).line(cut(x - 15, y - 15, 30, 30, 4), ICE, LINE, True)
+            ink.solid(cut_box(x - 15, y - 15, 30, 30, 4)).line(cut_box(x - 15, y - 15, 30, 30, 4), ICE, LINE, True)
     else:
-        ink.line(cut(-108, -150, 216, 300, 14), ICE, LINE, True)
+        ink.line(cut_box(-108, -150, 216, 300, 14), ICE, LINE, True)
         for x, y in ((-50, -84), (50, -84), (-50, 20), (50, 20)):
-            ink.line(cut(x - 36, y - 36, 72, 72, 4), FOCUS, THIN, True)
+            ink.line(cut_box(x - 36, y - 36, 72, 72, 4), FOCUS, THIN, True)
             ink.fill([(x - 20, y - 20), (x + 4, y - 20), (x + 4, y + 4), (x - 20, y + 4)], FOCUS)
             ink.fill([(x + 4, y + 4), (x + 20, y + 4), (x + 20, y + 20), (x + 4, y + 20)], FOCUS)
         ink.line([(-80, 112), (80, 112)], ICE, LINE).line([(-80, 98), (-80, 126)], ICE, LINE)
         ink.line([(80, 98), (80, 126)], ICE, LINE)
-    return Lit(ink.lit(0.9), (-240, -170))
+    return LitImage(ink.lit(0.9), (-240, -170))

@@ -39,7 +39,7 @@ class PairAgain:
 
     def on(self, press: Press) -> Turn:
         """FIRE begins anew once all have spun; before, as BACK, START and STOP at any time, it stops the robots."""
-        press = (self.after if self.sentence else self.stop).meant(press)
+        press = (self.after if self.sentence else self.stop).as_button(press)
         if press.act is Act.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0
         elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.STOP):

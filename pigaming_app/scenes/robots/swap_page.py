@@ -7,8 +7,8 @@ from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.play.pause import items, title
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
-from pigaming_app.ui.draw.layers import Pane
-from pigaming_app.ui.draw.text import fitted, word
+from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.draw.text import fit_size, word
 from pigaming_app.ui.input.events import Act, Press
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
@@ -31,7 +31,7 @@ class SwapPage:
 
     def on(self, press: Press) -> Turn:
         """FIRE, LEFT and RIGHT change the robot in focus; BACK and START do what was chosen."""
-        admitted = self.access.admit(self.prompts.meant(press))
+        admitted = self.access.admit(self.prompts.as_button(press))
         if admitted is None:
             return None
         press = admitted
@@ -64,15 +64,15 @@ class SwapPage:
         for spot in self.focus.spots:
             said = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
             color = FOCUS if spot.name == self.focus.name else MIST
-            size = fitted(said, LABEL, spot.rect.w - 150)
+            size = fit_size(said, LABEL, spot.rect.w - 150)
             word(said, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
         self.prompts.draw(screen)
         self.match.shine(screen)
 
-    def _paint(self, pane: Pane) -> None:
-        title(pane, None, self.context.words("mat.which"), ICE)
+    def _paint(self, layer: Layer) -> None:
+        title(layer, None, self.context.words("mat.which"), ICE)
         for spot in self.focus.spots:
             seat = int(spot.name)
-            badge(pane.hot, seat, spot.rect.left + 60, spot.rect.centery - (4 if seat == 1 else 0), 26)
-            pane.hot.line([(spot.rect.left + 110, spot.rect.centery), (spot.rect.left + 122, spot.rect.centery)],
+            badge(layer.glow, seat, spot.rect.left + 60, spot.rect.centery - (4 if seat == 1 else 0), 26)
+            layer.glow.line([(spot.rect.left + 110, spot.rect.centery), (spot.rect.left + 122, spot.rect.centery)],
                           PLAYERS[seat], LINE)  # fmt: skip

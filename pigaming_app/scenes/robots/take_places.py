@@ -20,14 +20,28 @@ from pigaming_app.scenes.robots.flood_light import Flood, looking
 from pigaming_app.scenes.robots.marker_discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, STEEL, THIN, Ink, cut, dim
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw import (
+    ALARM,
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    GlowCanvas,
+    cut_box,
+    dim,
+)
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Act, Device
-from pigaming_app.ui.widgets.caption import plate
-from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.labels import blit_sprite
 
 UNSEEN = 1e6  # px: so far away is a robot that nobody sees
 DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
@@ -101,9 +115,9 @@ class Gathering:
         color = place.robot
         level = 8 if place.there else round(6 + 2 * math.cos(math.tau * self.clock))
         outline(color, place.there).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
-        stamp(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
+        blit_sprite(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
         if place.distance > 2 * MOAT:
-            stamp(screen, tag(color), LEFT + x, TOP + y)
+            blit_sprite(screen, tag(color), LEFT + x, TOP + y)
 
     def _way(self, screen: pygame.Surface, place: Place, at: tuple[float, float]) -> None:
         """Dashes that march from a robot to its place."""
@@ -111,7 +125,7 @@ class Gathering:
         turn = math.atan2(goal[1] - at[1], goal[0] - at[0])
         along, end = RING + 20.0 + self.clock * MARCH % DASH, math.dist(at, goal) - RING - 16.0
         while along < end:
-            stamp(
+            blit_sprite(
                 screen,
                 dash(place.robot, step(turn, HEADINGS), place.moving),
                 at[0] + along * math.cos(turn),
@@ -125,7 +139,7 @@ class Gathering:
         if place.there or place.moving or self.clock < MISSING:
             return
         key = "mat.carry" if place.distance > UNSEEN else "mat.waits"
-        sheet = plate(words(key, robot=robot + 1), PLAYERS[robot], size=BODY, player=robot)
+        sheet = caption(words(key, robot=robot + 1), PLAYERS[robot], size=BODY, player=robot)
         margin = LEFT + 12 + sheet.width / 2
         x = min(max(LEFT + place.pose[0], margin), 1920 - margin)
         y = TOP + place.pose[1]
@@ -133,24 +147,24 @@ class Gathering:
 
 
 @cached
-def frame() -> Lit:
+def frame() -> LitImage:
     """The rim of the arena, dim."""
-    pane = Pane(LEFT, TOP, WIDTH, HEIGHT)
-    pane.page.cold.line(cut(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
-    return pane.done()
+    layer = Layer(LEFT, TOP, WIDTH, HEIGHT)
+    layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
+    return layer.done()
 
 
 @cached
-def outline(player: int, there: bool) -> Lit:
+def outline(player: int, there: bool) -> LitImage:
     """Where a robot shall stand, round (0, 0): dashed, and whole once it is there."""
     half = RING + 24
-    ink = Ink(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
     if there:
         ink.ring(0, 0, RING, PLAYERS[player], LINE)
     else:
         points = [(RING * math.cos(i * math.tau / 64), RING * math.sin(i * math.tau / 64)) for i in range(64)]
         ink.dashes(points, PLAYERS[player], LINE, 24, 16)
-    return Lit(ink.lit(0.8), (-half, -half))
+    return LitImage(ink.lit(0.8), (-half, -half))
 
 
 @cached

@@ -14,8 +14,8 @@ from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
 from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.ui.draw import ALARM, ICE, MIST
-from pigaming_app.ui.draw.layers import Pane, backdrop
-from pigaming_app.ui.draw.text import write
+from pigaming_app.ui.draw.layers import Layer, backdrop
+from pigaming_app.ui.draw.text import write_lines
 from pigaming_app.ui.input.events import Act, Device, Press
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
 
@@ -48,7 +48,7 @@ class Refused:
 
     def on(self, press: Press) -> Turn:
         """FIRE plays with simulated robots, EXTRA tries again, BACK leaves."""
-        admitted = self.access.admit(self.prompts.meant(press))
+        admitted = self.access.admit(self.prompts.as_button(press))
         if admitted is None:
             return None
         press = admitted
@@ -76,10 +76,10 @@ class Refused:
         screen.blit(self.picture, (0, 0))
         self.prompts.draw(screen)
 
-    def _paint(self, pane: Pane) -> None:
+    def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        title(pane, None, words("mat.refused"), ICE)
-        sign(pane.hot, "robot", *ICON, 76, ALARM)
-        y = write(pane, tell(words, self.sentence), TEXT_X, HEAD + 56, ROOM, ICE)
+        title(layer, None, words("mat.refused"), ICE)
+        sign(layer.glow, "robot", *ICON, 76, ALARM)
+        y = write_lines(layer, tell(words, self.sentence), TEXT_X, HEAD + 56, ROOM, ICE)
         lost = getattr(self.sentence, "key", "") in UNCALIBRATED
-        write(pane, words("mat.calibrate" if lost else "mat.anyway"), TEXT_X, y + 16, ROOM, MIST)
+        write_lines(layer, words("mat.calibrate" if lost else "mat.anyway"), TEXT_X, y + 16, ROOM, MIST)

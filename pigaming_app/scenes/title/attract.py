@@ -20,7 +20,7 @@ from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.caption import caption
 
 MINUTES = 1.0  # of a match
 AFTER = 2.5  # seconds for which its end is shown
@@ -30,9 +30,7 @@ LEVELS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Three shows for each game, round and round, from a random game on. It opens by itself over the title when nobody is
-    there.
-    """
+    """Three shows for each game, round and round, from a random game on; opened over the title when nobody is there."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -72,7 +70,7 @@ class Attract:
         color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
         text = self.context.words("attract.press")
         size, y = (LABEL, PROMPT_Y) if isinstance(self.show, Demonstration) else (BODY, PAGE_PROMPT_Y)
-        plate(text, color, color, size, face="head").draw(screen, 960, y)
+        caption(text, color, color, size, face="head").draw(screen, 960, y)
 
     def _next(self) -> None:
         self.show = next(show for show in (make() for make in self.shows) if show)

@@ -4,7 +4,7 @@ from pigaming_app.ui.draw import (
     FOCUS,
     ICE,
     Color,
-    Ink,
+    GlowCanvas,
     Point,
 )
 
@@ -20,7 +20,7 @@ LETTERS: dict[str, tuple[float, list[list[Point]]]] = {  # width, strokes on a g
 ENDS = ((1716, 100), (1640, 172), (1764, 244), (1590, 316))  # of the four trails, px
 
 
-def logo(ink: Ink, x: float, y: float, u: float) -> Ink:
+def logo(ink: GlowCanvas, x: float, y: float, u: float) -> GlowCanvas:
     """PiGAMING in tubes, its i without a dot. (x, y): the P's upper left, u: a sixth of the height, px."""
     strokes: list[tuple[list[Point], Color]] = []
     at = x

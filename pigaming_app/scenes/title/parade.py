@@ -7,12 +7,12 @@ import pygame
 
 from pigaming_app.scenes.title.logo import trail_path
 from pigaming_app.scenes.views.sprites.robot import seat_robot, tank
-from pigaming_app.ui.draw import ADD, LINE, PLAYERS, WHITE, Ink, Point, mix
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw import ADD, LINE, PLAYERS, WHITE, GlowCanvas, Point, mix
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.widgets.labels import stamp
+from pigaming_app.ui.widgets.labels import blit_sprite
 
 COMING, STAYING, LEAVING = 1.9, 16.0, 1.3  # seconds
 APART = 0.22  # seconds between one robot and the next
@@ -38,7 +38,7 @@ def parade(screen: pygame.Surface, seconds: float) -> None:
         head, _ = _reach(own, player)
         if head < FAR:
             x, y, heading = _at(player, head)
-            stamp(screen, tank(player, step(heading + _look(own, player), HEADINGS)), x, y)
+            blit_sprite(screen, tank(player, step(heading + _look(own, player), HEADINGS)), x, y)
 
 
 def dot_robot(seconds: float, scale: float) -> Sprite:
@@ -52,23 +52,23 @@ def _dot_robot(turn: int, scale: float) -> Sprite:
 
 
 @cached
-@sliced
-def line(player: int) -> Steps[Lit]:
+@resumable
+def line(player: int) -> Steps[LitImage]:
     """The whole line that a robot draws."""
     path = trail_path(player)
     ys = [y for _, y in path]
-    pane = Pane(0, min(ys), 1920, max(ys) - min(ys))
-    pane.hot.line(path, PLAYERS[player], LINE)
+    layer = Layer(0, min(ys), 1920, max(ys) - min(ys))
+    layer.glow.line(path, PLAYERS[player], LINE)
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 @cached
-def _light(player: int) -> Lit:
-    ink = Ink(96, 64)
+def _light(player: int) -> LitImage:
+    ink = GlowCanvas(96, 64)
     for i in range(8):
         ink.line([(16 + 4 * i, 32), (64, 32)], mix(PLAYERS[player], WHITE, 0.1 * i), 4)
-    return Lit(ink.disc(64, 32, 5, WHITE).lit(1.2), (-64, -32))
+    return LitImage(ink.disc(64, 32, 5, WHITE).lit(1.2), (-64, -32))
 
 
 def _reach(own: float, player: int) -> tuple[float, float]:

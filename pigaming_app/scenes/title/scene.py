@@ -19,22 +19,22 @@ from pigaming_app.ui.draw import (
     SUB,
     button_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Pane, backdrop
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
-    blacked,
-    button_light,
-    calling,
-    calling_width,
+    black_out,
+    blit_sprite,
+    button_label,
+    call_to_action,
+    call_to_action_width,
     chip,
     chip_width,
     pulse,
     sign,
-    stamp,
 )
 
 PROMPT_Y, FOOT_Y = 906, 990
@@ -89,7 +89,7 @@ class Title:
         words = self.context.words
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
-        stamp(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
+        blit_sprite(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
         for i, game in enumerate(GAMES):
             line = tagline(words, game, kept_goal(self.context.settings, game))
             lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
@@ -140,17 +140,17 @@ class Title:
             self.context.sounds.play("accept")
         self.focus.place(self._spots())
 
-    def _spots(self) -> list[Spot]:
-        spots = [Spot(game, tile_rect(i)) for i, game in enumerate(GAMES)]
+    def _spots(self) -> list[FocusSpot]:
+        spots = [FocusSpot(game, tile_rect(i)) for i, game in enumerate(GAMES)]
         x = LEFT
         for name in self._menu():
             w = chip_width(self.context.words(f"title.{name}"))
-            spots.append(Spot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
+            spots.append(FocusSpot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
             x += w + 24
         x = RIGHT
         for language in reversed(LANGUAGES):
             w = chip_width(language.upper())
-            spots.append(Spot(language, pygame.Rect(x - w, FOOT_Y - 32, w, 64)))
+            spots.append(FocusSpot(language, pygame.Rect(x - w, FOOT_Y - 32, w, 64)))
             x -= w + 12
         return spots
 
@@ -161,8 +161,8 @@ class Title:
     def _prompt(self, screen: pygame.Surface) -> None:
         """The line that asks for a press, and says what it opens, between arrows that run towards it."""
         said, label = self.asked
-        calling(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
-        reach = calling_width(said, label, SUB) / 2 + 44
+        call_to_action(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
+        reach = call_to_action_width(said, label, SUB) / 2 + 44
         for k in range(3):
             level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
             sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
@@ -189,16 +189,16 @@ class Title:
             chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
         label = self.context.controls.label(None, Act.ALT)
         if label:
-            button_light(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
+            button_label(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
 
 
 @cached
-@sliced
+@resumable
 def ground() -> Steps[pygame.Surface]:
     """What never changes: the floor's dots, the name, and black where the tiles are."""
-    pane = Pane(LEFT, 54, 1210, 260)
-    logo(pane.hot, *LOGO)
-    name = yield from pane.lighting()
+    layer = Layer(LEFT, 54, 1210, 260)
+    logo(layer.glow, *LOGO)
+    name = yield from layer.lighting()
     out = backdrop().copy()
     name.draw(out)
-    return blacked(out, *map(tile_rect, range(len(GAMES))))
+    return black_out(out, *map(tile_rect, range(len(GAMES))))

@@ -23,16 +23,16 @@ from pigaming_app.ui.draw import (
     THIN,
     WHITE,
     Color,
-    Ink,
+    GlowCanvas,
     Point,
-    cut,
+    cut_box,
     dim,
     panel,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import MARGIN, Lit, Pane, span
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import MARGIN, Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.text import fit_size
 
 TILE_Y, TILE_H = 416, 416
 
@@ -44,46 +44,46 @@ def tile_rect(i: int) -> pygame.Rect:
 
 
 @cached
-@sliced
-def tile(game: str, name: str, line: str, hot: bool) -> Steps[Lit]:
+@resumable
+def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
     """A game's picture and name, its upper left at (0, 0)."""
     w = span(0, 4)[1]
-    pane = Pane(0, 0, w, TILE_H)
-    panel(pane.hot, 0, 0, w, TILE_H, dim(FOCUS, 0.55) if hot else STEEL)
-    pane.hot.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
+    layer = Layer(0, 0, w, TILE_H)
+    panel(layer.glow, 0, 0, w, TILE_H, dim(FOCUS, 0.55) if hot else STEEL)
+    layer.glow.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
     color = FOCUS if hot else ICE
-    pane.page.text(name, fitted(name, LABEL, w - 64), 32, 326, color)
-    pane.page.body(line, 32, 380, ICE if hot else MIST, "l", fitted(line, BODY, w - 64, "body"))
+    layer.canvas.text(name, fit_size(name, LABEL, w - 64), 32, 326, color)
+    layer.canvas.body(line, 32, 380, ICE if hot else MIST, "l", fit_size(line, BODY, w - 64, "body"))
     picture = _picture(game)
-    lit = yield from pane.lighting()
+    lit = yield from layer.lighting()
     picture.draw(lit.image, -lit.at[0], -lit.at[1])
     return lit
 
 
 @cached
-@sliced
-def _picture(game: str) -> Steps[Lit]:
-    pane = Pane(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
-    vignette(game, pane.hot, MARGIN, MARGIN)
+@resumable
+def _picture(game: str) -> Steps[LitImage]:
+    layer = Layer(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
+    vignette(game, layer.glow, MARGIN, MARGIN)
     yield
-    lit = yield from pane.lighting()
-    return Lit(lit.image, (-MARGIN, -MARGIN))
+    lit = yield from layer.lighting()
+    return LitImage(lit.image, (-MARGIN, -MARGIN))
 
 
-def vignette(game: str, ink: Ink, x: float, y: float) -> Ink:
+def vignette(game: str, ink: GlowCanvas, x: float, y: float) -> GlowCanvas:
     """A picture of "pitanks", "factory" or "race" in the upper 284 px of a tile of 560 x 416 px at (x, y)."""
     {"pitanks": _tanks, "factory": _factory, "race": _race}[game](ink, x, y + 4)
     return ink
 
 
-def _shot(ink: Ink, player: int, x: float, y: float, angle: float) -> None:
+def _shot(ink: GlowCanvas, player: int, x: float, y: float, angle: float) -> None:
     ink.to(x, y, angle)
     for i in range(6):
         ink.line([(-44 + 6 * i, 0), (0, 0)], dim(PLAYERS[player], 0.15 + 0.15 * i), 3 + i)
     ink.disc(1, 0, 5, WHITE).to(0, 0)
 
 
-def _tanks(ink: Ink, x: float, y: float) -> None:
+def _tanks(ink: GlowCanvas, x: float, y: float) -> None:
     draw_wall(ink.to(x + 290, y + 128, 1.2), 170, 30, 3, 12)
     robot(ink, 0, x + 118, y + 184, -0.42, 1.15)
     robot(ink, 1, x + 454, y + 84, 2.75, 1.15)
@@ -95,7 +95,7 @@ def _tanks(ink: Ink, x: float, y: float) -> None:
     ink.text("+1", LABEL, x + 118, y + 100, BLUE, "hero", "c")
 
 
-def _factory(ink: Ink, x: float, y: float) -> None:
+def _factory(ink: GlowCanvas, x: float, y: float) -> None:
     for cx, color in ((62, ALARM), (280, GREEN), (498, BLUE)):
         _pallet(ink, x + cx, y + 78, color)
     _machine(ink, x + 171, y + 78, "A")
@@ -107,21 +107,21 @@ def _factory(ink: Ink, x: float, y: float) -> None:
         _pallet(ink, x + cx + 92, y + 206, color)
 
 
-def _machine(ink: Ink, x: float, y: float, label: str) -> None:
-    ink.line(cut(x - 56, y - 56, 112, 112, 16), MIST, LINE, True).ring(x, y, 27, MIST, LINE)
+def _machine(ink: GlowCanvas, x: float, y: float, label: str) -> None:
+    ink.line(cut_box(x - 56, y - 56, 112, 112, 16), MIST, LINE, True).ring(x, y, 27, MIST, LINE)
     for i in range(8):
         c, s = math.cos(i * math.tau / 8 + 0.2), math.sin(i * math.tau / 8 + 0.2)
         ink.line([(x + 30 * c, y + 30 * s), (x + 37 * c, y + 37 * s)], MIST, 8)
     ink.text(label, 32, x, y, ICE, "hero", "c")
 
 
-def _pallet(ink: Ink, x: float, y: float, color: Color, r: float = 22) -> None:
-    box = cut(x - r, y - r, 2 * r, 2 * r, 5)
+def _pallet(ink: GlowCanvas, x: float, y: float, color: Color, r: float = 22) -> None:
+    box = cut_box(x - r, y - r, 2 * r, 2 * r, 5)
     ink.solid(box).line(box, color, 5, True)
     ink.line([(x - r, y), (x + r, y)], color, THIN).line([(x, y - r), (x, y + r)], color, THIN)
 
 
-def _race(ink: Ink, x: float, y: float) -> None:
+def _race(ink: GlowCanvas, x: float, y: float) -> None:
     ink.line(_lane(x, y, 114), MIST, LINE).line(_lane(x, y, 20), MIST, LINE)
     ink.dashes(_lane(x, y, 67), dim(MIST, 0.45), 3, 20, 20, False)
     for i, j in ((i, j) for i in range(2) for j in range(6) if (i + j) % 2):

@@ -16,7 +16,7 @@ from pigaming_app.scenes.views.race.track import draw_track
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
-from pigaming_app.ui.draw import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, Ink, cut, dim, shape_points
+from pigaming_app.ui.draw import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, GlowCanvas, cut_box, dim, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps
 
 MARGIN = 8  # px round the frame, for its glow
@@ -30,12 +30,12 @@ def preview(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
 def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     """The walls of an arena, and the shapes of the players where they begin."""
     left, top, k = fitted(w, h)
-    ink = Ink(w, h, 3)
+    ink = GlowCanvas(w, h, 3)
     for column in range(200, int(WIDTH), 200):
         for row in range(150, int(HEIGHT), 200):
             ink.disc(left + k * column, top + k * row, 1.5, dim(STEEL, 0.6))
     yield
-    ink.line(cut(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), MIST, THIN, True)
+    ink.line(cut_box(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), MIST, THIN, True)
     for wall in arena.walls:
         ends = [(left + k * wall.ax, top + k * wall.ay), (left + k * wall.bx, top + k * wall.by)]
         thick = max(7.0, 2 * wall.half * k)
@@ -54,26 +54,26 @@ def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     left, top, k = fitted(w, h)
     below = pygame.transform.smoothscale(earth(arena.plan), (round(k * WIDTH), round(k * HEIGHT)))
     yield
-    hot, cold = Ink(w, h, 3).to(left, top, 0.0, k), Ink(w, h, 3).to(left, top, 0.0, k)
-    yield from draw_track(hot, cold, arena.plan)
-    light = yield from hot.lighting(GLOW)
+    glow, crisp = GlowCanvas(w, h, 3).to(left, top, 0.0, k), GlowCanvas(w, h, 3).to(left, top, 0.0, k)
+    yield from draw_track(glow, crisp, arena.plan)
+    light = yield from glow.lighting(GLOW)
     out = pygame.Surface((w, h))
     out.blit(below, (round(left), round(top)))
     out.blit(light, (0, 0), special_flags=ADD)
-    yield from cold.onto(out)
+    yield from crisp.onto(out)
     return out
 
 
 def floor(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     """A floor as it is worked on: warehouses, machines, the aisle, and where the robots of each team begin."""
     left, top, k = fitted(w, h)
-    hot, cold = Ink(w, h, 3).to(left, top, 0.0, k), Ink(w, h, 3).to(left, top, 0.0, k)
-    yield from draw_floor((hot, cold), arena.plan)
-    hot.line(cut(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
+    glow, crisp = GlowCanvas(w, h, 3).to(left, top, 0.0, k), GlowCanvas(w, h, 3).to(left, top, 0.0, k)
+    yield from draw_floor((glow, crisp), arena.plan)
+    glow.line(cut_box(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
     for i, start in enumerate(arena.starts):
-        hot.ring(start.x, start.y, 36, TEAMS[i % 2], 8)
-    out = yield from hot.lighting(GLOW)
-    yield from cold.onto(out)
+        glow.ring(start.x, start.y, 36, TEAMS[i % 2], 8)
+    out = yield from glow.lighting(GLOW)
+    yield from crisp.onto(out)
     return out
 
 

@@ -17,7 +17,7 @@ from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.tread_marks import Treads
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PRE
-from pigaming_app.ui.draw.frame_budget import Ahead, Job
+from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
 from pigaming_app.ui.draw.sprites import Batch, put, step
 
 REAL_WIDER = 42  # px
@@ -59,7 +59,7 @@ class Picture:
         self.moments = Moments()
         self.treads = [Treads(i) for i in range(len(state.robots))]
         self.before = self.now = _poses(state)
-        self.jobs = Ahead([lambda: ground.surface])
+        self.jobs = PrewarmQueue([lambda: ground.surface])
         self.jobs.then(driving(self.seats))
 
     def for_real(self, folder: Path) -> None:

@@ -74,7 +74,7 @@ class FrameBudget:
 budget = FrameBudget()  # of the frame's thread
 
 
-class Ahead:
+class PrewarmQueue:
     """Jobs done ahead of the time when a picture needs what they make, a few in each frame."""
 
     def __init__(self, jobs: Iterable[Job] = ()) -> None:
@@ -103,7 +103,7 @@ class Ahead:
         return self._next is None
 
 
-def finished(steps: Steps[Result]) -> Result:
+def run_to_end(steps: Steps[Result]) -> Result:
     """What uninterrupted work returns."""
     while True:
         try:
@@ -113,7 +113,7 @@ def finished(steps: Steps[Result]) -> Result:
             return made
 
 
-def sliced(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
+def resumable(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
     """A function that may be interrupted wherever `work` yields; called again with the same arguments, it goes on.
 
     Raises Unfinished where the budget of the frame is spent. Arguments must be hashable.
@@ -128,8 +128,8 @@ def sliced(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
             try:
                 next(steps)
             except StopIteration as end:
-                finished: Result = end.value
-                return finished
+                run_to_end: Result = end.value
+                return run_to_end
             try:
                 budget.pause()
             except Unfinished:

@@ -11,8 +11,20 @@ from typing import Self
 
 import pygame
 
-from pigaming_app.ui.draw.frame_budget import Steps, finished
-from pigaming_app.ui.draw.theme import BLACK, BODY, CAPITALS, ICE, LINE, WHITE, Color, Points, font, mix, regular
+from pigaming_app.ui.draw.frame_budget import Steps, run_to_end
+from pigaming_app.ui.draw.theme import (
+    BLACK,
+    BODY,
+    CAPITALS,
+    ICE,
+    LINE,
+    WHITE,
+    Color,
+    Points,
+    font,
+    mix,
+    regular_polygon,
+)
 
 ADD, MULT, PRE = pygame.BLEND_RGB_ADD, pygame.BLEND_RGB_MULT, pygame.BLEND_PREMULTIPLIED
 
@@ -24,7 +36,7 @@ SOFT: Halos = ((4, 1, 0.60), (8, 2, 0.70))  # as NEAR, on pages
 TILE_W, TILE_H = 160, 120  # px
 
 
-class Ink:
+class GlowCanvas:
     """A black sheet of w x h px, drawn `ss` times larger than it will be. `to` moves, turns and scales what follows."""
 
     def __init__(self, w: int, h: int, ss: int = 2) -> None:
@@ -120,7 +132,7 @@ class Ink:
 
     def ring(self, x: float, y: float, r: float, color: Color, width: float = LINE) -> Self:
         """A circle's outline."""
-        return self.line(regular(max(24, int(r)), r, 0, x, y), color, width, True)
+        return self.line(regular_polygon(max(24, int(r)), r, 0, x, y), color, width, True)
 
     def dashes(self, points: Points, color: Color, width: float, on: float, off: float, closed: bool = True) -> Self:
         """An outline in dashes, `on` px long and `off` px apart; corners included."""
@@ -178,7 +190,7 @@ class Ink:
 
     def plain(self) -> pygame.Surface:
         """As `shrinking`, at once."""
-        return finished(self.shrinking())
+        return run_to_end(self.shrinking())
 
     def knocked(self, out: pygame.Surface) -> Steps[None]:
         """Darken what must stay black: voids and black lettering."""
@@ -194,7 +206,7 @@ class Ink:
 
     def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
         """As `lighting`, at once."""
-        return finished(self.lighting(glow, halos))
+        return run_to_end(self.lighting(glow, halos))
 
     def spriting(self, glow: float = 1.0) -> Steps[pygame.Surface]:
         """Premultiplied: black where `solid` hides the ground, light everywhere else. One blit occludes and glows."""
@@ -210,7 +222,7 @@ class Ink:
 
     def sprite(self, glow: float = 1.0) -> pygame.Surface:
         """As `spriting`, at once."""
-        return finished(self.spriting(glow))
+        return run_to_end(self.spriting(glow))
 
 
 def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:
@@ -249,38 +261,38 @@ def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, flo
     out.blit(soft, (0, 0), special_flags=ADD)
 
 
-class Page:
-    """A whole screen: lines glow (`hot`), titles shimmer (`warm`), body text is crisp (`cold`)."""
+class LayeredCanvas:
+    """A whole screen: lines glow (`glow`), titles shimmer (`soft`), body text is crisp (`crisp`)."""
 
     def __init__(self, w: int = 1920, h: int = 1080) -> None:
-        self.hot, self.warm, self.cold = Ink(w, h), Ink(w, h), Ink(w, h)
+        self.glow, self.soft, self.crisp = GlowCanvas(w, h), GlowCanvas(w, h), GlowCanvas(w, h)
 
     def text(
         self, text: str, size: int, x: float, y: float, color: Color = ICE, face: str = "head", align: str = "l"
     ) -> None:
         """A title or a number."""
-        self.warm.text(text, size, x, y, color, face, align)
+        self.soft.text(text, size, x, y, color, face, align)
 
     def body(self, text: str, x: float, y: float, color: Color = ICE, align: str = "l", size: int = BODY) -> None:
         """A sentence."""
-        self.cold.text(text, size, x, y, color, "body", align)
+        self.crisp.text(text, size, x, y, color, "body", align)
 
     def lighting(self) -> Steps[pygame.Surface]:
         """The page, lit."""
-        hot = yield from self.hot.shrinking()
-        out = hot.copy()
-        sources = [(hot, WIDE, 1.0)]
-        if self.warm.tiles:
-            warm = yield from self.warm.shrinking()
-            out.blit(warm, (0, 0), special_flags=ADD)
-            sources.append((warm, SOFT, 0.45))
+        lines = yield from self.glow.shrinking()
+        out = lines.copy()
+        sources = [(lines, WIDE, 1.0)]
+        if self.soft.tiles:
+            titles = yield from self.soft.shrinking()
+            out.blit(titles, (0, 0), special_flags=ADD)
+            sources.append((titles, SOFT, 0.45))
         yield
         yield from add_glow(out, sources)
-        yield from self.hot.knocked(out)
-        yield from self.warm.knocked(out)
-        yield from self.cold.onto(out)
+        yield from self.glow.knocked(out)
+        yield from self.soft.knocked(out)
+        yield from self.crisp.onto(out)
         return out
 
     def done(self) -> pygame.Surface:
         """As `lighting`, at once."""
-        return finished(self.lighting())
+        return run_to_end(self.lighting())

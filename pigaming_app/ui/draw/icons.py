@@ -3,11 +3,11 @@
 import math
 from collections.abc import Callable
 
-from pigaming_app.ui.draw.glow import Ink
-from pigaming_app.ui.draw.theme import Color, Point, Points, cut
+from pigaming_app.ui.draw.glow import GlowCanvas
+from pigaming_app.ui.draw.theme import Color, Point, Points, cut_box
 
 
-def icon(ink: Ink, name: str, x: float, y: float, r: float, color: Color, w: float | None = None) -> Ink:
+def icon(ink: GlowCanvas, name: str, x: float, y: float, r: float, color: Color, w: float | None = None) -> GlowCanvas:
     """Draw the icon `name` (a key of ICONS) round (x, y), `r` px to each side, in lines `w` px wide."""
     ICONS[name](Pen(ink, x, y, r, color, w or max(3, r * 0.13)))
     return ink
@@ -16,7 +16,7 @@ def icon(ink: Ink, name: str, x: float, y: float, r: float, color: Color, w: flo
 class Pen:
     """Draws on a square from (-1, -1) to (1, 1) that lies somewhere on a sheet."""
 
-    def __init__(self, ink: Ink, x: float, y: float, r: float, color: Color, w: float) -> None:
+    def __init__(self, ink: GlowCanvas, x: float, y: float, r: float, color: Color, w: float) -> None:
         self.ink, self.x, self.y, self.r, self.color, self.w = ink, x, y, r, color, w
 
     def at(self, points: Points) -> list[Point]:
@@ -88,7 +88,7 @@ def _pad(pen: Pen) -> None:
 
 
 def _keys(pen: Pen) -> None:
-    pen.line(*cut(-1, -0.58, 2, 1.16, 0.14), closed=True)
+    pen.line(*cut_box(-1, -0.58, 2, 1.16, 0.14), closed=True)
     for y in (-0.25, 0.05):
         for x in (-0.66, -0.22, 0.22, 0.66):
             pen.dot(x, y, 0.09)
@@ -96,7 +96,7 @@ def _keys(pen: Pen) -> None:
 
 
 def _ai(pen: Pen) -> None:
-    pen.line(*cut(-0.72, -0.42, 1.44, 1.1, 0.22), closed=True)
+    pen.line(*cut_box(-0.72, -0.42, 1.44, 1.1, 0.22), closed=True)
     pen.dot(-0.3, 0.08, 0.14)
     pen.dot(0.3, 0.08, 0.14)
     pen.line((0, -0.46), (0, -0.8))

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw import Ink, Page
-from pigaming_app.ui.draw.frame_budget import Steps, finished
+from pigaming_app.ui.draw import GlowCanvas, LayeredCanvas
+from pigaming_app.ui.draw.frame_budget import Steps, run_to_end
 from pigaming_app.ui.draw.surface_cache import cached
 
 ADD = pygame.BLEND_RGB_ADD
@@ -17,7 +17,7 @@ LEFT, RIGHT, TOP, BOTTOM = 96, 1824, 54, 1026  # the safe area
 
 
 @dataclass(frozen=True)
-class Lit:
+class LitImage:
     """A finished piece of light and where its corner lies on the canvas."""
 
     image: pygame.Surface
@@ -34,28 +34,28 @@ class Lit:
             screen.blit(self.image, place, (left, 0, right - left, h), special_flags=ADD)
 
 
-class Pane:
+class Layer:
     """An area of the canvas, x, y, w, h in px, to draw on with canvas coordinates."""
 
     def __init__(self, x: float, y: float, w: float, h: float) -> None:
         self.at = round(x) - MARGIN, round(y) - MARGIN
-        self.page = Page(round(w) + 2 * MARGIN, round(h) + 2 * MARGIN)
-        for ink in (self.page.hot, self.page.warm, self.page.cold):
+        self.canvas = LayeredCanvas(round(w) + 2 * MARGIN, round(h) + 2 * MARGIN)
+        for ink in (self.canvas.glow, self.canvas.soft, self.canvas.crisp):
             ink.to(-self.at[0], -self.at[1])
 
     @property
-    def hot(self) -> Ink:
+    def glow(self) -> GlowCanvas:
         """The sheet whose lines glow."""
-        return self.page.hot
+        return self.canvas.glow
 
-    def lighting(self) -> Steps[Lit]:
+    def lighting(self) -> Steps[LitImage]:
         """The pane, lit. Costs about 0.1 µs a pixel; not for a steady frame."""
-        image = yield from self.page.lighting()
-        return Lit(image, self.at)
+        image = yield from self.canvas.lighting()
+        return LitImage(image, self.at)
 
-    def done(self) -> Lit:
+    def done(self) -> LitImage:
         """As `lighting`, at once."""
-        return finished(self.lighting())
+        return run_to_end(self.lighting())
 
 
 def span(first: int, columns: int) -> tuple[int, int]:
@@ -66,7 +66,7 @@ def span(first: int, columns: int) -> tuple[int, int]:
 @cached
 def backdrop() -> pygame.Surface:
     """The dots of an arena's floor, over the whole canvas."""
-    tile = Ink(48, 48).disc(24, 12, 1.5, (22, 31, 46)).plain()
+    tile = GlowCanvas(48, 48).disc(24, 12, 1.5, (22, 31, 46)).plain()
     out = pygame.Surface((1920, 1080))
     out.fblits([(tile, (x, y)) for x in range(0, 1920, 48) for y in range(0, 1080, 48)])
     return out

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from pigaming_app.ui.draw.glow import Ink, Page
+from pigaming_app.ui.draw.glow import GlowCanvas, LayeredCanvas
 from pigaming_app.ui.draw.icons import icon
 from pigaming_app.ui.draw.theme import (
     BLACK,
@@ -16,7 +16,7 @@ from pigaming_app.ui.draw.theme import (
     THIN,
     WHITE,
     Color,
-    cut,
+    cut_box,
     mix,
     shape_points,
     text_width,
@@ -26,7 +26,7 @@ ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # no font 
 SIGNS = {**ARROWS, "Cross": "cross", "Circle": "circle", "Square": "square", "Triangle": "triangle"}  # PlayStation's
 
 
-def badge(ink: Ink, player: int, x: float, y: float, r: float = 32, color: Color | None = None) -> None:
+def badge(ink: GlowCanvas, player: int, x: float, y: float, r: float = 32, color: Color | None = None) -> None:
     """Shape and number of seat 0..3, always together and upright."""
     color = color or PLAYERS[player]
     low, size = (0.16, 1.14) if player == 1 else (0.0, 1.3)  # the triangle sits lower and its number is smaller
@@ -42,41 +42,41 @@ def button_width(label: str) -> float:
     return 104 if label == "<>" else max(60, text_width(label, BODY) + 36)
 
 
-def button(page: Page, x: float, y: float, label: str, color: Color = ICE, r: float = 30) -> float:
+def button(canvas: LayeredCanvas, x: float, y: float, label: str, color: Color = ICE, r: float = 30) -> float:
     """A pad's button or a key, as it is printed on the device; x is its left edge. Returns its width."""
     w = button_width(label)
     if label in ARROWS or w != 60:
-        page.hot.line(cut(x, y - r + 2, w, 2 * r - 4, 10), color, THIN, True)
+        canvas.glow.line(cut_box(x, y - r + 2, w, 2 * r - 4, 10), color, THIN, True)
     else:
-        page.hot.ring(x + r, y, r - 2, color, THIN)
+        canvas.glow.ring(x + r, y, r - 2, color, THIN)
     if label == "<>":
-        icon(page.cold, "left", x + 30, y, 15, color, 5)
-        icon(page.cold, "right", x + w - 30, y, 15, color, 5)
+        icon(canvas.crisp, "left", x + 30, y, 15, color, 5)
+        icon(canvas.crisp, "right", x + w - 30, y, 15, color, 5)
     elif label in SIGNS:
-        icon(page.cold, SIGNS[label], x + w / 2, y, 16, color, 5)
+        icon(canvas.crisp, SIGNS[label], x + w / 2, y, 16, color, 5)
     else:
-        page.cold.text(label, BODY, x + w / 2, y, color, "head", "c")
+        canvas.crisp.text(label, BODY, x + w / 2, y, color, "head", "c")
     return w
 
 
-def hints(page: Page, items: Sequence[tuple[str, str]], y: float = 980, gap: float = 56) -> None:
+def hints(canvas: LayeredCanvas, items: Sequence[tuple[str, str]], y: float = 980, gap: float = 56) -> None:
     """A centred row of (button, what it does)."""
     widths = [button_width(label) + 18 + text_width(what, BODY, "body") for label, what in items]
     x = (1920 - sum(widths) - gap * (len(items) - 1)) / 2
     for (label, what), w in zip(items, widths, strict=True):
-        page.body(what, x + button(page, x, y, label) + 18, y, MIST)
+        canvas.body(what, x + button(canvas, x, y, label) + 18, y, MIST)
         x += w + gap
 
 
 def panel(
-    ink: Ink, x: float, y: float, w: float, h: float, color: Color = STEEL, width: float = THIN, c: float = 20
+    ink: GlowCanvas, x: float, y: float, w: float, h: float, color: Color = STEEL, width: float = THIN, c: float = 20
 ) -> None:
     """An outlined box of the house shape that hides what lies below it."""
-    ink.solid(cut(x, y, w, h, c)).line(cut(x, y, w, h, c), color, width, True)
+    ink.solid(cut_box(x, y, w, h, c)).line(cut_box(x, y, w, h, c), color, width, True)
 
 
 def brackets(
-    ink: Ink,
+    ink: GlowCanvas,
     x: float,
     y: float,
     w: float,

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import pygame
 
-from pigaming_app.ui.draw import MULT, Ink
+from pigaming_app.ui.draw import MULT, GlowCanvas
 from pigaming_app.ui.draw.surface_cache import cached
 
 HEADINGS = 96  # of what is turned finely: 3.75 degrees each, two pixels at a barrel's end
@@ -37,9 +37,9 @@ def step(angle: float, steps: int) -> int:
     return round(angle / math.tau * steps) % steps
 
 
-def master(half: int, arm: float = 0.0) -> Ink:
+def master(half: int, arm: float = 0.0) -> GlowCanvas:
     """A sheet for a sprite that will be turned: twice its size, `half` px to each side of a point `arm` px ahead."""
-    return Ink(4 * half, 4 * half, 2).to(2 * (half - arm), 2 * half, 0, 2)
+    return GlowCanvas(4 * half, 4 * half, 2).to(2 * (half - arm), 2 * half, 0, 2)
 
 
 def turned(image: pygame.Surface, turn: int, steps: int, arm: float = 0.0, zoom: float = 0.5) -> Sprite:

@@ -5,21 +5,21 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ui.draw import BODY, ICE, Color, Ink, font, text_width
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw import BODY, ICE, Color, GlowCanvas, font, text_width
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
 SMALLEST = 28  # px
 
 
-def fitted(text: str, size: int, width: float, face: str = "head") -> int:
+def fit_size(text: str, size: int, width: float, face: str = "head") -> int:
     """The largest size, `size` at most, in which a line is not wider than `width` px."""
     wide = text_width(text, size, face)
     return size if wide <= width else int(size * width / wide)
 
 
-def lines_of(text: str, size: int, width: float, face: str = "body") -> list[str]:
+def wrap(text: str, size: int, width: float, face: str = "body") -> list[str]:
     """A text broken into lines not wider than `width` px."""
     lines = [""]
     for part in text.split():
@@ -31,61 +31,61 @@ def lines_of(text: str, size: int, width: float, face: str = "body") -> list[str
     return lines
 
 
-def balanced(text: str, count: int, size: int = BODY, face: str = "body") -> list[str]:
+def wrap_balanced(text: str, count: int, size: int = BODY, face: str = "body") -> list[str]:
     """A text broken into at most `count` lines, the longest as short as possible."""
     parts = text.split()
     widths = {
         text_width(" ".join(parts[i:j]), size, face) for i in range(len(parts)) for j in range(i + 1, len(parts) + 1)
     }
-    return next((lines for w in sorted(widths) if len(lines := lines_of(text, size, w, face)) <= count), [])
+    return next((lines for w in sorted(widths) if len(lines := wrap(text, size, w, face)) <= count), [])
 
 
-def shrunk_lines(
+def fit_lines(
     text: str, room: float, most: int, sizes: Sequence[int] = range(BODY, SMALLEST, -2)
 ) -> tuple[int, list[str]]:
     """The first of `sizes` (px) in which a text takes at most `most` lines of `room` px, else SMALLEST; the lines."""
-    size = next((size for size in sizes if len(lines_of(text, size, room)) <= most), SMALLEST)
-    return size, lines_of(text, size, room)
+    size = next((size for size in sizes if len(wrap(text, size, room)) <= most), SMALLEST)
+    return size, wrap(text, size, room)
 
 
 @cached
-def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0.7, level: int = 8) -> Lit:
+def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0.7, level: int = 8) -> LitImage:
     """One line of light whose capitals are centred on (0, 0); `level` of 8 parts of its brightness."""
     if level < 8:
         whole = word(text, size, color, face, glow)
         image = whole.image.copy()
         image.fill([255 * level // 8] * 3, special_flags=pygame.BLEND_RGB_MULT)
-        return Lit(image, whole.at)
+        return LitImage(image, whole.at)
     w, h = round(text_width(text, size, face)) + 64, round(size * 1.5) + 48
-    ink = Ink(w, h)
+    ink = GlowCanvas(w, h)
     ink.text(text, size, w / 2, h / 2, color, face, "c")
-    return Lit(ink.lit(glow), (-(w // 2), -(h // 2)))
+    return LitImage(ink.lit(glow), (-(w // 2), -(h // 2)))
 
 
 @cached
 def text(
     said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
-) -> Lit:
+) -> LitImage:
     """One line, its capitals round y = 0; all but sentences shimmer. It shrinks where it would be wider than `room`."""
-    size = fitted(said, size, room, face)
+    size = fit_size(said, size, room, face)
     edge = 4 if face == "body" else 32  # px for the glow
     w, h = round(text_width(said, size, face)) + 2 * edge, 2 * size + 2 * edge
-    ink = Ink(w, h).text(said, size, edge, h / 2, color, face)
+    ink = GlowCanvas(w, h).text(said, size, edge, h / 2, color, face)
     left = -edge - round((w - 2 * edge) * {"l": 0.0, "c": 0.5, "r": 1.0}[align])
-    return Lit(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
+    return LitImage(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
 
 
-def paragraph(said: str, room: int, most: int = 4, color: Color = ICE, align: str = "l") -> list[Lit]:
+def paragraph(said: str, room: int, most: int = 4, color: Color = ICE, align: str = "l") -> list[LitImage]:
     """A sentence as lines of at most `room` px, not more than `most`: a longer one is written smaller."""
-    size, lines = shrunk_lines(said, room, most)
+    size, lines = fit_lines(said, room, most)
     return [text(line, size, color, "body", align, room) for line in lines]
 
 
-def write(pane: Pane, said: str, x: float, y: float, room: float, color: Color) -> float:
+def write_lines(layer: Layer, said: str, x: float, y: float, room: float, color: Color) -> float:
     """Write a sentence on a layer, smaller where it takes more than three lines; where the next may begin, px."""
-    size, lines = shrunk_lines(said, room, 3, (BODY, 36, 32))
+    size, lines = fit_lines(said, room, 3, (BODY, 36, 32))
     for line in lines:
-        pane.page.body(line, x, y, color, "l", size)
+        layer.canvas.body(line, x, y, color, "l", size)
         y += 1.35 * size
     return y
 
@@ -95,7 +95,7 @@ def glyph(char: str, size: int, color: Color, glow: float = 0.7) -> tuple[Sprite
     """One digit or sign as light, from its left edge and the middle of the capitals, and how far to the next, px."""
     advance = font("hero", size * 2).size(char)[0] / 2
     w, h = math.ceil(advance) + 48, size + 56
-    ink = Ink(w, h).text(char, size, 24, h / 2, color, "hero")
+    ink = GlowCanvas(w, h).text(char, size, 24, h / 2, color, "hero")
     return trim(ink.lit(glow), 24, h / 2), advance
 
 

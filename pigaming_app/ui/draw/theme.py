@@ -62,7 +62,7 @@ def text_width(text: str, size: int, face: str = "head") -> float:
     return font(face, size * 2).size(text)[0] / 2
 
 
-def cut(x: float, y: float, w: float, h: float, c: float = 16) -> list[Point]:
+def cut_box(x: float, y: float, w: float, h: float, c: float = 16) -> list[Point]:
     """A rectangle with its corners cut at 45 degrees: the house shape, as in the letters of Oxanium."""
     return [
         (x + c, y),
@@ -76,7 +76,7 @@ def cut(x: float, y: float, w: float, h: float, c: float = 16) -> list[Point]:
     ]
 
 
-def regular(n: int, r: float, turn: float = 0.0, cx: float = 0, cy: float = 0) -> list[Point]:
+def regular_polygon(n: int, r: float, turn: float = 0.0, cx: float = 0, cy: float = 0) -> list[Point]:
     """A regular polygon of `n` corners on a circle of radius `r` px round (cx, cy), the first at angle `turn` rad."""
     angles = [turn + i * math.tau / n for i in range(n)]
     return [(cx + r * math.cos(a), cy + r * math.sin(a)) for a in angles]
@@ -85,9 +85,9 @@ def regular(n: int, r: float, turn: float = 0.0, cx: float = 0, cy: float = 0) -
 def shape_points(player: int, r: float) -> list[Point]:
     """The shape of seat 0..3, pointing along +x and of equal visual weight: circle, triangle, square, diamond."""
     if player == 0:
-        return regular(48, r * 0.98)
+        return regular_polygon(48, r * 0.98)
     if player == 1:
-        return regular(3, r * 1.28)
+        return regular_polygon(3, r * 1.28)
     if player == 2:
-        return regular(4, r * 1.22, math.pi / 4)
-    return regular(4, r * 1.24)
+        return regular_polygon(4, r * 1.22, math.pi / 4)
+    return regular_polygon(4, r * 1.24)

@@ -13,10 +13,10 @@ from pigaming_app.ui.draw import (
     THIN,
     button,
     button_width,
-    cut,
+    cut_box,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
@@ -27,7 +27,7 @@ GAPS = (56, 44, 32, 24)
 HIGH = 34  # px from the middle of the row to the edge of what can be clicked
 
 
-class Prompts:
+class ButtonPrompts:
     """A row of (act, key of its text), centred on the line y px of the canvas, not wider than `room` px.
 
     `solid`: the row lies on a black plate. `voice`: the device whose buttons are named, if not the one used last.
@@ -57,7 +57,7 @@ class Prompts:
         """What each of the hints stands for."""
         return [act for act, _ in self.items if self._label(act)]
 
-    def meant(self, press: Press) -> Press:
+    def as_button(self, press: Press) -> Press:
         """A click on one of the hints as the press that it stands for; any other press as it is."""
         if press.act is not Act.CLICK or press.at is None or abs(press.at[1] - self.y) > HIGH:
             return press
@@ -70,7 +70,7 @@ class Prompts:
         """Add the row to the screen."""
         if self.solid:
             ends = places(self.said, self.room)
-            outline = cut(ends[0][0] - 40, self.y - 46, ends[-1][1] - ends[0][0] + 80, 92)
+            outline = cut_box(ends[0][0] - 40, self.y - 46, ends[-1][1] - ends[0][0] + 80, 92)
             pygame.draw.polygon(screen, BLACK, outline)
             pygame.draw.polygon(screen, STEEL, outline, THIN)
         row(self.said, self.y, self.room).draw(screen)
@@ -93,10 +93,10 @@ def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, floa
 
 
 @cached
-def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> Lit:
+def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
     """The whole row, lit."""
     ends = places(said, room)
-    pane = Pane(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
+    layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
     for (label, text), (left, _) in zip(said, ends, strict=True):
-        pane.page.body(text, left + button(pane.page, left, y, label) + 18, y, MIST)
-    return pane.done()
+        layer.canvas.body(text, left + button(layer.canvas, left, y, label) + 18, y, MIST)
+    return layer.done()

@@ -5,14 +5,27 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, STEEL, THIN, Color, Ink, badge, cut, icon, text_width
+from pigaming_app.ui.draw import (
+    BODY,
+    FOCUS,
+    ICE,
+    LINE,
+    STEEL,
+    THIN,
+    Color,
+    GlowCanvas,
+    badge,
+    cut_box,
+    icon,
+    text_width,
+)
 from pigaming_app.ui.draw.surface_cache import cached
 
 MARGIN = 24  # px of glow round a plate
 
 
 @dataclass(frozen=True)
-class Plate:
+class Caption:
     """A premultiplied sprite that hides what is below it, and its size without the glow, px."""
 
     image: pygame.Surface
@@ -29,20 +42,20 @@ RING_STEPS = 12  # pictures of a ring that fills
 
 
 @cached
-def filling(player: int, step: int) -> Plate:
+def hold_ring(player: int, step: int) -> Caption:
     """A player's badge in a ring that is `step` of RING_STEPS full, on black: a button that has to be held."""
     r = 46
-    ink = Ink(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).to(r + MARGIN, r + MARGIN)
+    ink = GlowCanvas(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).to(r + MARGIN, r + MARGIN)
     ink.solid([(1.2 * r * math.cos(i * math.tau / 32), 1.2 * r * math.sin(i * math.tau / 32)) for i in range(32)])
     ink.ring(0, 0, r - 2, STEEL, THIN)
     if step:
         ink.arc(0, 0, r - 2, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), FOCUS, LINE)
     badge(ink, player, 0, 0, 24)
-    return Plate(ink.sprite(0.6), 2 * r, 2 * r)
+    return Caption(ink.sprite(0.6), 2 * r, 2 * r)
 
 
 @cached
-def plate(
+def caption(
     text: str,
     color: Color = STEEL,
     ink_color: Color = ICE,
@@ -50,13 +63,13 @@ def plate(
     player: int | None = None,
     sign: str | None = None,
     face: str = "body",
-) -> Plate:
+) -> Caption:
     """A plate outlined in `color`, with a player's badge and an icon before the text where they are given."""
     high = round(size * 1.7)
     lead = (0 if player is None else round(size * 1.35)) + (0 if sign is None else round(size * 1.35))
     wide = round(text_width(text, size, face)) + lead + 2 * round(size * 0.6)
-    ink = Ink(wide + 2 * MARGIN, high + 2 * MARGIN).to(MARGIN, MARGIN)
-    outline = cut(0, 0, wide, high, 14)
+    ink = GlowCanvas(wide + 2 * MARGIN, high + 2 * MARGIN).to(MARGIN, MARGIN)
+    outline = cut_box(0, 0, wide, high, 14)
     ink.solid(outline).line(outline, color, THIN, True)
     x, y = round(size * 0.6), high / 2
     if player is not None:
@@ -66,4 +79,4 @@ def plate(
         icon(ink, sign, x + size * 0.4, y, size * 0.48, ink_color, THIN)
         x += round(size * 1.35)
     ink.text(text, size, x, y, ink_color, face)
-    return Plate(ink.sprite(0.6), wide, high)
+    return Caption(ink.sprite(0.6), wide, high)

@@ -7,9 +7,9 @@ from collections.abc import Callable, Hashable
 
 import pygame
 
-from pigaming_app.ui.draw import BLACK, LINE, STEEL, THIN, Color, cut, panel
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import Lit, Pane, span
+from pigaming_app.ui.draw import BLACK, LINE, STEEL, THIN, Color, cut_box, panel
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 
 X, W = span(2, 8)
 Y, H = 216, 648
@@ -18,7 +18,7 @@ PROMPTS = Y + 588  # the row of hints
 
 
 def overlay(
-    behind: pygame.Surface, color: Color, paint: Callable[[Pane], None], shown: Hashable = None
+    behind: pygame.Surface, color: Color, paint: Callable[[Layer], None], shown: Hashable = None
 ) -> pygame.Surface:
     """The picture `behind` (canvas size) under a sheet outlined in `color`, on which `paint` has drawn.
 
@@ -26,19 +26,19 @@ def overlay(
     """
     light = _sheet(color, paint, shown)
     out = behind.copy()
-    pygame.draw.polygon(out, BLACK, cut(X - 12, Y - 12, W + 24, H + 24, 32))
+    pygame.draw.polygon(out, BLACK, cut_box(X - 12, Y - 12, W + 24, H + 24, 32))
     light.draw(out)
     return out
 
 
-@sliced
-def _sheet(color: Color, paint: Callable[[Pane], None], shown: Hashable) -> Steps[Lit]:
+@resumable
+def _sheet(color: Color, paint: Callable[[Layer], None], shown: Hashable) -> Steps[LitImage]:
     """The light of the sheet."""
-    pane = Pane(X, Y, W, H)
-    panel(pane.hot, X, Y, W, H, color, LINE, 28)
+    layer = Layer(X, Y, W, H)
+    panel(layer.glow, X, Y, W, H, color, LINE, 28)
     for y in (HEAD, FOOT):
-        pane.hot.line([(X + 40, y), (X + W - 40, y)], STEEL, THIN)
+        layer.glow.line([(X + 40, y), (X + W - 40, y)], STEEL, THIN)
     yield
-    paint(pane)
+    paint(layer)
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw import BOLD, FOCUS, LINE, Color, Ink
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw import BOLD, FOCUS, LINE, Color, GlowCanvas
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Act, Press
 
@@ -24,7 +24,7 @@ WAYS = {Act.LEFT: (-1, 0), Act.RIGHT: (1, 0), Act.UP: (0, -1), Act.DOWN: (0, 1)}
 
 
 @dataclass(frozen=True)
-class Spot:
+class FocusSpot:
     """Something on a page that can be chosen: its name and where it is, px of the canvas."""
 
     name: str
@@ -34,7 +34,7 @@ class Spot:
 class Focus:
     """The spots of a page, one of which is meant. `name`: the one to begin with; else the first."""
 
-    def __init__(self, spots: Sequence[Spot], name: str | None = None) -> None:
+    def __init__(self, spots: Sequence[FocusSpot], name: str | None = None) -> None:
         self.spots = list(spots)
         self.index = self._index(name)
         self._from = self.spot.rect
@@ -42,7 +42,7 @@ class Focus:
         self._clock = 0.0
 
     @property
-    def spot(self) -> Spot:
+    def spot(self) -> FocusSpot:
         """The spot that is meant."""
         return self.spots[self.index]
 
@@ -79,7 +79,7 @@ class Focus:
         self._from, self.index, self._age = self.box, self._index(name), 0.0
         return True
 
-    def place(self, spots: Sequence[Spot]) -> None:
+    def place(self, spots: Sequence[FocusSpot]) -> None:
         """The spots are elsewhere, or others; the one that is meant stays so if it is still there."""
         name, self.spots = self.name, list(spots)
         self.index = self._index(name)
@@ -120,12 +120,12 @@ class Focus:
 
 
 @cached
-def corner(across: int, down: int, small: bool, color: Color) -> Lit:
+def corner(across: int, down: int, small: bool, color: Color) -> LitImage:
     """A corner of the focus at (0, 0); `across` and `down` are 1 or -1: on which side the spot lies."""
     arm, c, width = (12, 12, LINE) if small else (48, 20, BOLD)
-    ink = Ink(2 * REACH, 2 * REACH).to(REACH, REACH)
+    ink = GlowCanvas(2 * REACH, 2 * REACH).to(REACH, REACH)
     points = [(0, down * (c + arm)), (0, down * c), (across * c, 0), (across * (c + arm), 0)]
-    return Lit(ink.neon(points, color, width).lit(1.0), (-REACH, -REACH))
+    return LitImage(ink.neon(points, color, width).lit(1.0), (-REACH, -REACH))
 
 
 def _beyond(here: pygame.Rect, there: pygame.Rect, way: tuple[int, int]) -> bool:

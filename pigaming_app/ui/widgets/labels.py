@@ -20,17 +20,17 @@ from pigaming_app.ui.draw import (
     Color,
     button,
     button_width,
-    cut,
+    cut_box,
     dim,
     icon,
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Lit, Pane
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.text import fit_size
 
 LEVELS = 8  # brightnesses kept of what pulses
 
@@ -40,69 +40,69 @@ def pulse(seconds: float, low: int = 4) -> int:
     return round(low + (LEVELS - low) * (0.5 + 0.5 * math.cos(math.tau * seconds)))
 
 
-def dimmed(lit: Lit, share: float) -> Lit:
+def dimmed(lit: LitImage, share: float) -> LitImage:
     """A piece of light at `share` of its brightness, 0..1."""
     image = lit.image.copy()
     image.fill([round(255 * share)] * 3, special_flags=pygame.BLEND_RGB_MULT)
-    return Lit(image, lit.at)
+    return LitImage(image, lit.at)
 
 
 @cached
-@sliced
-def heading(title: str, right: str = "", color: Color = ICE) -> Steps[Lit]:
+@resumable
+def heading(title: str, right: str = "", color: Color = ICE) -> Steps[LitImage]:
     """The head of a page, with a line below it and a fact at its right end."""
-    pane = Pane(LEFT, 54, RIGHT - LEFT, 130)
-    size = fitted(title, TITLE, 1000)
-    pane.page.text(title, size, LEFT, 112, color)
+    layer = Layer(LEFT, 54, RIGHT - LEFT, 130)
+    size = fit_size(title, TITLE, 1000)
+    layer.canvas.text(title, size, LEFT, 112, color)
     if right:
         room = RIGHT - LEFT - 60 - text_width(title, size)
-        pane.page.body(right, RIGHT, 112, MIST, "r", fitted(right, BODY, room, "body"))
-    pane.hot.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
+        layer.canvas.body(right, RIGHT, 112, MIST, "r", fit_size(right, BODY, room, "body"))
+    layer.glow.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 @cached
-@sliced
-def frame(w: int, h: int) -> Steps[Lit]:
+@resumable
+def frame(w: int, h: int) -> Steps[LitImage]:
     """The frame of a picture or of a panel; upper left at (0, 0)."""
-    pane = Pane(0, 0, w, h)
-    panel(pane.hot, 0, 0, w, h)
+    layer = Layer(0, 0, w, h)
+    panel(layer.glow, 0, 0, w, h)
     yield
-    return (yield from pane.lighting())
+    return (yield from layer.lighting())
 
 
 @cached
-def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> Lit:
+def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> LitImage:
     """An icon round (0, 0), `r` px to each side."""
     if level < LEVELS:
         return dimmed(sign(name, r, color, w), level / LEVELS)
-    pane = Pane(-r, -r, 2 * r, 2 * r)
-    icon(pane.hot, name, 0, 0, r, color, w)
-    return pane.done()
+    layer = Layer(-r, -r, 2 * r, 2 * r)
+    icon(layer.glow, name, 0, 0, r, color, w)
+    return layer.done()
 
 
 @cached
-def calling(said: str, label: str, size: int, level: int = LEVELS) -> Lit:
+def call_to_action(said: str, label: str, size: int, level: int = LEVELS) -> LitImage:
     """A yellow line that asks for a press; {button} in it is the button. Round (0, 0)."""
     if level < LEVELS:
-        return dimmed(calling(said, label, size), level / LEVELS)
+        return dimmed(call_to_action(said, label, size), level / LEVELS)
     before, hole, after = said.partition("{button}")
     wide = button_width(label) + 36 if hole else 0
-    size = fitted(before.strip() + after.strip(), size, 1500 - wide)
+    size = fit_size(before.strip() + after.strip(), size, 1500 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]
     x = -(sum(ends) + wide) / 2
-    pane = Pane(x, -size, -2 * x, 2 * size)
-    pane.page.text(before.strip(), size, x, 0, FOCUS)
+    layer = Layer(x, -size, -2 * x, 2 * size)
+    layer.canvas.text(before.strip(), size, x, 0, FOCUS)
     if hole:
-        button(pane.page, x + ends[0] + 18, 0, label, FOCUS)
-    pane.page.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
-    return pane.done()
+        button(layer.canvas, x + ends[0] + 18, 0, label, FOCUS)
+    layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
+    return layer.done()
 
 
-def calling_width(said: str, label: str, size: int) -> float:
+def call_to_action_width(said: str, label: str, size: int) -> float:
     """Width of such a line, px."""
-    return calling(said, label, size).image.get_width() - 96
+    return call_to_action(said, label, size).image.get_width() - 96
 
 
 def chip_width(said: str) -> int:
@@ -111,28 +111,28 @@ def chip_width(said: str) -> int:
 
 
 @cached
-def chip(said: str, w: int, state: str = "off", high: int = 64) -> Lit:
+def chip(said: str, w: int, state: str = "off", high: int = 64) -> LitImage:
     """A box with a word, its upper left at (0, 0). `state`: off, on, focus (on and in focus), ready (calls)."""
     edge = {"off": STEEL, "on": ICE, "focus": FOCUS, "ready": FOCUS}[state]
-    pane = Pane(0, 0, w, high)
-    pane.hot.line(cut(0, 0, w, high, 12), edge, THIN, True)
+    layer = Layer(0, 0, w, high)
+    layer.glow.line(cut_box(0, 0, w, high, 12), edge, THIN, True)
     color = {"off": MIST, "ready": FOCUS}.get(state, ICE)
-    pane.page.cold.text(said, fitted(said, BODY, w - 24), w / 2, high / 2, color, "head", "c")
-    return pane.done()
+    layer.canvas.crisp.text(said, fit_size(said, BODY, w - 24), w / 2, high / 2, color, "head", "c")
+    return layer.done()
 
 
 @cached
-def button_light(label: str) -> Lit:
+def button_label(label: str) -> LitImage:
     """A button as it is printed on the device, its left edge at x = 0."""
-    pane = Pane(0, -32, button_width(label), 64)
-    button(pane.page, 0, 0, label)
-    return pane.done()
+    layer = Layer(0, -32, button_width(label), 64)
+    button(layer.canvas, 0, 0, label)
+    return layer.done()
 
 
-def blacked(screen: pygame.Surface, *boxes: pygame.Rect) -> pygame.Surface:
+def black_out(screen: pygame.Surface, *boxes: pygame.Rect) -> pygame.Surface:
     """Hide the dots of the floor inside boxes of the house shape."""
     for box in boxes:
-        pygame.draw.polygon(screen, (0, 0, 0), cut(box.x, box.y, box.w, box.h, 20))
+        pygame.draw.polygon(screen, (0, 0, 0), cut_box(box.x, box.y, box.w, box.h, 20))
     return screen
 
 
@@ -141,6 +141,6 @@ def glow_bar(screen: pygame.Surface, box: pygame.Rect, color: Color = FOCUS) -> 
     screen.fill(dim(color, 0.09), box, pygame.BLEND_RGB_ADD)
 
 
-def stamp(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
+def blit_sprite(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
     """Blit a premultiplied sprite where it belongs."""
     screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=pygame.BLEND_PREMULTIPLIED)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.ui.draw import FOCUS, LINE, Color, brackets, icon
-from pigaming_app.ui.draw.layers import Lit, Pane
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import word
 
@@ -71,14 +71,14 @@ def draw_letters(
 
 
 @cached
-def cursor(w: int, h: int, arm: int, corner: int, width: float, arrows: tuple[float, int, float]) -> Lit:
+def cursor(w: int, h: int, arm: int, corner: int, width: float, arrows: tuple[float, int, float]) -> LitImage:
     """Corners round a letter of w x h px, and the arrows that turn it; round (0, 0).
 
     `arrows`: px from the middle to an arrow, its size, and how far the glow may reach.
     """
     away, r, reach = arrows
-    pane = Pane(-w / 2 - 20, -reach, w + 40, 2 * reach)
-    brackets(pane.hot, -w / 2, -h / 2, w, h, FOCUS, arm, corner, width)
+    layer = Layer(-w / 2 - 20, -reach, w + 40, 2 * reach)
+    brackets(layer.glow, -w / 2, -h / 2, w, h, FOCUS, arm, corner, width)
     for side, name in ((-1, "up"), (1, "down")):
-        icon(pane.hot, name, 0, side * away, r, FOCUS, LINE)
-    return pane.done()
+        icon(layer.glow, name, 0, side * away, r, FOCUS, LINE)
+    return layer.done()

@@ -5,8 +5,8 @@ from collections import deque
 import pygame
 
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, font
-from pigaming_app.ui.draw.text import fitted
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.widgets.caption import caption
 
 STAY = 5.0  # seconds
 Y = 1040  # px, below the row of hints
@@ -31,14 +31,14 @@ class Notices:
         if not self.waiting:
             return
         said = self.waiting[0]
-        plate(said, FOCUS, ICE, fitted(said, BODY, ROOM, "body")).draw(screen, 960, Y)
+        caption(said, FOCUS, ICE, fit_size(said, BODY, ROOM, "body")).draw(screen, 960, Y)
         self.age += seconds
         if self.age > STAY:
             self.waiting.popleft()
             self.age = 0.0
 
 
-class Gauge:
+class FrameMeter:
     """Frames a second, and the longest that scenes took to move and to paint since the last reading, ms."""
 
     def __init__(self) -> None:

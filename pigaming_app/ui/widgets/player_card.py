@@ -13,14 +13,14 @@ from pigaming_app.ui.draw import (
     THIN,
     button,
     button_width,
-    cut,
+    cut_box,
     dim,
     icon,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 
 W, H = span(0, 3)[1], 600
@@ -30,25 +30,25 @@ BAR = (24, 500, W - 48, 76)
 
 
 @cached
-def ready(player: int, said: str) -> Lit:
+def ready_bar(player: int, said: str) -> LitImage:
     """The bar of somebody who is ready."""
-    pane, color = Pane(*BAR), PLAYERS[player]
-    pane.hot.fill(cut(*BAR, 14), dim(color, 0.28)).line(cut(*BAR, 14), color, THIN, True)
-    size = fitted(said, LABEL, W - 150)
-    icon(pane.hot, "check", MIDDLE - text_width(said, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
-    pane.page.text(said, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
-    return pane.done()
+    layer, color = Layer(*BAR), PLAYERS[player]
+    layer.glow.fill(cut_box(*BAR, 14), dim(color, 0.28)).line(cut_box(*BAR, 14), color, THIN, True)
+    size = fit_size(said, LABEL, W - 150)
+    icon(layer.glow, "check", MIDDLE - text_width(said, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
+    layer.canvas.text(said, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
+    return layer.done()
 
 
 @cached
-def asked(label: str, said: str, level: int) -> Lit:
+def ask_bar(label: str, said: str, level: int) -> LitImage:
     """The bar of somebody who has to press a button to be ready."""
     if level < LEVELS:
-        return dimmed(asked(label, said, LEVELS), level / LEVELS)
+        return dimmed(ask_bar(label, said, LEVELS), level / LEVELS)
     wide = button_width(label)
-    size = fitted(said, BODY, W - 40 - wide - 18, "body")
+    size = fit_size(said, BODY, W - 40 - wide - 18, "body")
     x = MIDDLE - (wide + 18 + text_width(said, size, "body")) / 2
-    pane = Pane(*BAR)
-    pane.page.body(said, x, BAR_Y, ICE, "l", size)
-    button(pane.page, x + text_width(said, size, "body") + 18, BAR_Y, label, FOCUS)
-    return pane.done()
+    layer = Layer(*BAR)
+    layer.canvas.body(said, x, BAR_Y, ICE, "l", size)
+    button(layer.canvas, x + text_width(said, size, "body") + 18, BAR_Y, label, FOCUS)
+    return layer.done()

@@ -15,18 +15,18 @@ from pigaming_app.ui.draw import (
     MIST,
     STEEL,
     THIN,
-    Ink,
-    cut,
+    GlowCanvas,
+    cut_box,
     dim,
     icon,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Lit, Pane, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fitted, paragraph, text
+from pigaming_app.ui.draw.text import fit_size, paragraph, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.widgets.focus import Focus, Spot
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import glow_bar
 
 PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 660)
@@ -41,7 +41,7 @@ TOP, PITCH, HIGH = 246, 88, 64  # px: the middle of the first row, from row to r
 
 
 @dataclass(frozen=True)
-class Value:
+class SettingValue:
     """What a row shows: options of which one is lit, a number of ten, a text between arrows, or a thing to do."""
 
     kind: str  # toggle, meter, arrows, deed
@@ -49,13 +49,13 @@ class Value:
     chosen: int = 0
 
 
-def spots(names: Sequence[str]) -> list[Spot]:
+def spots(names: Sequence[str]) -> list[FocusSpot]:
     """Where rows with these names are."""
     x, w = span(0, 8)
-    return [Spot(name, pygame.Rect(x, TOP - HIGH // 2 + PITCH * i, w, HIGH)) for i, name in enumerate(names)]
+    return [FocusSpot(name, pygame.Rect(x, TOP - HIGH // 2 + PITCH * i, w, HIGH)) for i, name in enumerate(names)]
 
 
-def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values: dict[str, Value]) -> None:
+def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values: dict[str, SettingValue]) -> None:
     """Paint the rows of a page whose texts are in `table`."""
     glow_bar(screen, focus.box)
     for i, spot in enumerate(focus.spots):
@@ -63,68 +63,68 @@ def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values:
         label(words(f"{table}.{spot.name}"), hot).draw(screen, box.x + 40, box.centery)
         value(shown.kind, shown.options, shown.chosen, hot).draw(screen, box.x, box.centery)
         if i and box.y > (above := focus.spots[i - 1].rect.bottom):
-            rule(box.w).draw(screen, box.x, (box.y + above) // 2)
+            separator(box.w).draw(screen, box.x, (box.y + above) // 2)
     focus.draw(screen)
 
 
-def pushed(press: Press, focus: Focus, value: Value) -> int:
+def step_of(press: Press, focus: Focus, value: SettingValue) -> int:
     """By how much a press changes the row in focus: 1, -1, or 0; a click does what it hits."""
     if press.act in (Act.LEFT, Act.RIGHT):
         return 1 if press.act is Act.RIGHT else -1
     if press.act is Act.CLICK and press.at and focus.under(press) == focus.name and value.kind != "deed":
         across = press.at[0] - focus.spot.rect.x
         if value.kind == "toggle":
-            place = hit(value.kind, value.options, value.chosen, across)
+            place = value_at(value.kind, value.options, value.chosen, across)
             return 0 if place is None else place - value.chosen
         return 0 if across < AT else -1 if across < AT + ROOM / 2 else 1
     return 0
 
 
-def label(said: str, hot: bool) -> Lit:
+def label(said: str, hot: bool) -> LitImage:
     """The name of a row, its middle at y = 0."""
     return text(said, BODY, ICE if hot else MIST, "body", "l", AT - 60)
 
 
 @cached
-def rule(w: int) -> Lit:
+def separator(w: int) -> LitImage:
     """The hair line between two rows."""
-    return Lit(Ink(w, 4).line([(24, 2), (w - 24, 2)], dim(STEEL, 0.6), HAIR).plain(), (0, -2))
+    return LitImage(GlowCanvas(w, 4).line([(24, 2), (w - 24, 2)], dim(STEEL, 0.6), HAIR).plain(), (0, -2))
 
 
 @cached
-def value(kind: str, options: tuple[str, ...], chosen: int, hot: bool) -> Lit:
+def value(kind: str, options: tuple[str, ...], chosen: int, hot: bool) -> LitImage:
     """What is set, its middle at y = 0: a toggle, a meter, a text between arrows, or a deed."""
-    pane = Pane(AT, -36, ROOM, 72)
+    layer = Layer(AT, -36, ROOM, 72)
     if kind == "toggle":
         for said, (x, w), on in zip(options, chips(options), range(len(options)), strict=True):
             lit = on == chosen
             edge = (FOCUS if hot else ICE) if lit else STEEL
-            pane.hot.line(cut(x, -27, w, 54, 12), edge, THIN, True)
-            pane.page.cold.text(said, BODY, x + w / 2, 0, ICE if lit else MIST, "head", "c")
+            layer.glow.line(cut_box(x, -27, w, 54, 12), edge, THIN, True)
+            layer.canvas.crisp.text(said, BODY, x + w / 2, 0, ICE if lit else MIST, "head", "c")
     elif kind == "meter":
-        _meter(pane, chosen, hot)
+        _meter(layer, chosen, hot)
     elif kind == "arrows":
         for sign, x in (("left", AT + 14), ("right", W - 54)):
-            icon(pane.hot, sign, x, 0, 18, FOCUS if hot else MIST, 5)
+            icon(layer.glow, sign, x, 0, 18, FOCUS if hot else MIST, 5)
         said = options[chosen] if chosen < len(options) else ""
-        size = fitted(said, BODY, ROOM - 120, "body")
-        pane.page.cold.text(said, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
+        size = fit_size(said, BODY, ROOM - 120, "body")
+        layer.canvas.crisp.text(said, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
     else:
         w = chips(options)[0][1]
-        pane.hot.line(cut(AT, -27, w, 54, 12), FOCUS if hot else STEEL, THIN, True)
-        pane.page.cold.text(options[0], BODY, AT + w / 2, 0, ICE if hot else MIST, "head", "c")
-    return pane.done()
+        layer.glow.line(cut_box(AT, -27, w, 54, 12), FOCUS if hot else STEEL, THIN, True)
+        layer.canvas.crisp.text(options[0], BODY, AT + w / 2, 0, ICE if hot else MIST, "head", "c")
+    return layer.done()
 
 
-def _meter(pane: Pane, chosen: int, hot: bool) -> None:
+def _meter(layer: Layer, chosen: int, hot: bool) -> None:
     color = FOCUS if hot else MIST
     for i in range(CELLS):
-        box = cut(AT + CELL * i, -22, 30, 44, 6)
+        box = cut_box(AT + CELL * i, -22, 30, 44, 6)
         if i < chosen:
-            pane.hot.fill(box, color)
+            layer.glow.fill(box, color)
         else:
-            pane.hot.line(box, STEEL, 3, True)
-    pane.page.cold.text(str(chosen), BODY, W - 40, 0, ICE if hot else MIST, "head", "r")
+            layer.glow.line(box, STEEL, 3, True)
+    layer.canvas.crisp.text(str(chosen), BODY, W - 40, 0, ICE if hot else MIST, "head", "r")
 
 
 def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
@@ -138,7 +138,7 @@ def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
     return places
 
 
-def hit(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | None:
+def value_at(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | None:
     """The value that a click means, x px from the row's left edge; None: it hits nothing."""
     if kind == "toggle":
         return next((i for i, (left, w) in enumerate(chips(options)) if left <= x < left + w), None)
@@ -158,7 +158,7 @@ def describe(screen: pygame.Surface, said: str, line: str) -> None:
 
 
 @cached
-def description(said: str, line: str) -> tuple[Lit, ...]:
+def description(said: str, line: str) -> tuple[LitImage, ...]:
     """A title, and a sentence in lines that fit into the panel."""
     room = PANEL.w - 80
     return (text(said, LABEL, ICE, "head", "l", room), *paragraph(line, room, 3, MIST))

@@ -9,7 +9,7 @@ from pigaming_app import ASSETS
 HARMLESS = "BOT"  # what stands in the place of a rude word
 
 
-def rude(initials: str) -> bool:
+def is_rude(initials: str) -> bool:
     """Whether three letters are, or can be read as, a rude word."""
     words, read_as = _lists()
     readings = product(*((letter, *read_as.get(letter, "")) for letter in initials))

@@ -16,7 +16,7 @@ from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.attract import Attract, Demonstration
 from pigaming_app.sim.record import digest
-from pigaming_app.ui.draw.text import fitted
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Act, Device
@@ -270,7 +270,7 @@ def test_every_text_fits_its_box(language: str) -> None:
             said = text.format(player=4, count=12345, machine="A")
             size, face = (cards.BODY, "body") if "because" in key else (cards.LABEL, "head")
             room = 652 - cards.TEXT - 20
-            if fitted(said, size, room, face) < READABLE * size:
+            if fit_size(said, size, room, face) < READABLE * size:
                 small[key] = text_width(said, size, face)
     assert small == {}
 

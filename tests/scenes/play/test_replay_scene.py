@@ -110,7 +110,7 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
         lit.invert()
         assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
     for act, box in zip(scene.prompts.acts, boxes(scene.prompts.said), strict=True):
-        assert scene.hints.meant(Press(Act.CLICK, Device("mouse"), at=box.center)).act is act
+        assert scene.hints.as_button(Press(Act.CLICK, Device("mouse"), at=box.center)).act is act
 
 
 def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:

@@ -25,7 +25,7 @@ from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import keep
-from pigaming_app.ui.draw.frame_budget import finished
+from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import LANGUAGES, Words
 
@@ -109,7 +109,7 @@ def test_the_road_is_black_and_beside_it_lies_mud(screen):
 def test_a_preview_shows_the_track_at_any_size(screen, track):
     arena = load("race", track)
     for w, h in ((320, 200), (1000, 640), (200, 300)):
-        image = finished(preview(arena, w, h))
+        image = run_to_end(preview(arena, w, h))
         assert image.get_size() == (w, h)
         assert max(pygame.transform.average_color(image)[:3]) > 8
 

@@ -13,7 +13,7 @@ from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT
-from pigaming_app.ui.draw.frame_budget import finished
+from pigaming_app.ui.draw.frame_budget import run_to_end
 
 FREE = (0, 1, 2, 3)
 HUMANS = ["human"] * 4
@@ -222,6 +222,6 @@ def test_sprites_are_made_in_slices(screen):
 def test_a_preview_shows_every_wall_and_start_at_any_size():
     arena = Busy().arena
     for w, h in ((320, 200), (800, 450), (200, 300)):
-        image = finished(preview(arena, w, h))
+        image = run_to_end(preview(arena, w, h))
         assert image.get_size() == (w, h)
         assert image.get_at((0, 0))[:3] == (0, 0, 0)

@@ -11,7 +11,15 @@ from pigaming_app.scenes import app as arcade
 from pigaming_app.scenes.app import App, Options, opened
 from pigaming_app.scenes.flow.stack import Push, Turn
 from pigaming_app.ui.draw import frame_budget
-from pigaming_app.ui.draw.frame_budget import Ahead, FrameBudget, Steps, Unfinished, budget, finished, sliced
+from pigaming_app.ui.draw.frame_budget import (
+    FrameBudget,
+    PrewarmQueue,
+    Steps,
+    Unfinished,
+    budget,
+    resumable,
+    run_to_end,
+)
 from pigaming_app.ui.draw.surface_cache import SurfaceCache
 from pigaming_app.ui.input.events import Act, Press
 
@@ -92,7 +100,7 @@ def test_a_piece_longer_than_the_budget_is_still_made(watch: Watch) -> None:
 def test_interrupted_work_goes_on_where_it_was(watch: Watch) -> None:
     done: list[int] = []
 
-    @sliced
+    @resumable
     def drawing(name: str) -> Steps[str]:
         for step in range(6):
             watch.work(PIECE)
@@ -111,7 +119,7 @@ def test_interrupted_work_goes_on_where_it_was(watch: Watch) -> None:
 def test_work_that_nobody_asks_for_again_is_dropped(watch: Watch) -> None:
     begun: list[int] = []
 
-    @sliced
+    @resumable
     def drawing(number: int) -> Steps[None]:
         begun.append(number)
         while watch.now < 1e9:
@@ -130,7 +138,7 @@ def test_uninterrupted_work_returns_what_it_made() -> None:
         yield
         return 7
 
-    assert finished(steps()) == 7
+    assert run_to_end(steps()) == 7
 
 
 def test_work_ahead_ends_in_time_and_takes_up_an_interrupted_job_again(watch: Watch) -> None:
@@ -140,7 +148,7 @@ def test_work_ahead_ends_in_time_and_takes_up_an_interrupted_job_again(watch: Wa
         piece(1)
         piece(2)
 
-    ahead = Ahead([partial(piece, 0), two, partial(piece, 3)])
+    ahead = PrewarmQueue([partial(piece, 0), two, partial(piece, 3)])
     assert not ahead.work(1000 * PIECE)
     assert made == [0]
     assert not ahead.work(1000 * PIECE)
@@ -155,7 +163,7 @@ def test_work_ahead_ends_in_time_and_takes_up_an_interrupted_job_again(watch: Wa
 
 def test_nothing_is_made_ahead_while_a_picture_is_behind(watch: Watch) -> None:
     made, piece = pieces(watch)
-    ahead = Ahead([partial(piece, 0)])
+    ahead = PrewarmQueue([partial(piece, 0)])
     with budget.frame(behind=True):
         assert not ahead.work(100.0)
     assert made == []
@@ -168,7 +176,7 @@ def test_what_was_made_ahead_in_a_frame_counts_for_its_picture(watch: Watch) -> 
     own = FrameBudget()
     assert not own.behind
     with budget.frame(behind=False):
-        Ahead([partial(piece, 0)]).work(1.0)
+        PrewarmQueue([partial(piece, 0)]).work(1.0)
         with pytest.raises(Unfinished), budget.until(watch.now):
             piece(1)
     assert made == [0]

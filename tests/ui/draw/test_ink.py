@@ -4,11 +4,23 @@ from itertools import pairwise
 
 import pytest
 
-from pigaming_app.ui.draw import BLUE, ICONS, LABEL, PLAYERS, WHITE, Ink, Page, badge, hints, icon, shape_points
+from pigaming_app.ui.draw import (
+    BLUE,
+    ICONS,
+    LABEL,
+    PLAYERS,
+    WHITE,
+    GlowCanvas,
+    LayeredCanvas,
+    badge,
+    hints,
+    icon,
+    shape_points,
+)
 
 
 def test_black_stays_black_away_from_ink():
-    image = Ink(400, 300).neon([(100, 150), (200, 150)], BLUE).lit()
+    image = GlowCanvas(400, 300).neon([(100, 150), (200, 150)], BLUE).lit()
 
     assert image.get_at((150, 150)).b == 255
     assert image.get_at((150, 160)).b > 30, "it glows ten pixels away"
@@ -17,22 +29,22 @@ def test_black_stays_black_away_from_ink():
 
 
 def test_the_core_of_a_line_keeps_its_hue():
-    red, green, blue, _ = Ink(200, 100).line([(20, 50), (180, 50)], BLUE, 12).lit().get_at((100, 50))
+    red, green, blue, _ = GlowCanvas(200, 100).line([(20, 50), (180, 50)], BLUE, 12).lit().get_at((100, 50))
 
     assert red < 90 < green < blue
 
 
 def test_black_lettering_stays_black_under_glow():
-    image = Ink(120, 120).disc(60, 60, 50, WHITE).text("1", 60, 60, 60, (0, 0, 0), "hero", "c").lit()
+    image = GlowCanvas(120, 120).disc(60, 60, 50, WHITE).text("1", 60, 60, 60, (0, 0, 0), "hero", "c").lit()
 
     assert image.get_at((62, 60))[:3] == (0, 0, 0)
 
 
 def test_a_page_lights_only_what_was_drawn_and_shows_every_sheet():
-    page = Page(800, 400)
-    page.hot.disc(100, 100, 20, BLUE)
+    page = LayeredCanvas(800, 400)
+    page.glow.disc(100, 100, 20, BLUE)
     page.text("M", LABEL, 400, 100, align="c")
-    page.cold.disc(700, 100, 20, WHITE)
+    page.crisp.disc(700, 100, 20, WHITE)
     image = page.done()
 
     assert image.get_at((100, 100))[:3] == BLUE
@@ -43,13 +55,13 @@ def test_a_page_lights_only_what_was_drawn_and_shows_every_sheet():
 
 
 def test_ink_that_crosses_tiles_has_no_seams():
-    image = Ink(700, 300).line([(20, 150), (680, 150)], WHITE, 8).plain()
+    image = GlowCanvas(700, 300).line([(20, 150), (680, 150)], WHITE, 8).plain()
 
     assert {image.get_at((x, 150))[:3] for x in range(20, 680)} == {(255, 255, 255)}
 
 
 def test_solid_hides_the_ground_in_a_sprite_only_where_it_lies():
-    sprite = Ink(60, 60).solid([(10, 10), (50, 10), (50, 50), (10, 50)]).sprite()
+    sprite = GlowCanvas(60, 60).solid([(10, 10), (50, 10), (50, 50), (10, 50)]).sprite()
 
     assert sprite.get_at((30, 30))[:4] == (0, 0, 0, 255)
     assert sprite.get_at((5, 5)).a == 0
@@ -57,7 +69,7 @@ def test_solid_hides_the_ground_in_a_sprite_only_where_it_lies():
 
 @pytest.mark.parametrize("name", ICONS)
 def test_every_icon_fits_its_square(name):
-    image = icon(Ink(100, 100), name, 50, 50, 40, WHITE).plain()
+    image = icon(GlowCanvas(100, 100), name, 50, 50, 40, WHITE).plain()
     lit = [(x, y) for x in range(100) for y in range(100) if image.get_at((x, y)).g > 60]
 
     assert len(lit) > 150
@@ -70,14 +82,14 @@ def test_players_differ_in_shape_and_colour():
         corners = shape_points(player, 20)
         pairs = pairwise([*corners, corners[0]])
         areas.append(abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairs)) / 2)
-        badge(Ink(80, 80), player, 40, 40)
+        badge(GlowCanvas(80, 80), player, 40, 40)
 
     assert len(set(PLAYERS)) == len({len(shape_points(p, 20)) for p in range(3)}) + 1 == 4
     assert max(areas) / min(areas) < 1.6, "of equal visual weight"
 
 
 def test_hints_stand_in_the_middle():
-    page = Page()
+    page = LayeredCanvas()
     hints(page, [("A", "OK"), ("<>", "Change"), ("START", "Go")])
     row = page.done().subsurface((0, 940, 1920, 80))
     lit = [x for x in range(0, 1920, 2) if any(row.get_at((x, y)).g > 90 for y in range(0, 80, 4))]

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pigaming_app.ui.draw.layers import Lit
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import SurfaceCache, pixel_bytes
 
@@ -31,9 +31,9 @@ def test_the_budget_holds_and_what_was_not_used_for_longest_goes_first(
     made: list[int] = []
 
     @cache.cached
-    def painted(which: int) -> Lit:
+    def painted(which: int) -> LitImage:
         made.append(which)
-        return Lit(square(sizes[which]), (0, 0))
+        return LitImage(square(sizes[which]), (0, 0))
 
     used: dict[int, int] = {}  # of each that is kept: how many had been kept in all at its last use, oldest first
     kept = 0

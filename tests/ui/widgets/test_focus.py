@@ -4,7 +4,7 @@ import pygame
 import pytest
 
 from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.widgets.focus import GLIDE, Focus, Spot
+from pigaming_app.ui.widgets.focus import GLIDE, Focus, FocusSpot
 
 PAD, MOUSE = Device("pad", 7), Device("mouse")
 
@@ -12,8 +12,10 @@ PAD, MOUSE = Device("pad", 7), Device("mouse")
 @pytest.fixture
 def focus(controls: object) -> Focus:
     """A title: two tiles above, three chips below."""
-    tiles = [Spot(name, pygame.Rect(100 + 600 * i, 100, 500, 400)) for i, name in enumerate(("tanks", "race"))]
-    chips = [Spot(name, pygame.Rect(100 + 200 * i, 600, 160, 60)) for i, name in enumerate(("how", "options", "quit"))]
+    tiles = [FocusSpot(name, pygame.Rect(100 + 600 * i, 100, 500, 400)) for i, name in enumerate(("tanks", "race"))]
+    chips = [
+        FocusSpot(name, pygame.Rect(100 + 200 * i, 600, 160, 60)) for i, name in enumerate(("how", "options", "quit"))
+    ]
     return Focus([*tiles, *chips])
 
 
@@ -37,7 +39,7 @@ def test_past_the_last_comes_the_first_but_not_while_a_key_is_held(focus: Focus)
 
 
 def test_a_press_into_nothing_changes_nothing(controls: object) -> None:
-    alone = Focus([Spot("only", pygame.Rect(0, 0, 10, 10))])
+    alone = Focus([FocusSpot("only", pygame.Rect(0, 0, 10, 10))])
     assert not any(alone.on(Press(act, PAD)) for act in (Act.UP, Act.DOWN, Act.LEFT, Act.RIGHT))
     assert alone.name == "only"
 
@@ -70,7 +72,7 @@ def test_the_corners_are_there_after_120_ms_and_most_of_the_way_after_half_of_th
 
 def test_other_spots_keep_what_was_meant_if_it_is_still_there(focus: Focus) -> None:
     go(focus, Act.RIGHT)
-    focus.place([Spot("race", pygame.Rect(0, 0, 100, 100)), Spot("how", pygame.Rect(0, 200, 100, 100))])
+    focus.place([FocusSpot("race", pygame.Rect(0, 0, 100, 100)), FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
     assert focus.name == "race"
-    focus.place([Spot("how", pygame.Rect(0, 200, 100, 100))])
+    focus.place([FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
     assert focus.name == "how"

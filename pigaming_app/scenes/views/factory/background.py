@@ -9,75 +9,75 @@ from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_S
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS, star, state_icon
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import BLACK, ICE, LINE, STEEL, THIN, WALL, Color, Ink, Page, cut, dim
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw import BLACK, ICE, LINE, STEEL, THIN, WALL, Color, GlowCanvas, LayeredCanvas, cut_box, dim
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 
 SLOT = 68  # px
 MARGIN_X = 84  # px from the arena's edge to the signs beside it
 WALKWAY = (124, 104, 30)
-Inks = tuple[Ink, Ink]  # what glows, and what does not
+Inks = tuple[GlowCanvas, GlowCanvas]  # what glows, and what does not
 
 
 @cached
-@sliced
+@resumable
 def bare(floor: Floor) -> Steps[pygame.Surface]:
     """The whole canvas of a floor without what changes."""
-    page = Page()
-    for ink in (page.hot, page.cold):
+    page = LayeredCanvas()
+    for ink in (page.glow, page.crisp):
         ink.to(LEFT, TOP)
     for x in range(50, int(WIDTH), 50):
         for y in range(50, int(HEIGHT), 50):
-            page.cold.disc(x, y, 1.6, (26, 37, 54))
+            page.crisp.disc(x, y, 1.6, (26, 37, 54))
     yield
-    yield from draw_floor((page.hot, page.cold), floor)
+    yield from draw_floor((page.glow, page.crisp), floor)
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _beside((page.hot, page.cold), floor.slots[first : first + SHELVES])
-    page.hot.line(cut(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
+        _beside((page.glow, page.crisp), floor.slots[first : first + SHELVES])
+    page.glow.line(cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
     yield
     return (yield from page.lighting())
 
 
-def draw_floor(inks: Inks, floor: Floor) -> Steps[None]:
+def draw_floor(canvases: Inks, floor: Floor) -> Steps[None]:
     """Aisle, warehouses and machines, in arena px."""
-    _aisle(inks, floor.aisle)
+    _aisle(canvases, floor.aisle)
     yield
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _warehouse(inks, floor.slots[first : first + SHELVES])
+        _warehouse(canvases, floor.slots[first : first + SHELVES])
         yield
     for m, one in enumerate(floor.machines):
-        _machine(inks, floor, m, one.kind, one.x, one.y)
+        _machine(canvases, floor, m, one.kind, one.x, one.y)
         yield
 
 
-def _aisle(inks: Inks, aisle: tuple[float, float, float, float]) -> None:
+def _aisle(canvases: Inks, aisle: tuple[float, float, float, float]) -> None:
     x, y, w, h = aisle
-    _, cold = inks
-    cold.dashes(cut(x, y, w, h, 20), dim(WALKWAY, 0.9), 5, 24, 18)
+    _, crisp = canvases
+    crisp.dashes(cut_box(x, y, w, h, 20), dim(WALKWAY, 0.9), 5, 24, 18)
     tall = h > w
     for share in (0.18, 0.82):
         px, py = (x + w / 2, y + h * share) if tall else (x + w * share, y + h / 2)
-        _walker(cold, px, py, dim(WALKWAY, 0.8))
+        _walker(crisp, px, py, dim(WALKWAY, 0.8))
 
 
-def _walker(ink: Ink, x: float, y: float, color: Color) -> None:
+def _walker(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
     ink.disc(x + 3, y - 38, 9, color)
     limbs = ([(0, -22), (-2, 4)], [(-2, 4), (14, 18), (16, 38)], [(-2, 4), (-8, 22), (-20, 36)])
     for limb in (*limbs, [(0, -20), (16, -8), (26, -4)], [(0, -20), (-14, -8), (-16, 6)]):
         ink.line([(x + u, y + v) for u, v in limb], color, 8)
 
 
-def _warehouse(inks: Inks, slots: tuple[SlotSpec, ...]) -> None:
-    hot, cold = inks
+def _warehouse(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
+    glow, crisp = canvases
     color, x = TEAMS[slots[0].team], slots[0].x
     top, bottom = slots[0].y, slots[-1].y
-    box = cut(x - 54, top - 56, 108, bottom - top + 112, 16)
-    hot.fill(box, dim(color, 0.05)).neon(box, color, LINE, True)
+    box = cut_box(x - 54, top - 56, 108, bottom - top + 112, 16)
+    glow.fill(box, dim(color, 0.05)).neon(box, color, LINE, True)
     for slot in slots:
-        draw_slot(cold, slot.x, slot.y, dim(color, 0.6))
+        draw_slot(crisp, slot.x, slot.y, dim(color, 0.6))
 
 
-def draw_slot(ink: Ink, x: float, y: float, color: Color) -> None:
+def draw_slot(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
     """The four corners of a place for a pallet."""
     h, k = SLOT / 2, 18
     for sx in (-1, 1):
@@ -87,47 +87,47 @@ def draw_slot(ink: Ink, x: float, y: float, color: Color) -> None:
             )
 
 
-def draw_machine(inks: Inks, kind: int, x: float, y: float) -> None:
+def draw_machine(canvases: Inks, kind: int, x: float, y: float) -> None:
     """The body of a machine, without its slots."""
-    hot, cold = inks
-    body = cut(x - BODY, y - BODY, 2 * BODY, 2 * BODY, 20)
-    hot.fill(body, (10, 14, 22)).neon(body, dim(WALL, 0.55), LINE, True)
-    hot.ring(x, y, 44, dim(STEEL, 0.38), 10)
-    cold.text("A" if kind == A else "B", 62, x, y, ICE, "hero", "c")
+    glow, crisp = canvases
+    body = cut_box(x - BODY, y - BODY, 2 * BODY, 2 * BODY, 20)
+    glow.fill(body, (10, 14, 22)).neon(body, dim(WALL, 0.55), LINE, True)
+    glow.ring(x, y, 44, dim(STEEL, 0.38), 10)
+    crisp.text("A" if kind == A else "B", 62, x, y, ICE, "hero", "c")
 
 
-def _machine(inks: Inks, floor: Floor, m: int, kind: int, x: float, y: float) -> None:
-    _, cold = inks
-    draw_machine(inks, kind, x, y)
+def _machine(canvases: Inks, floor: Floor, m: int, kind: int, x: float, y: float) -> None:
+    _, crisp = canvases
+    draw_machine(canvases, kind, x, y)
     takes, gives = (RAW, HALF) if kind == A else (HALF, DONE)
     for slot in floor.slots[MACHINE_SLOTS + 2 * m : MACHINE_SLOTS + 2 * m + 2]:
         into = slot.kind == INPUT
-        draw_slot(cold, slot.x, slot.y, WALL)
-        state_icon(cold, takes if into else gives, slot.x, slot.y, 13, dim(STATES[takes if into else gives], 0.55))
+        draw_slot(crisp, slot.x, slot.y, WALL)
+        state_icon(crisp, takes if into else gives, slot.x, slot.y, 13, dim(STATES[takes if into else gives], 0.55))
         a = math.atan2(y - slot.y, x - slot.x)
         cx, cy = slot.x + 47 * math.cos(a), slot.y + 47 * math.sin(a)
         a += 0.0 if into else math.pi
         c, s = math.cos(a), math.sin(a)
-        cold.fill([(cx + u * c - v * s, cy + u * s + v * c) for u, v in ((8, 0), (-6, 13), (-6, -13))], WALL)
+        crisp.fill([(cx + u * c - v * s, cy + u * s + v * c) for u, v in ((8, 0), (-6, 13), (-6, -13))], WALL)
 
 
-def _beside(inks: Inks, slots: tuple[SlotSpec, ...]) -> None:
+def _beside(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
     """A shelf or a lorry beside a warehouse, outside the arena, and which way pallets go."""
-    hot, _ = inks
+    glow, _ = canvases
     color, entry = TEAMS[slots[0].team], slots[0].kind == ENTRY
     left = slots[0].x < WIDTH / 2
     x, y = -MARGIN_X if left else WIDTH + MARGIN_X, (slots[0].y + slots[-1].y) / 2
     if entry:
-        _shelf(hot, x, y - 20, color)
+        _shelf(glow, x, y - 20, color)
     else:
-        draw_lorry(hot, x, y - 20, color, -1 if left else 1)
+        draw_lorry(glow, x, y - 20, color, -1 if left else 1)
     way = (1 if left else -1) * (1 if entry else -1)
     for k in (-1, 0, 1):
         tip = [(x + way * (k * 20 - 6), y + 52), (x + way * (k * 20 + 8), y + 66), (x + way * (k * 20 - 6), y + 80)]
-        hot.line(tip, dim(color, 0.5 + 0.25 * (k + 1)), LINE)
+        glow.line(tip, dim(color, 0.5 + 0.25 * (k + 1)), LINE)
 
 
-def _shelf(ink: Ink, x: float, y: float, color: Color) -> None:
+def _shelf(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
     for side in (-42, 42):
         ink.line([(x + side, y - 36), (x + side, y + 36)], color, 5)
     for down in (0, 36):
@@ -136,7 +136,7 @@ def _shelf(ink: Ink, x: float, y: float, color: Color) -> None:
         ink.disc(x + u, y + v, 11, STATES[RAW])
 
 
-def draw_lorry(ink: Ink, x: float, y: float, color: Color, way: int) -> None:
+def draw_lorry(ink: GlowCanvas, x: float, y: float, color: Color, way: int) -> None:
     """What takes pallets away, heading left (`way` -1) or right (1)."""
     box = [(-46, -30), (12, -30), (12, 16), (-46, 16)]
     cab = [(12, -14), (30, -14), (42, 2), (42, 16), (12, 16)]

@@ -15,7 +15,7 @@ from pigaming_app.scenes.views.background import Bit, Ground
 from pigaming_app.scenes.views.hud_parts import HudParts, number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
-from pigaming_app.ui.draw import ICE, LABEL, LINE, MIST, PLAYERS, SUB, Ink, badge, cut, dim, icon
+from pigaming_app.ui.draw import ICE, LABEL, LINE, MIST, PLAYERS, SUB, GlowCanvas, badge, cut_box, dim, icon
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import glyph, number_width
@@ -99,8 +99,8 @@ def panel_bits(
 @cached
 def frame(team: int) -> pygame.Surface:
     """Outline and emblem of a panel."""
-    ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
-    ink.fill(cut(0, 0, W, H), dim(COLORS[team], 0.05)).line(cut(0, 0, W, H), COLORS[team], LINE, True)
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink.fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.05)).line(cut_box(0, 0, W, H), COLORS[team], LINE, True)
     emblem(ink, team, EMBLEM if team == 0 else W - EMBLEM, H / 2, 34)
     return ink.lit(0.6)
 
@@ -108,7 +108,7 @@ def frame(team: int) -> pygame.Surface:
 @cached
 def small_crate(team: int, state: int, size: int) -> pygame.Surface:
     """A crate in a panel."""
-    ink = Ink(size + 28, size + 28, 3)
+    ink = GlowCanvas(size + 28, size + 28, 3)
     draw_crate(ink, team, state, size / 2 + 14, size / 2 + 14, size)
     return ink.lit(0.5)
 
@@ -116,7 +116,7 @@ def small_crate(team: int, state: int, size: int) -> pygame.Surface:
 @cached
 def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
     """A robot of the team: badge, the mark of an AI, and its turbo, of 16."""
-    ink = Ink(120, 52, 3)
+    ink = GlowCanvas(120, 52, 3)
     badge(ink, seat, 34, 22, 18)
     if ai:
         icon(ink, "ai", 80, 20, 13, MIST, 3)
@@ -129,6 +129,6 @@ def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
 @cached
 def pulse(team: int) -> tuple[Sprite, ...]:
     """A panel that lights up at a delivery, and how that fades; from its upper left corner."""
-    ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE).fill(cut(0, 0, W, H), dim(COLORS[team], 0.24))
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE).fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.24))
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))

@@ -9,8 +9,8 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT, TOP, Ground
 from pigaming_app.scenes.views.sprites.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import LINE, PLAYERS, PRE, WALL, Page, cut, dim, shape_points
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw import LINE, PLAYERS, PRE, WALL, LayeredCanvas, cut_box, dim, shape_points
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -59,35 +59,35 @@ def _box(one: Any, sprite: Sprite) -> pygame.Rect:
 
 
 @cached
-@sliced
+@resumable
 def bare(starts: Starts) -> Steps[pygame.Surface]:
     """Grid, frame and the shapes on which robots begin."""
-    page = Page()
-    hot, cold = page.hot, page.cold
-    _grid(page)
+    canvas = LayeredCanvas()
+    glow, crisp = canvas.glow, canvas.crisp
+    _grid(canvas)
     yield
     for seat, x, y in starts:
         pad = [(LEFT + x + py, TOP + y - px) for px, py in shape_points(seat, 40)]
-        cold.line(pad, dim(PLAYERS[seat], 0.20), 3, True)
-    hot.neon(cut(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
-    cold.line(cut(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
+        crisp.line(pad, dim(PLAYERS[seat], 0.20), 3, True)
+    glow.neon(cut_box(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
+    crisp.line(cut_box(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
     yield
-    return (yield from page.lighting())
+    return (yield from canvas.lighting())
 
 
-def _grid(page: Page) -> None:
-    cold = page.cold
+def _grid(canvas: LayeredCanvas) -> None:
+    crisp = canvas.crisp
     for x in range(50, int(WIDTH), 50):
         for y in range(50, int(HEIGHT), 50):
             px, py = LEFT + x, TOP + y
             if x % 200 == 0 and (y - 50) % 200 == 0:
-                cold.line([(px - 7, py), (px + 7, py)], (34, 48, 70), 2).line(
+                crisp.line([(px - 7, py), (px + 7, py)], (34, 48, 70), 2).line(
                     [(px, py - 7), (px, py + 7)], (34, 48, 70), 2
                 )
             else:
-                cold.disc(px, py, 1.6, (26, 37, 54))
+                crisp.disc(px, py, 1.6, (26, 37, 54))
     cx, cy = LEFT + WIDTH / 2, TOP + HEIGHT / 2
-    cold.ring(cx, cy, 150, (20, 29, 43), 3).ring(cx, cy, 164, (20, 29, 43), 2)
+    crisp.ring(cx, cy, 150, (20, 29, 43), 3).ring(cx, cy, 164, (20, 29, 43), 2)
     for i in range(24):
         c, s = math.cos(i * math.tau / 24), math.sin(i * math.tau / 24)
-        cold.line([(cx + 172 * c, cy + 172 * s), (cx + 180 * c, cy + 180 * s)], (24, 35, 52), 3)
+        crisp.line([(cx + 172 * c, cy + 172 * s), (cx + 180 * c, cy + 180 * s)], (24, 35, 52), 3)

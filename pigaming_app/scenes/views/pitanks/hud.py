@@ -28,9 +28,9 @@ from pigaming_app.ui.draw import (
     SUB,
     THIN,
     WHITE,
-    Ink,
+    GlowCanvas,
     badge,
-    cut,
+    cut_box,
     dim,
     icon,
     mix,
@@ -180,17 +180,17 @@ def panel_bits(
 @cached
 def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, the leader's crown and the sign of an AI."""
-    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
-    outline = cut(0, 0, w, H)
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    outline = cut_box(0, 0, w, H)
     if leads:
         ink.fill(outline, dim(color, 0.14))
     ink.line(outline, color, LINE if leads else THIN, True)
     badge(ink, player, 44, 38 if turbo else H / 2, 24)
     if leads:
-        ink.solid(cut(22, -22, 44, 32, 4))
+        ink.solid(cut_box(22, -22, 44, 32, 4))
         icon(ink, "crown", 44, -6, 16, color, THIN)
     if ai:
-        ink.solid(cut(100, -22, 48, 34, 4))
+        ink.solid(cut_box(100, -22, 48, 34, 4))
         icon(ink, "ai", 124, -4, 18, mix(color, WHITE, 0.5), 3)
     return ink.lit(0.7)
 
@@ -198,8 +198,8 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
 @cached
 def pulse(player: int, w: int) -> tuple[Sprite, ...]:
     """A panel that lights up when its points change, and how that fades; from its upper left corner."""
-    ink, color = Ink(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
-    ink.fill(cut(0, 0, w, H), dim(color, 0.24))
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    ink.fill(cut_box(0, 0, w, H), dim(color, 0.24))
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
@@ -207,7 +207,7 @@ def pulse(player: int, w: int) -> tuple[Sprite, ...]:
 @cached
 def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
     """The cells of a turbo meter, all lit or all dark."""
-    ink = Ink(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
     for i in range(int((w - 32) / CELL + 0.01)):
         x = i * CELL
         cell = [(x + 3, 0), (x + 16, 0), (x + 13, 10), (x, 10)]
@@ -218,14 +218,14 @@ def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
 @cached
 def sum_frame(leads: bool, second: bool) -> pygame.Surface:
     """The box of a team's sum, with the bars that its robots wear: one, or two for the second team."""
-    ink = Ink(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     if leads:
-        ink.fill(cut(0, 0, SUM_W, H), dim(ICE, 0.10))
-    ink.line(cut(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
+        ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
+    ink.line(cut_box(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
     for a, b in ((-24, -5), (5, 24)) if second else ((-18, 18),):
         ink.line([(SUM_W / 2 + a, H - 13), (SUM_W / 2 + b, H - 13)], ICE, THIN)
     if leads:
-        ink.solid(cut(SUM_W / 2 - 22, -22, 44, 36, 4))
+        ink.solid(cut_box(SUM_W / 2 - 22, -22, 44, 36, 4))
         icon(ink, "crown", SUM_W / 2, -4, 16, ICE, THIN)
     return ink.lit(0.7)
 
@@ -233,7 +233,7 @@ def sum_frame(leads: bool, second: bool) -> pygame.Surface:
 @cached
 def link() -> pygame.Surface:
     """Two short bars between panels that belong together."""
-    ink = Ink(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     for y in (30, 62):
         ink.line([(-6, y), (18, y)], MIST, LINE)
     return ink.plain()

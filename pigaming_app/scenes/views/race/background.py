@@ -8,8 +8,8 @@ from pigaming_app.games.race.start import Track
 from pigaming_app.scenes.views.background import LEFT, TOP, Ground
 from pigaming_app.scenes.views.race.track import BADGE, draw_track, edges, sign_post
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ADD, STEEL, WIDE, Ink
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw import ADD, STEEL, WIDE, GlowCanvas
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 
 GLOW = 0.75
@@ -24,25 +24,25 @@ class Raceway(Ground):
 
 
 @cached
-@sliced
+@resumable
 def bare(track: Track) -> Steps[pygame.Surface]:
     """The whole canvas without HUD."""
     below = earth(track)
-    hot, cold = Ink(1920, 1080).to(LEFT, TOP), Ink(1920, 1080).to(LEFT, TOP)
-    yield from draw_track(hot, cold, track)
+    glow, crisp = GlowCanvas(1920, 1080).to(LEFT, TOP), GlowCanvas(1920, 1080).to(LEFT, TOP)
+    yield from draw_track(glow, crisp, track)
     for x, y, sx, sy in ((0, 0, 1, 1), (WIDTH, 0, -1, 1), (0, HEIGHT, 1, -1), (WIDTH, HEIGHT, -1, -1)):
-        cold.line([(x, y + CORNER * sy), (x, y), (x + CORNER * sx, y)], STEEL, 4)
-    light = yield from hot.lighting(GLOW, WIDE)
+        crisp.line([(x, y + CORNER * sy), (x, y), (x + CORNER * sx, y)], STEEL, 4)
+    light = yield from glow.lighting(GLOW, WIDE)
     out = pygame.Surface((1920, 1080))
     out.blit(below, (LEFT, TOP))
     yield
     out.blit(light, (0, 0), special_flags=ADD)
-    yield from cold.onto(out)
+    yield from crisp.onto(out)
     return out
 
 
 @cached
-@sliced
+@resumable
 def earth(track: Track) -> Steps[pygame.Surface]:
     """The arena of 1600 x 900: mud, and in it the black of the road and of where badges stand."""
     from pigaming_app.scenes.views.race.mud import mud  # with numpy, for which the title does not wait

@@ -18,7 +18,7 @@ from pigaming_app.scenes.views.race.gaps import Gaps, figure
 from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, Card, W, card_bits
 from pigaming_app.scenes.views.view import Words, decimal
 from pigaming_app.sim.world import DT, HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, Ink
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, GlowCanvas
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import glyph, number_width
@@ -136,6 +136,6 @@ def signed(ticks: float) -> str:
 @cached
 def small_flag() -> pygame.Surface:
     """The flag beside the clock once somebody has finished."""
-    ink = Ink(120, 120)
+    ink = GlowCanvas(120, 120)
     race_cards.flag(ink, 58, 60, 28, WHITE)
     return ink.lit(0.7)

@@ -22,14 +22,14 @@ from pigaming_app.ui.draw import (
     THIN,
     WHITE,
     Color,
-    Ink,
+    GlowCanvas,
     Point,
     badge,
-    cut,
+    cut_box,
     dim,
     icon,
     mix,
-    regular,
+    regular_polygon,
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
@@ -113,16 +113,16 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
 @cached
 def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
     """Outline and badge of a card; it is red while something is wrong and bold when the race is done."""
-    ink, color = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
-    outline, edge = cut(0, 0, W, H), ALARM if alarm else color
+    ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
     if alarm or done:
         ink.fill(outline, dim(edge, 0.16))
     ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
     ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
-    ink.solid(cut(14, -20, 56, 36, 4))
+    ink.solid(cut_box(14, -20, 56, 36, 4))
     badge(ink, seat, 42, -2, 20)
     if ai:
-        ink.solid(cut(84, -18, 44, 32, 4))
+        ink.solid(cut_box(84, -18, 44, 32, 4))
         icon(ink, "ai", 106, -2, 17, mix(color, WHITE, 0.5), 3)
     return ink.lit(0.7)
 
@@ -130,8 +130,8 @@ def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
 @cached
 def pulse(seat: int) -> tuple[Sprite, ...]:
     """A card that lights up, and how that fades; from its upper left corner."""
-    ink = Ink(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
-    whole = Sprite(ink.fill(cut(0, 0, W, H), dim(PLAYERS[seat], 0.3)).lit(0.8), -EDGE, -EDGE)
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    whole = Sprite(ink.fill(cut_box(0, 0, W, H), dim(PLAYERS[seat], 0.3)).lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
 
@@ -139,14 +139,14 @@ def pulse(seat: int) -> tuple[Sprite, ...]:
 def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
     """A short word, EDGE px in from the left and with its middle EDGE px down."""
     wide = max(1, round(number_width(text, size)))
-    ink = Ink(wide + 2 * EDGE, size + 2 * EDGE)
+    ink = GlowCanvas(wide + 2 * EDGE, size + 2 * EDGE)
     return ink.text(text, size, EDGE, EDGE, color, "head").lit(0.5)
 
 
 @cached
 def turbo(seat: int, full: bool) -> pygame.Surface:
     """The cells of a turbo meter, all lit or all dark."""
-    ink, color = Ink(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink, color = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
     for i in range(CELLS):
         x = i * CELL
         ink.fill([(x + 3, -4), (x + 15, -4), (x + 13, 3), (x, 3)], color if full else dim(color, 0.2))
@@ -156,7 +156,7 @@ def turbo(seat: int, full: bool) -> pygame.Surface:
 @cached
 def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
     """The bar along a card's foot, a piece for each lap, all lit or all dark."""
-    ink, color = Ink(FOOT + 2 * EDGE, 6 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink, color = GlowCanvas(FOOT + 2 * EDGE, 6 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
     piece = FOOT / laps
     for i in range(laps):
         corners = [(i * piece, 0), ((i + 1) * piece - 5, 0), ((i + 1) * piece - 5, 6), (i * piece, 6)]
@@ -168,14 +168,14 @@ def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
 def mover(up: bool) -> pygame.Surface:
     """An arrowhead: went ahead, or fell back."""
     side = -1 if up else 1
-    ink = Ink(2 * EDGE + 2, 2 * EDGE + 2).to(EDGE, EDGE)
+    ink = GlowCanvas(2 * EDGE + 2, 2 * EDGE + 2).to(EDGE, EDGE)
     return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
 
 
 @cached
 def leader(done: bool) -> pygame.Surface:
     """The crown of the leader or, at the end, a flag."""
-    ink = Ink(60 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(60 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     if done:
         flag(ink, 30, ROW, 21, FOCUS)
     else:
@@ -186,7 +186,7 @@ def leader(done: bool) -> pygame.Surface:
 @cached
 def missed_mark(line: int) -> pygame.Surface:
     """On a card: the badge of the line that was missed."""
-    ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     badge(ink, line, 36, 44, 30)
     ink.line([(92, 22), (92, 50)], WHITE, 12)
     return ink.disc(92, 69, 8, WHITE).lit(0.7)
@@ -195,11 +195,11 @@ def missed_mark(line: int) -> pygame.Surface:
 @cached
 def wrong_mark() -> pygame.Surface:
     """On a card: turn round."""
-    ink = Ink(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     return u_turn(ink, 56, 46, 0.85).lit(0.7)
 
 
-def u_turn(ink: Ink, x: float, y: float, k: float) -> Ink:
+def u_turn(ink: GlowCanvas, x: float, y: float, k: float) -> GlowCanvas:
     """An arrow that turns back, 72 px high at scale 1."""
     bow = [(18 * math.cos(t / 8), -8 - 18 * math.sin(t / 8)) for t in range(26)]
     way = [(18.0, 30.0), (18.0, -8.0), *bow, (-18.0, 6.0)]
@@ -209,11 +209,14 @@ def u_turn(ink: Ink, x: float, y: float, k: float) -> Ink:
 
 def star(x: float, y: float, r: float) -> list[Point]:
     """Five points."""
-    outer, inner = regular(5, r, -math.pi / 2, x, y), regular(5, r * 0.45, -math.pi / 2 + math.pi / 5, x, y)
+    outer, inner = (
+        regular_polygon(5, r, -math.pi / 2, x, y),
+        regular_polygon(5, r * 0.45, -math.pi / 2 + math.pi / 5, x, y),
+    )
     return [point for pair in zip(outer, inner, strict=True) for point in pair]
 
 
-def flag(ink: Ink, x: float, y: float, r: float, color: Color) -> None:
+def flag(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
     """A chequered flag on its pole, `r` px to each side."""
     size = 2 * r / 4
     ink.line([(x - r, y - r), (x - r, y + r)], color, max(3, r * 0.2))

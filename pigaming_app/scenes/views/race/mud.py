@@ -9,7 +9,7 @@ import pygame
 from pigaming_app.games.race.course import Course
 from pigaming_app.scenes.views.race.track import MUD
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw.frame_budget import Steps, sliced
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 
 GRID = 10  # px between the points at which the distance is measured
@@ -23,7 +23,7 @@ Indices = npt.NDArray[np.int64]
 
 
 @cached
-@sliced
+@resumable
 def mud(course: Course) -> Steps[pygame.Surface]:
     """The arena of 1600 x 900, with mud wherever there is no track: to be added to what lies there."""
     coarse = yield from _away(course)

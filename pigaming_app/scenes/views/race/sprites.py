@@ -19,12 +19,12 @@ from pigaming_app.ui.draw import (
     THIN,
     WHITE,
     Color,
-    Ink,
+    GlowCanvas,
     badge,
-    cut,
+    cut_box,
     dim,
     mix,
-    regular,
+    regular_polygon,
     text_width,
 )
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
@@ -40,8 +40,8 @@ DARK_RED = (36, 6, 8)
 @cached
 def wrong_way(below: bool) -> Sprite:
     """Turn round: a red disc with a bent arrow, pointing at the robot above or `below` it."""
-    ink, up = Ink(184, 184).to(92, 92), -1 if below else 1
-    ink.solid(regular(48, 54)).solid([(-18, 44 * up), (18, 44 * up), (0, 72 * up)])
+    ink, up = GlowCanvas(184, 184).to(92, 92), -1 if below else 1
+    ink.solid(regular_polygon(48, 54)).solid([(-18, 44 * up), (18, 44 * up), (0, 72 * up)])
     ink.fill([(-16, 42 * up), (16, 42 * up), (0, 68 * up)], ALARM)
     ink.disc(0, 0, 51, ALARM).disc(0, 0, 44, DARK_RED)
     return trim(u_turn(ink, 0, -1, 0.92).sprite(0.9), 92, 92)
@@ -53,9 +53,9 @@ def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
     wide = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
     high = 84 + 46 * len(words)
     half_w, half_h = round(wide / 2) + 30, high // 2 + 50
-    ink, up = Ink(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
+    ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
     ink.fill([(-17, (high / 2 - 4) * up), (17, (high / 2 - 4) * up), (0, (high / 2 + 24) * up)], ALARM)
-    box = cut(-wide / 2, -high / 2, wide, high, 18)
+    box = cut_box(-wide / 2, -high / 2, wide, high, 18)
     ink.solid(box).fill(box, DARK_RED).line(box, ALARM, LINE, True)
     for i, text in enumerate(words):
         ink.text(text, BODY, 0, -high / 2 + 38 + 46 * i, WHITE, "head", "c")
@@ -73,7 +73,7 @@ def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
     text = f"{number}{ending}"
     wide = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
     half_w, half_h = wide // 2 + 30, 100
-    ink, up = Ink(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
+    ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
     box = [(-wide / 2, -54), (wide / 2, -54), (wide / 2, 54), (-wide / 2, 54)]
     ink.fill([(-14, 54 * up), (14, 54 * up), (0, 76 * up)], color)
     ink.solid(box).line(box, color, THIN, True)
@@ -89,8 +89,8 @@ def notice(text: str, color: Color, sign: str = "") -> Sprite:
     """A word that rises over a robot, with a star or a flag before it."""
     lead = 64 if sign else 0
     wide, high = round(text_width(text, LABEL, "hero")) + lead + 80, 120
-    ink = Ink(wide, high)
-    box = cut(14, 22, wide - 28, high - 44, 14)
+    ink = GlowCanvas(wide, high)
+    box = cut_box(14, 22, wide - 28, high - 44, 14)
     ink.solid(box).line(box, dim(color, 0.55), THIN, True)
     if sign == "star":
         ink.fill(star(62, high / 2, 24), color)
@@ -103,7 +103,7 @@ def notice(text: str, color: Color, sign: str = "") -> Sprite:
 @cached
 def gold_star() -> Sprite:
     """Before a time that is the best."""
-    return trim(Ink(112, 112).to(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
+    return trim(GlowCanvas(112, 112).to(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
 
 
 @cached
@@ -114,7 +114,7 @@ def ghost(turn: int) -> Sprite:
 
 def _ghost() -> pygame.Surface:
     ink, color = master(64), mix(FOCUS, WHITE, 0.2)
-    ink.dashes(regular(72, 34), color, 5, 15, 11.7)
+    ink.dashes(regular_polygon(72, 34), color, 5, 15, 11.7)
     ink.fill([(52, 0), (39, 13), (39, -13)], color)
     return ink.fill(star(0, 0, 15), color).lit(0.8)
 
@@ -146,14 +146,14 @@ def _tip(seat: int) -> pygame.Surface:
 @cached
 def clods(size: int) -> tuple[Sprite, ...]:
     """A lump of mud as it fades: the last is the brightest."""
-    whole = trim(Ink(48, 48).to(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
+    whole = trim(GlowCanvas(48, 48).to(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole
 
 
 @cached
 def splash(which: int) -> Sprite:
     """Mud under a robot, one of three shapes."""
-    rng, ink, color = random.Random(which), Ink(160, 160).to(80, 80), dim(MUD, 0.62)
+    rng, ink, color = random.Random(which), GlowCanvas(160, 160).to(80, 80), dim(MUD, 0.62)
     for _ in range(17):
         a, r = rng.random() * math.tau, rng.uniform(38, 56)
         ink.line([(20 * math.cos(a), 20 * math.sin(a)), (r * math.cos(a), r * math.sin(a))], color, rng.uniform(7, 15))
@@ -163,6 +163,6 @@ def splash(which: int) -> Sprite:
 @cached
 def confetti(color: Color, turn: int) -> tuple[Sprite, ...]:
     """A square of the chequered flag, turned one of four ways, as it fades: the last is the brightest."""
-    ink = Ink(56, 56).to(28, 28, turn * math.pi / 8)
+    ink = GlowCanvas(56, 56).to(28, 28, turn * math.pi / 8)
     whole = trim(ink.fill([(-6, -6), (6, -6), (6, 6), (-6, 6)], color).lit(0.6), 28, 28)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole

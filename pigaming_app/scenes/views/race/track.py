@@ -11,7 +11,7 @@ from typing import NamedTuple
 from pigaming_app.games.race.course import Course, Place, half_at, leg, locate, spot
 from pigaming_app.games.race.start import BEHIND, Track
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ALARM, BLACK, ICE, PLAYERS, Color, Ink, Point, badge, dim
+from pigaming_app.ui.draw import ALARM, BLACK, ICE, PLAYERS, Color, GlowCanvas, Point, badge, dim
 from pigaming_app.ui.draw.frame_budget import Steps
 
 EDGE: Color = (150, 178, 214)
@@ -64,27 +64,27 @@ def edges(course: Course) -> tuple[list[Point], list[Point]]:
     return [beside(rib, -1) for rib in ribs(course)], [beside(rib, 1) for rib in ribs(course)]
 
 
-def draw_track(hot: Ink, cold: Ink, track: Track) -> Steps[None]:
+def draw_track(glow: GlowCanvas, crisp: GlowCanvas, track: Track) -> Steps[None]:
     """All of it: what glows on one sheet, what is only painted on the other. The road itself is black."""
     course = track.course
-    cold.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
+    crisp.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
     yield
     for edge in edges(course):
-        hot.neon(edge, EDGE, 5, True)
+        glow.neon(edge, EDGE, 5, True)
         yield
-    draw_kerbs(hot, course)
+    draw_kerbs(glow, course)
     yield
-    draw_arrows(cold, track)
+    draw_arrows(crisp, track)
     yield
     for seat, along in enumerate(track.lines):
-        draw_slot(cold, course, along, seat)
-        draw_line(hot, cold, frame(course, along), PLAYERS[seat])
+        draw_slot(crisp, course, along, seat)
+        draw_line(glow, crisp, frame(course, along), PLAYERS[seat])
         x, y = sign_post(course, along)
-        badge(hot, seat, x, y, BADGE)
+        badge(glow, seat, x, y, BADGE)
         yield
 
 
-def draw_kerbs(ink: Ink, course: Course) -> None:
+def draw_kerbs(ink: GlowCanvas, course: Course) -> None:
     """Red and white blocks on the inside of every bend."""
     ring = ribs(course)
     for side in (1, -1):
@@ -113,7 +113,7 @@ def _part(near: list[Point], far: list[Point], start: float, end: float) -> list
     return [between(a, b, start), between(a, b, end), between(c, d, end), between(c, d, start)]
 
 
-def draw_arrows(ink: Ink, track: Track) -> None:
+def draw_arrows(ink: GlowCanvas, track: Track) -> None:
     """Two pairs of arrowheads between any two lines: the way to drive."""
     course = track.course
     for i, along in enumerate(track.lines):
@@ -149,22 +149,22 @@ def frame(course: Course, along: float) -> Frame:
     return Frame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
 
 
-def draw_line(hot: Ink, cold: Ink, line: Frame, color: Color) -> None:
+def draw_line(glow: GlowCanvas, crisp: GlowCanvas, line: Frame, color: Color) -> None:
     """Two columns of a chequered band between two bright rails."""
     half = line.half - 3
-    cold.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], BLACK)
+    crisp.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], BLACK)
     cells = 2 * round(half / 20)
     size = 2 * half / cells
     for row in range(cells):
         column, side = row % 2 - 1, -half + row * size
         a, b = column * (WIDE_LINE - 5), (column + 1) * (WIDE_LINE - 5)
         cell = [(a, side), (b, side), (b, side + size), (a, side + size)]
-        cold.fill([line.at(*corner) for corner in cell], dim(color, 0.9))
+        crisp.fill([line.at(*corner) for corner in cell], dim(color, 0.9))
     for rail in (-WIDE_LINE, WIDE_LINE):
-        hot.neon([line.at(rail, -half), line.at(rail, half)], color, 5)
+        glow.neon([line.at(rail, -half), line.at(rail, half)], color, 5)
 
 
-def draw_slot(ink: Ink, course: Course, along: float, seat: int) -> None:
+def draw_slot(ink: GlowCanvas, course: Course, along: float, seat: int) -> None:
     """The mark behind a line on which its robot begins."""
     line, color = frame(course, along), dim(PLAYERS[seat], 0.30)
     for side in (-1, 1):

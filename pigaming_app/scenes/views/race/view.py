@@ -25,7 +25,7 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
-from pigaming_app.ui.widgets.caption import plate
+from pigaming_app.ui.widgets.caption import caption
 
 VOID_LASTS = 3.5  # s for which it is said that a lap did not count
 PLACE_LASTS = 6 * HZ  # ticks for which the place of a robot is shown that has finished
@@ -175,7 +175,7 @@ class RaceView(Picture):
     def _trouble(self, screen: pygame.Surface) -> None:
         """Say for a moment that the ghost had to be dropped."""
         if self.haunt and self.haunt.trouble and self.words and self.moments.clock < TROUBLE_LASTS:
-            plate(self.words(f"race.ghost_{self.haunt.trouble}"), FOCUS).draw(screen, 960, 1034)
+            caption(self.words(f"race.ghost_{self.haunt.trouble}"), FOCUS).draw(screen, 960, 1034)
 
 
 def _between(a: tuple[float, float], b: tuple[float, float], share: float) -> tuple[float, float]:

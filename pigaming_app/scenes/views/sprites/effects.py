@@ -5,7 +5,7 @@ import random
 
 import pygame
 
-from pigaming_app.ui.draw import LINE, PLAYERS, WALL, WHITE, Color, Ink, dim, mix, regular
+from pigaming_app.ui.draw import LINE, PLAYERS, WALL, WHITE, Color, GlowCanvas, dim, mix, regular_polygon
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -29,7 +29,7 @@ def beam(player: int, turn: int) -> Sprite:
 
 
 def _beam(player: int) -> pygame.Surface:
-    ink = Ink(248, 248).to(124 - BEAM_ARM, 124)
+    ink = GlowCanvas(248, 248).to(124 - BEAM_ARM, 124)
     for i in range(14, 0, -1):
         half, reach = 0.30 * (0.5 + i / 28), 40 + 10 * i
         shape = [(30, -6), (reach, -reach * half), (reach + 10, 0), (reach, reach * half), (30, 6)]
@@ -120,7 +120,9 @@ def shards(shape: int, turn: int) -> tuple[Sprite, ...]:
 
 def _shard(shape: int) -> pygame.Surface:
     rng = random.Random(shape)
-    corners = [(x * rng.uniform(0.7, 1.3), y * rng.uniform(0.7, 1.3)) for x, y in regular(3 + shape % 2, 7 + 2 * shape)]
+    corners = [
+        (x * rng.uniform(0.7, 1.3), y * rng.uniform(0.7, 1.3)) for x, y in regular_polygon(3 + shape % 2, 7 + 2 * shape)
+    ]
     return master(40).line(corners, WALL, 3, True).lit(0.8)
 
 
@@ -137,7 +139,7 @@ def wave(color: Color, stage: int) -> Sprite:
 def _wave(stage: int) -> Sprite:
     t, half = (stage + 1) / WAVE_STEPS, 172
     r = 30 + 110 * (1 - (1 - t) ** 2)
-    ink = Ink(2 * half, 2 * half).to(half, half, 0.5 * t)
+    ink = GlowCanvas(2 * half, 2 * half).to(half, half, 0.5 * t)
     for i in range(8):
         a = i * math.tau / 8
         ink.arc(0, 0, r, a, a + 0.5 - 0.25 * t, dim(WHITE, (1 - t) ** 0.8), 1 + 9 * (1 - t))
@@ -149,7 +151,7 @@ def light(color: Color, level: int) -> Sprite:
     """Light on the ground round a hit, `level` of LIGHT_LEVELS bright."""
     if level < LIGHT_LEVELS:
         return faded(light(color, LIGHT_LEVELS), level / LIGHT_LEVELS)
-    spot = pygame.transform.gaussian_blur(Ink(45, 45, 1).disc(22, 22, 9, dim(color, 0.55)).plain(), 7)
+    spot = pygame.transform.gaussian_blur(GlowCanvas(45, 45, 1).disc(22, 22, 9, dim(color, 0.55)).plain(), 7)
     return trim(pygame.transform.smoothscale(spot, (360, 360)), 180, 180)
 
 
@@ -161,8 +163,8 @@ def shield(player: int, turn: int, r: int = 72) -> Sprite:
 
 def _shield(player: int, r: int) -> pygame.Surface:
     ink, color = master(r + 32), mix(PLAYERS[player], WHITE, 0.25)
-    ink.fill(regular(6, r), dim(color, 0.10)).neon(regular(6, r), color, 4, True)
-    for x, y in regular(6, r):
+    ink.fill(regular_polygon(6, r), dim(color, 0.10)).neon(regular_polygon(6, r), color, 4, True)
+    for x, y in regular_polygon(6, r):
         ink.line([(x * 0.55, y * 0.55), (x, y)], dim(color, 0.35), 2)
     return ink.lit(1.0)
 
@@ -171,7 +173,7 @@ def _shield(player: int, r: int) -> pygame.Surface:
 def timer_ring(color: Color, left: int, r: int, width: int = LINE) -> Sprite:
     """What is left of something, `left` of 48: a ring of radius `r` px that empties clockwise from the top."""
     half = r + 22
-    ink = Ink(2 * half, 2 * half)
+    ink = GlowCanvas(2 * half, 2 * half)
     if left:
         ink.arc(half, half, r, math.tau * (0.75 - left / 48), math.tau * 0.75, color, width)
     return trim(ink.lit(0.8), half, half)

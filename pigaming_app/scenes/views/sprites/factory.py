@@ -9,7 +9,19 @@ import math
 import pygame
 
 from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW, A
-from pigaming_app.ui.draw import ALARM, BLACK, LINE, THIN, WHITE, Color, Ink, Points, cut, dim, regular
+from pigaming_app.ui.draw import (
+    ALARM,
+    BLACK,
+    LINE,
+    THIN,
+    WHITE,
+    Color,
+    GlowCanvas,
+    Points,
+    cut_box,
+    dim,
+    regular_polygon,
+)
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -27,7 +39,7 @@ SUIT, SKIN, BOOTS, GOLD = (80, 205, 215), (255, 205, 160), (40, 96, 110), (255, 
 COUNTS = 36  # pictures of a ring that fills or empties
 
 
-def state_icon(ink: Ink, state: int, x: float, y: float, r: float, color: Color) -> None:
+def state_icon(ink: GlowCanvas, state: int, x: float, y: float, r: float, color: Color) -> None:
     """Raw: a disc. Half done: half a disc. Done and delivered: a star. Damaged: a cross."""
     if state == RAW:
         ink.disc(x, y, r, color)
@@ -54,7 +66,7 @@ def outline(team: int, x: float, y: float, half: float) -> Points:
     """A crate's shape, `half` px to each side of (x, y)."""
     corner = half * 0.52
     if team != ICE:
-        return cut(x - half, y - half, 2 * half, 2 * half, corner)
+        return cut_box(x - half, y - half, 2 * half, 2 * half, corner)
     points = []
     for i in range(4):
         sx, sy = ((1, 1), (-1, 1), (-1, -1), (1, -1))[i]
@@ -66,7 +78,7 @@ def outline(team: int, x: float, y: float, half: float) -> Points:
     return points
 
 
-def draw_crate(ink: Ink, team: int, state: int, x: float, y: float, size: float = CRATE) -> None:
+def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size: float = CRATE) -> None:
     """A crate, its middle at (x, y)."""
     color, half = TEAMS[team], size / 2 - 3
     shape = outline(team, x, y, half)
@@ -85,12 +97,12 @@ def draw_crate(ink: Ink, team: int, state: int, x: float, y: float, size: float 
 def crate(team: int, state: int, tenths: int = 10) -> Sprite:
     """A crate of a team in a state, at so many tenths of its size; it hides what is below."""
     size = CRATE * tenths / 10
-    ink = Ink(120, 120, 3).to(60, 60)
+    ink = GlowCanvas(120, 120, 3).to(60, 60)
     draw_crate(ink, team, state, 0, 0, size)
     return trim(ink.sprite(0.6), 60, 60)
 
 
-def emblem(ink: Ink, team: int, x: float, y: float, r: float) -> None:
+def emblem(ink: GlowCanvas, team: int, x: float, y: float, r: float) -> None:
     """A snowflake for ICE, a flame for FIRE."""
     color = TEAMS[team]
     if team == ICE:
@@ -123,7 +135,7 @@ def forks(team: int, turn: int) -> Sprite:
 def _forks(team: int) -> pygame.Surface:
     ink = master(76, 24)
     for side in (-20, 20):
-        ink.solid(cut(26, side - 7, 69, 14, 5)).line([(30, side), (90, side)], TEAMS[team], 8)
+        ink.solid(cut_box(26, side - 7, 69, 14, 5)).line([(30, side), (90, side)], TEAMS[team], 8)
     ink.arc(0, 0, 45, 0.66, math.tau - 0.66, TEAMS[team], LINE)
     return ink.sprite(0.5)
 
@@ -136,7 +148,7 @@ def person(turn: int, stride: int, working: bool) -> Sprite:
 
 def _person(stride: int, working: bool) -> pygame.Surface:
     ink, swing = master(48), 8 * math.sin(stride * math.tau / STRIDE)
-    ink.solid(regular(32, 26))
+    ink.solid(regular_polygon(32, 26))
     for side in (-1, 1):
         if working:
             hand = (27 + 0.4 * swing * side, 9 * side)
@@ -159,7 +171,7 @@ def _person(stride: int, working: bool) -> pygame.Surface:
 @cached
 def progress(state: int, part: int) -> Sprite:
     """How far a machine has come, `part` of COUNTS, in the colour of what it makes."""
-    ink = Ink(150, 150).to(75, 75)
+    ink = GlowCanvas(150, 150).to(75, 75)
     if part:
         ink.arc(0, 0, 44, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, STATES[state], 10)
     return trim(ink.lit(0.9), 75, 75)
@@ -168,8 +180,8 @@ def progress(state: int, part: int) -> Sprite:
 @cached
 def busy(team: int, kind: int) -> Sprite:
     """A machine of a kind while it holds a team's pallet: it wears the team's outline."""
-    ink, body = Ink(230, 230).to(115, 115), cut(-66, -66, 132, 132, 20)
-    ink.solid(cut(-69, -69, 138, 138, 21)).fill(body, dim(TEAMS[team], 0.10)).line(body, TEAMS[team], 8, True)
+    ink, body = GlowCanvas(230, 230).to(115, 115), cut_box(-66, -66, 132, 132, 20)
+    ink.solid(cut_box(-69, -69, 138, 138, 21)).fill(body, dim(TEAMS[team], 0.10)).line(body, TEAMS[team], 8, True)
     ink.ring(0, 0, 44, dim(TEAMS[team], 0.26), 10)
     ink.text("A" if kind == A else "B", 62, 0, 0, WHITE, "hero", "c")
     return trim(ink.sprite(0.8), 115, 115)
@@ -179,7 +191,7 @@ def busy(team: int, kind: int) -> Sprite:
 def frozen(part: int, r: int = 54) -> Sprite:
     """The ring, of `r` px, that runs down while a robot must stand still, `part` of COUNTS left."""
     half = r + 31
-    ink = Ink(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
     ink.ring(0, 0, r, dim(ALARM, 0.3), 8)
     if part:
         ink.arc(0, 0, r, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, ALARM, 8)
@@ -189,8 +201,8 @@ def frozen(part: int, r: int = 54) -> Sprite:
 @cached
 def awaited(seconds: int) -> Sprite:
     """Where a new pallet will come, and in how many seconds."""
-    ink = Ink(110, 110, 3).to(55, 55)
-    ink.dashes(regular(40, 27), dim(STATES[RAW], 0.85), THIN, 8, 8)
+    ink = GlowCanvas(110, 110, 3).to(55, 55)
+    ink.dashes(regular_polygon(40, 27), dim(STATES[RAW], 0.85), THIN, 8, 8)
     ink.text(str(seconds), 40, 0, 0, WHITE, "hero", "c")
     return trim(ink.lit(0.5), 55, 55)
 
@@ -198,17 +210,17 @@ def awaited(seconds: int) -> Sprite:
 @cached
 def exclaim() -> Sprite:
     """Watch out!"""
-    ink = Ink(120, 130, 3).to(60, 60)
-    ink.solid(cut(-30, -30, 60, 56, 10)).fill([(-10, 24), (10, 24), (-12, 44)], ALARM)
-    ink.line(cut(-30, -30, 60, 56, 10), ALARM, 5, True).line([(0, -18), (0, 2)], WHITE, 8).disc(0, 15, 5, WHITE)
+    ink = GlowCanvas(120, 130, 3).to(60, 60)
+    ink.solid(cut_box(-30, -30, 60, 56, 10)).fill([(-10, 24), (10, 24), (-12, 44)], ALARM)
+    ink.line(cut_box(-30, -30, 60, 56, 10), ALARM, 5, True).line([(0, -18), (0, 2)], WHITE, 8).disc(0, 15, 5, WHITE)
     return trim(ink.sprite(0.7), 60, 60)
 
 
 @cached
 def cross() -> Sprite:
     """Not here."""
-    ink = Ink(110, 110, 3).to(55, 55)
-    ink.solid(regular(32, 30)).ring(0, 0, 27, ALARM, 5)
+    ink = GlowCanvas(110, 110, 3).to(55, 55)
+    ink.solid(regular_polygon(32, 30)).ring(0, 0, 27, ALARM, 5)
     for side in (-1, 1):
         ink.line([(-11, -11 * side), (11, 11 * side)], ALARM, 8)
     return trim(ink.sprite(0.8), 55, 55)
@@ -217,8 +229,8 @@ def cross() -> Sprite:
 @cached
 def digit(number: int) -> Sprite:
     """A big number over a robot that must wait."""
-    ink = Ink(130, 140, 3).to(65, 70)
-    ink.solid(regular(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, WHITE, "hero", "c")
+    ink = GlowCanvas(130, 140, 3).to(65, 70)
+    ink.solid(regular_polygon(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, WHITE, "hero", "c")
     return trim(ink.sprite(0.6), 65, 70)
 
 
@@ -226,7 +238,7 @@ def digit(number: int) -> Sprite:
 def target(color: Color, small: bool) -> Sprite:
     """Corners round a slot to which somebody is going."""
     half, reach, width = (38, 12, 4) if small else (44, 22, 7)
-    ink = Ink(150, 150, 3).to(75, 75)
+    ink = GlowCanvas(150, 150, 3).to(75, 75)
     for sx in (-1, 1):
         for sy in (-1, 1):
             corner = [(sx * half, sy * (half - reach)), (sx * half, sy * half), (sx * (half - reach), sy * half)]
@@ -257,6 +269,6 @@ def _dash(color: Color) -> pygame.Surface:
 @cached
 def count(number: int, team: int) -> Sprite:
     """How many more there are, beside a warehouse."""
-    ink = Ink(160, 80, 3).to(80, 40)
+    ink = GlowCanvas(160, 80, 3).to(80, 40)
     ink.text(f"+{number}", 40, 0, 0, TEAMS[team], "hero", "c")
     return trim(ink.lit(0.5), 80, 40)

@@ -14,12 +14,12 @@ from pigaming_app.ui.draw import (
     THIN,
     WHITE,
     Color,
-    Ink,
+    GlowCanvas,
     dim,
     font,
     icon,
     mix,
-    regular,
+    regular_polygon,
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -30,8 +30,8 @@ POPUP_LEVELS = 6
 @cached
 def pickup(name: str) -> Sprite:
     """A power that lies on the floor."""
-    ink = Ink(152, 152, 3).to(76, 76)
-    frame = regular(6, 42, math.pi / 6)
+    ink = GlowCanvas(152, 152, 3).to(76, 76)
+    frame = regular_polygon(6, 42, math.pi / 6)
     ink.solid(frame).neon(frame, FOCUS, THIN, True)
     icon(ink, name, 0, 0, 23, mix(FOCUS, WHITE, 0.5), 5)
     return trim(ink.sprite(1.0), 76, 76)
@@ -40,8 +40,8 @@ def pickup(name: str) -> Sprite:
 @cached
 def mine(player: int, bright: bool) -> Sprite:
     """A mine in its owner's colour and with its number; an armed one is `bright` every other moment."""
-    ink = Ink(120, 120, 3).to(60, 60)
-    ink.solid(regular(24, 25))
+    ink = GlowCanvas(120, 120, 3).to(60, 60)
+    ink.solid(regular_polygon(24, 25))
     icon(ink, "mine", 0, 0, 27, PLAYERS[player], 4)
     ink.disc(0, 0, 12, ALARM if bright else dim(ALARM, 0.45))
     ink.text(str(player + 1), 20, 0, 0, BLACK, "hero", "c")
@@ -51,7 +51,7 @@ def mine(player: int, bright: bool) -> Sprite:
 @cached
 def small_icon(name: str, color: Color = ICE, r: int = 16, width: float = THIN) -> Sprite:
     """An icon `r` px to each side, as light."""
-    ink = Ink(2 * r + 64, 2 * r + 64, 3)
+    ink = GlowCanvas(2 * r + 64, 2 * r + 64, 3)
     icon(ink, name, r + 32, r + 32, r, color, width)
     return trim(ink.lit(0.6), r + 32, r + 32)
 
@@ -64,7 +64,7 @@ def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
     face = font("hero", 2 * SUB)
     edge = face.render(text, True, BLACK)
     w, h = edge.get_width() // 2 + 64, SUB + 64
-    ink = Ink(w, h).text(text, SUB, w / 2, h / 2, PLAYERS[player], "hero", "c")
+    ink = GlowCanvas(w, h).text(text, SUB, w / 2, h / 2, PLAYERS[player], "hero", "c")
     dark = pygame.Surface(ink.sheet.get_size(), pygame.SRCALPHA)
     x, y = w - edge.get_width() / 2, h - face.get_ascent() + 0.7 * SUB
     for i in range(12):

@@ -15,12 +15,12 @@ from pigaming_app.ui.draw import (
     PLAYERS,
     THIN,
     WHITE,
-    Ink,
-    cut,
+    GlowCanvas,
+    cut_box,
     dim,
     font,
     mix,
-    regular,
+    regular_polygon,
     shape_points,
 )
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
@@ -30,14 +30,14 @@ HALF, ARM = 80, 13  # px: what a turned tank covers, and where the middle of tha
 TRIANGLE_BACK = 4  # px that player 2's turret sits further back
 
 
-def draw_tank(ink: Ink, player: int) -> Ink:
+def draw_tank(ink: GlowCanvas, player: int) -> GlowCanvas:
     """A robot at the origin of `ink`, heading +x, radius 36 px, without its number."""
     color = PLAYERS[player]
-    ink.solid(regular(64, 37))
+    ink.solid(regular_polygon(64, 37))
     hull = [(34 * math.cos(a / 20), 34 * math.sin(a / 20)) for a in range(-20, 21)]
     ink.neon(hull, color, LINE).neon([(-x, y) for x, y in hull], color, LINE)
     for side in (-1, 1):
-        ink.solid(cut(-19, side * 33 - 10, 38, 20, 6)).fill(cut(-16, side * 33 - 7, 32, 14, 4), color)
+        ink.solid(cut_box(-19, side * 33 - 10, 38, 20, 6)).fill(cut_box(-16, side * 33 - 7, 32, 14, 4), color)
         for x in (-8, 0, 8):
             ink.void([(x, side * 33 - 7), (x, side * 33 + 7)], 3, 0.3)
         ink.disc(25, side * 15, 5, WHITE)
@@ -50,7 +50,7 @@ def draw_tank(ink: Ink, player: int) -> Ink:
     return ink.solid([(x * 1.16, y * 1.16) for x, y in turret]).fill(turret, color)
 
 
-def robot(ink: Ink, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> Ink:
+def robot(ink: GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> GlowCanvas:
     """A tank of seat 0..3 at (x, y), heading `angle` rad, with its number upright."""
     draw_tank(ink.to(x, y, angle, scale), player)
     back, size = _back(player), _number_size(player)
@@ -74,8 +74,8 @@ def tank(player: int, turn: int) -> Sprite:
 @cached
 def ghost(player: int) -> Sprite:
     """A tank that blinks, in the moments in which it is not there: a dim ring and its number."""
-    ink = Ink(112, 112).to(56, 56)
-    ink.solid(regular(64, 36)).ring(0, 0, 34, dim(PLAYERS[player], 0.55), THIN)
+    ink = GlowCanvas(112, 112).to(56, 56)
+    ink.solid(regular_polygon(64, 36)).ring(0, 0, 34, dim(PLAYERS[player], 0.55), THIN)
     ink.text(str(player + 1), 34, 0, 0, dim(PLAYERS[player], 0.8), "hero", "c")
     return trim(ink.sprite(0.6), 56, 56)
 
@@ -114,5 +114,5 @@ def seat_robot(player: int, angle: float, scale: float = 2.1) -> Sprite:
 @cached
 def _seat_robot(player: int, turn: int, scale: float) -> Sprite:
     half = round(84 * scale)
-    ink = Ink(2 * half, 2 * half)
+    ink = GlowCanvas(2 * half, 2 * half)
     return trim(robot(ink, player, half, half, turn * math.tau / HEADINGS, scale).sprite(0.9), half, half)

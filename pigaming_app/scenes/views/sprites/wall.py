@@ -3,16 +3,16 @@
 import math
 import random
 
-from pigaming_app.ui.draw import BLACK, HAIR, LINE, WALL, Ink, Point, cut, dim, regular
+from pigaming_app.ui.draw import BLACK, HAIR, LINE, WALL, GlowCanvas, Point, cut_box, dim, regular_polygon
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
 SOLID = -1  # health of a wall that takes any number
 
 
-def draw_wall(ink: Ink, length: float, thick: float, health: int, seed: int, whole: int = 5) -> Ink:
+def draw_wall(ink: GlowCanvas, length: float, thick: float, health: int, seed: int, whole: int = 5) -> GlowCanvas:
     """A wall centred on the origin of `ink`, lying along x; `health` of `whole` bullets, or SOLID."""
-    outline = cut(-length / 2, -thick / 2, length, thick, min(12, thick / 3))
+    outline = cut_box(-length / 2, -thick / 2, length, thick, min(12, thick / 3))
     if health == SOLID:
         return _solid(ink, outline, length, thick)
     cells = _Cells(ink, length, thick, whole, seed)
@@ -34,11 +34,11 @@ def wall(length: float, thick: float, angle: float, health: int, seed: int, whol
     """The sprite of a wall that lies at `angle` rad. Premultiplied."""
     c, s = abs(math.cos(angle)), abs(math.sin(angle))
     w, h = int((length * c + thick * s) / 2 + 40), int((length * s + thick * c) / 2 + 40)
-    ink = draw_wall(Ink(2 * w, 2 * h, 3).to(w, h, angle), length, thick, health, seed, whole)
+    ink = draw_wall(GlowCanvas(2 * w, 2 * h, 3).to(w, h, angle), length, thick, health, seed, whole)
     return trim(ink.sprite(0.8), w, h)
 
 
-def _solid(ink: Ink, outline: list[Point], length: float, thick: float) -> Ink:
+def _solid(ink: GlowCanvas, outline: list[Point], length: float, thick: float) -> GlowCanvas:
     ink.solid(outline).neon(outline, WALL, LINE, True)
     half, count = thick / 2 - 9, max(1, round((length - 24) / 18))
     for i in range(count):
@@ -50,7 +50,7 @@ def _solid(ink: Ink, outline: list[Point], length: float, thick: float) -> Ink:
 class _Cells:
     """The cells of one wall, their slanted joints, and the order in which they go out."""
 
-    def __init__(self, ink: Ink, length: float, thick: float, whole: int, seed: int) -> None:
+    def __init__(self, ink: GlowCanvas, length: float, thick: float, whole: int, seed: int) -> None:
         self.ink, self.thick, self.half, self.whole = ink, thick, thick / 2, whole
         self.rng = random.Random(seed)
         self.order = self.rng.sample(range(whole), whole)
@@ -65,7 +65,7 @@ class _Cells:
         for i in range(self.whole):
             a, b, half = self.joints[i], self.joints[i + 1], self.half
             if i not in lost:
-                self.ink.fill(cut(a + 7, -half + 8, b - a - 14, self.thick - 16, 4), dim(WALL, 0.42))
+                self.ink.fill(cut_box(a + 7, -half + 8, b - a - 14, self.thick - 16, 4), dim(WALL, 0.42))
                 continue
             x, sa, sb = (a + b) / 2, self.slant[i], self.slant[i + 1]
             crack = [(x - 9, -half), (x - 2 + sa, -half * 0.35), (x + 4 - sb, half * 0.2), (x + 8, half)]
@@ -86,7 +86,7 @@ class _Cells:
         a, b = self.joints[i], self.joints[i + 1]
         for _ in range(grains):
             x, y = self.rng.uniform(a + 6, b - 6), self.rng.uniform(-self.half, self.half)
-            grain = regular(3, self.rng.uniform(3, 6), self.rng.random() * 6, x, y)
+            grain = regular_polygon(3, self.rng.uniform(3, 6), self.rng.random() * 6, x, y)
             self.ink.line(grain, dim(WALL, bright), HAIR, True)
 
     def _shard(self, i: int, broken: bool) -> None:
