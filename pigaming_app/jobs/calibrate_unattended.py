@@ -22,7 +22,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 
@@ -43,9 +43,9 @@ class Operator:
         self.page = CalibrationPage(self.context, self.site)
         self.stack = Stack(self.page)
 
-    def press(self, act: Act) -> None:
+    def press(self, button: Button) -> None:
         """Press a button."""
-        self.stack.turn(self.stack.top.on(Press(act, Device("keys", 0))))
+        self.stack.turn(self.stack.top.on(InputEvent(button, Device("keys", 0))))
 
     def frame(self) -> None:
         """One picture."""
@@ -57,15 +57,15 @@ class Operator:
     def go(self, row: str) -> None:
         """Put the focus on a row of the first page."""
         while self.page.focus.name != row:
-            self.press(Act.DOWN)
+            self.press(Button.DOWN)
 
     def work(self) -> ResultPage | None:
         """Calibrate; the result, or None where nothing came of it in time."""
         if self.robot:
             self.go("by")
-            self.press(Act.RIGHT)
+            self.press(Button.RIGHT)
         self.go("begin")
-        self.press(Act.FIRE)
+        self.press(Button.FIRE)
         for _ in range(round(PATIENCE / FRAME)):
             self.frame()
             if isinstance(self.stack.top, ResultPage):
@@ -88,7 +88,7 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
             return {"saved": False, "trouble": "It was not done in time."}
         finding, trouble = page.finding, page.finding.trouble
         if finding.good:
-            operator.press(Act.FIRE)
+            operator.press(Button.FIRE)
             trouble = page.navigation.sentence or None
         saved = finding.good and operator.stack.top is operator.page
         told: dict[str, Any] = {"saved": saved, "trouble": trouble, "file": str(kept.path(operator.site))}

@@ -34,7 +34,7 @@ from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.notices import FrameMeter, Notices
 from pigaming_app.ui.window import Canvas, NoPin
@@ -282,7 +282,7 @@ class App:
         controls, stack = self.context.controls, self.stack
         presses = [*controls.presses(events), *controls.repeats(seconds)]
         if self.seconds < SETTLING:
-            presses = [press for press in presses if press.act is not Act.POINT]
+            presses = [press for press in presses if press.button is not Button.POINT]
         self.context.idle = 0.0 if presses else self.context.idle + seconds
         before = stack.scenes[-1:]
         for press in presses:

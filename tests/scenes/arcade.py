@@ -12,7 +12,7 @@ from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 
@@ -37,7 +37,7 @@ class Floor:
     def entered(self) -> None:
         pass
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -64,17 +64,17 @@ class Arcade:
         self.stack.scenes.append(scene)
         scene.entered()
 
-    def press(self, act: Act, device: Device = KEYS[0]) -> None:
-        self.stack.turn(self.stack.top.on(Press(act, device)))
+    def press(self, button: Button, device: Device = KEYS[0]) -> None:
+        self.stack.turn(self.stack.top.on(InputEvent(button, device)))
 
     def click(self, x: float, y: float) -> None:
-        self.stack.turn(self.stack.top.on(Press(Act.CLICK, Device("mouse"), at=(x, y))))
+        self.stack.turn(self.stack.top.on(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))
 
     def frame(self, seconds: float = 1 / 30, draw: bool = False) -> None:
         """One turn of the loop of the real arcade."""
         controls = self.context.controls
-        for press in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
-            self.stack.turn(self.stack.top.on(press))
+        for event in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
+            self.stack.turn(self.stack.top.on(event))
         self.stack.turn(self.stack.top.update(seconds))
         if draw:
             self.stack.top.draw(self.screen)

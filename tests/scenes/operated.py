@@ -13,7 +13,7 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
@@ -49,10 +49,10 @@ class Operated(Arcade):
         """Put the focus on a row of the first page."""
         top = self.shown(CalibrationPage)
         while top.focus.name != row:
-            self.press(Act.DOWN)
+            self.press(Button.DOWN)
         return top
 
     def begin(self) -> None:
         self.go("begin")
-        self.press(Act.FIRE)
+        self.press(Button.FIRE)
         self.shown(BoardsPage)

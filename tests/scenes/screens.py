@@ -25,7 +25,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.scores import Table
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
 
 FACTS = {
@@ -84,9 +84,9 @@ def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         scene = Lobby(arcade.context, game)
         for device in KEYS[:people]:
-            scene.on(Press(Act.FIRE, device))
+            scene.on(InputEvent(Button.FIRE, device))
         for _ in range(ais):
-            scene.on(Press(Act.ALT, KEYS[0]))
+            scene.on(InputEvent(Button.Y, KEYS[0]))
         return scene
 
     return opened

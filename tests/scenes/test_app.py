@@ -12,7 +12,7 @@ from pigaming_app.scenes.app import App, Options, run
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Turn
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.ui.input.events import Press
+from pigaming_app.ui.input.events import InputEvent
 
 STEP = 1 / 60
 
@@ -33,7 +33,7 @@ class Quiet:
     def entered(self) -> None:
         pass
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:

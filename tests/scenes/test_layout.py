@@ -7,7 +7,7 @@ import pytest
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
@@ -38,7 +38,7 @@ def test_texts_keep_off_each_other_and_off_frames(
             scene.draw(screen)
             assert len(screen.texts) > 5, "it is measured"
             assert relevant(name, faults(screen)) == []
-            scene.on(Press(Act.DOWN, KEYS[0]))
+            scene.on(InputEvent(Button.DOWN, KEYS[0]))
 
 
 def relevant(name: str, found: list[str]) -> list[str]:

@@ -24,7 +24,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import text as texts
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import labels as page
 from pigaming_app.ui.widgets import player_card
 from pigaming_app.ui.widgets import setting_row as dials
@@ -80,11 +80,11 @@ def top(arcade: Arcade, name: str) -> Scene:
 def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None:
     with VirtualPad() as pad:
         arcade.frame()
-        for act in Act:
+        for button in Button:
             for device in (*KEYS, Device("pad", pad.number), MOUSE, Device("pad", 99)):
                 scene = top(arcade, name)
                 at = (960.0, 540.0) if device == MOUSE else None
-                scene.on(Press(act, device, at=at))
+                scene.on(InputEvent(button, device, at=at))
                 scene.update(1 / 60)
         top(arcade, name).draw(arcade.screen)
 
@@ -93,8 +93,8 @@ def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None
 def test_a_mouse_may_click_anywhere(arcade: Arcade, name: str) -> None:
     for at in PLACES:
         scene = top(arcade, name)
-        scene.on(Press(Act.POINT, MOUSE, at=at))
-        scene.on(Press(Act.CLICK, MOUSE, at=at))
+        scene.on(InputEvent(Button.POINT, MOUSE, at=at))
+        scene.on(InputEvent(Button.CLICK, MOUSE, at=at))
         scene.update(1 / 60)
     scene.draw(arcade.screen)
 
@@ -110,7 +110,7 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
 
     true_size = texts.fit_size
     for module in (card, choice, dials, gadgets, game_tile, howto, page, player_card, texts):
-        monkeypatch.setattr(module, "fitted", measured)
+        monkeypatch.setattr(module, "fit_size", measured)
     surfaces.clear()
     scene = top(arcade, name)
     walk(arcade, scene)
@@ -120,10 +120,10 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
 
 def walk(arcade: Arcade, scene: Scene) -> None:
     """Show every row of a page, and everything that seats can be."""
-    for act in (Act.EXTRA, Act.ALT, *[Act.FIRE] * 2, *[Act.ALT] * 2, *[Act.DOWN, Act.RIGHT] * 11):
-        if not isinstance(scene, Lobby) and act in (Act.FIRE, Act.ALT):
+    for button in (Button.X, Button.Y, *[Button.FIRE] * 2, *[Button.Y] * 2, *[Button.DOWN, Button.RIGHT] * 11):
+        if not isinstance(scene, Lobby) and button in (Button.FIRE, Button.Y):
             continue
-        scene.on(Press(act, KEYS[0]))
+        scene.on(InputEvent(button, KEYS[0]))
         scene.update(1 / 60)
         scene.draw(arcade.screen)
 
@@ -151,11 +151,11 @@ def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
     """The rows of hints that a page can show."""
     if isinstance(scene, Lobby):
         yield scene.page.prompts
-        scene.on(Press(Act.EXTRA, device))
-        scene.on(Press(Act.FIRE, device))
+        scene.on(InputEvent(Button.X, device))
+        scene.on(InputEvent(Button.FIRE, device))
         yield scene.page.prompts
         for _ in range(3):
-            scene.on(Press(Act.ALT, device))
+            scene.on(InputEvent(Button.Y, device))
         yield scene.page.prompts
     elif isinstance(scene, PadTest):
         yield scene._prompts()

@@ -11,7 +11,7 @@ from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Turn
 from pigaming_app.scenes.title import scene as title
-from pigaming_app.ui.input.events import Press
+from pigaming_app.ui.input.events import InputEvent
 
 STEP = 1 / 30
 QUARTER = pygame.Rect(0, 0, 960, 540)
@@ -27,7 +27,7 @@ class Failing:
     def entered(self) -> None:
         pass
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:

@@ -24,8 +24,8 @@ from pigaming_app.ui import memory as heap
 from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Press
-from tests.bench.memory import press
+from pigaming_app.ui.input.events import Button, InputEvent
+from tests.bench.memory import event
 from tests.scenes.arcade import Arcade
 
 
@@ -64,7 +64,7 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
     images = [weakref.ref(sprite.image) for sprite in sprites]
     assert surfaces.bytes > title + (90 << 20)
     del sprites
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.wait(0.1, draw=True)
     arcade.stack.turn(Home())
     assert [image for image in images if image()] == []
@@ -95,7 +95,7 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
 
     def over() -> bool:
         used.append(surfaces.bytes)
-        press(rng, 40)
+        event(rng, 40)
         return len(used) > 50
 
     assert run(Options(headless=True, kiosk=True, step=0.1, over=over)) == 0
@@ -115,7 +115,7 @@ class Leaving:
     def entered(self) -> None:
         pass
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:

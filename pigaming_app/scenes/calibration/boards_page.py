@@ -16,7 +16,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 BOX, GAP, FOOT = 26, 8, 1062  # px: of a box of the progress, between two, the line on which they are
 GREY, DONE = (150, 150, 150), (20, 20, 20)
@@ -38,9 +38,9 @@ class BoardsPage:
         """Let go of the camera."""
         self.work.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Only the way back."""
-        if press.act is Act.BACK:
+        if event.button is Button.BACK:
             self.context.sounds.play("back")
             self.left()
             return Pop()

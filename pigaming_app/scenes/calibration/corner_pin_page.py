@@ -37,7 +37,7 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import WAYS
 from pigaming_app.ui.window import NoPin
@@ -64,11 +64,11 @@ class PinPage:
         self.sentence, self.said = "", 0.0
         self.prompts = context.prompts(
             [
-                (Act.FIRE, "pin.hint_next"),
-                (Act.EXTRA, "pin.hint_step"),
-                (Act.ALT, "pin.hint_reset"),
-                (Act.START, "pin.hint_save"),
-                (Act.BACK, "pin.hint_back"),
+                (Button.FIRE, "pin.hint_next"),
+                (Button.X, "pin.hint_step"),
+                (Button.Y, "pin.hint_reset"),
+                (Button.START, "pin.hint_save"),
+                (Button.BACK, "pin.hint_back"),
             ],
             BOX.bottom + 76,
             solid=True,
@@ -82,30 +82,30 @@ class PinPage:
         """Whoever leaves without saving leaves it as it was."""
         self._restore()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Directions move the corner; FIRE takes the next one."""
-        press = self.prompts.as_button(press)
-        match press.act:
-            case Act.BACK:
+        event = self.prompts.as_button(event)
+        match event.button:
+            case Button.BACK:
                 self.context.sounds.play("back")
                 self._restore()
                 return Pop()
-            case Act.START:
+            case Button.START:
                 return self._save()
-            case Act.FIRE:
+            case Button.FIRE:
                 self.chosen = (self.chosen + 1) % 4
                 self.context.sounds.play("move")
-            case Act.EXTRA:
+            case Button.X:
                 self.step = 1 - self.step
                 self.context.sounds.play("move")
-            case Act.ALT:
+            case Button.Y:
                 self.corners = [round(value) for value in STRAIGHT]
                 self.context.sounds.play("accept")
                 self._pin()
-            case Act.CLICK if press.at:
-                self._take(press.at)
-            case act if act in WAYS:
-                self._move(*WAYS[act])
+            case Button.CLICK if event.at:
+                self._take(event.at)
+            case button if button in WAYS:
+                self._move(*WAYS[button])
         return None
 
     def update(self, seconds: float) -> Turn:

@@ -22,7 +22,7 @@ from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIS
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 BAR = pygame.Rect(560, 640, 800, 40)
 ROOM = 1040  # px between the spot for a robot and as much on the other side
@@ -38,7 +38,7 @@ class CheckPage:
         number = context.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
         self.work = Checking(self.site, number, partial(kept.load, context.canvas.projection, self.site))
         self.clock = 0.0
-        self.prompts = context.prompts([(Act.BACK, "calibrate.hint_back")])
+        self.prompts = context.prompts([(Button.BACK, "calibrate.hint_back")])
 
     def entered(self) -> None:
         """Look."""
@@ -50,9 +50,9 @@ class CheckPage:
         """Let go of the camera."""
         self.work.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Any button leads back."""
-        if self.prompts.as_button(press).act in (Act.BACK, Act.FIRE, Act.START):
+        if self.prompts.as_button(event).button in (Button.BACK, Button.FIRE, Button.START):
             self.context.sounds.play("back")
             self.left()
             return Pop()

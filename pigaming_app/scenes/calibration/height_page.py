@@ -14,7 +14,7 @@ from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Glo
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 DISC = 72  # px: the light must fall on all of a lid, which is 70 mm up, aslant
 GREY = (128, 128, 128)
@@ -30,7 +30,7 @@ class OutlinesPage:
         self.work = Standing(finding.site, finding.number, finding.ground)
         self.work.begin()
         self.known = 0
-        self.prompts = context.prompts([(Act.BACK, "calibrate.hint_stop")], 1040)
+        self.prompts = context.prompts([(Button.BACK, "calibrate.hint_stop")], 1040)
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -39,9 +39,9 @@ class OutlinesPage:
         """Let go of the camera."""
         self.work.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Only the way back."""
-        if self.prompts.as_button(press).act is Act.BACK:
+        if self.prompts.as_button(event).button is Button.BACK:
             self.context.sounds.play("back")
             self.left()
             return Pop()

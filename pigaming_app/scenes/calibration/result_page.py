@@ -24,7 +24,7 @@ from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
 from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
@@ -64,7 +64,7 @@ class ResultPage:
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
         self.arrows: tuple[LitImage, int] | None = None
-        hints = [(Act.FIRE, "calibrate.hint_ok"), (Act.BACK, "calibrate.hint_back")]
+        hints = [(Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
@@ -74,12 +74,12 @@ class ResultPage:
         if self.finding.residuals and not self.finding.trouble:
             log.info("calibration: %s", self.finding.residuals.verdict)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Left and right choose, FIRE does it."""
-        press = self.navigation.prompts.as_button(press)
-        if turn := self.navigation.on(press):
+        event = self.navigation.prompts.as_button(event)
+        if turn := self.navigation.on(event):
             return turn
-        chosen = self.focus.chosen(press)
+        chosen = self.focus.chosen(event)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:

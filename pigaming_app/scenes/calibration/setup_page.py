@@ -21,7 +21,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
@@ -64,8 +64,8 @@ class CalibrationPage:
         self._small: object = None
         self._picture: pygame.Surface | None = None
         self.focus = Focus(dials.spots(self._rows()))
-        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "calibrate.hint_ok")]
-        hints.append((Act.BACK, "calibrate.hint_back"))
+        hints = [(Button.RIGHT, "calibrate.hint_change"), (Button.FIRE, "calibrate.hint_ok")]
+        hints.append((Button.BACK, "calibrate.hint_back"))
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
@@ -80,18 +80,18 @@ class CalibrationPage:
         if self.preview is not None:
             self.preview.close()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Up and down choose a row, left and right change it; the last row begins."""
-        press = self.navigation.prompts.as_button(press)
-        if turn := self.navigation.on(press):
+        event = self.navigation.prompts.as_button(event)
+        if turn := self.navigation.on(event):
             return turn
-        by = dials.step_of(press, self.focus, self._value(self.focus.name))
+        by = dials.step_of(event, self.focus, self._value(self.focus.name))
         if by:
-            self.held = self.held + 1 if press.repeat else 0
+            self.held = self.held + 1 if event.repeat else 0
             self._change(self.focus.name, by)
-        elif self.focus.chosen(press) is not None and press.act is not Act.CLICK:
+        elif self.focus.chosen(event) is not None and event.button is not Button.CLICK:
             return self._accept(self.focus.name)
-        elif press.act is Act.CLICK and self.focus.under(press) == "begin":
+        elif event.button is Button.CLICK and self.focus.under(event) == "begin":
             return self._accept("begin")
         return None
 

@@ -22,13 +22,13 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.hold import HoldTimers
 
 OWNED = 20.0  # seconds for which a pause belongs to whoever asked for it
 ESCAPE = 1.0  # seconds for which an operator holds Escape
 TAKE = 0.6  # seconds for which FIRE is held to take an AI's seat
-ALWAYS = (Act.FOUND, Act.LOST, Act.STOP, Act.POINT, Act.CLICK)  # from any device
+ALWAYS = (Button.FOUND, Button.LOST, Button.STOP, Button.POINT, Button.CLICK)  # from any device
 
 Devices = Sequence[Device | None]
 
@@ -38,7 +38,7 @@ class Access:
 
     def __init__(self, context: Context, devices: Callable[[], Devices]) -> None:
         self.controls, self.devices = context.controls, devices
-        self.escape = Holds(context.controls, ESCAPE)
+        self.escape = HoldTimers(context.controls, ESCAPE)
 
     @property
     def seated(self) -> list[Device]:
@@ -50,21 +50,21 @@ class Access:
         """The devices whose presses count now; empty: those of all."""
         return self.seated
 
-    def admit(self, press: Press) -> Press | None:
+    def admit(self, event: InputEvent) -> InputEvent | None:
         """The press as it counts, from the device that it counts for; None: it does not count."""
         acting = self.acting
-        if not acting or press.device.kind == "mouse" or press.act in ALWAYS or press.device in acting:
-            return press
-        for cluster in press.among:
+        if not acting or event.device.kind == "mouse" or event.button in ALWAYS or event.device in acting:
+            return event
+        for cluster in event.among:
             if cluster in acting:
-                return replace(press, device=cluster)
-        if press.act is Act.BRAIN and press.device.kind == "keys":
-            return press
-        if press.act is Act.BACK and press.device.kind == "keys":
-            self.escape.begin(press)
+                return replace(event, device=cluster)
+        if event.button is Button.BRAIN and event.device.kind == "keys":
+            return event
+        if event.button is Button.BACK and event.device.kind == "keys":
+            self.escape.begin(event)
         return None
 
-    def update(self, seconds: float) -> Press | None:
+    def update(self, seconds: float) -> InputEvent | None:
         """Let time pass; the operator's BACK, at the moment at which Escape has been held long enough."""
         held = self.escape.update(seconds)
         return held[0] if held else None
@@ -96,7 +96,7 @@ class Ownership(Access):
         """Whether only the owner may choose now."""
         return self.left > 0.0 and self.controls.connected(self.owner)
 
-    def update(self, seconds: float) -> Press | None:
+    def update(self, seconds: float) -> InputEvent | None:
         """Let time pass; the operator takes the pause over."""
         self.left -= seconds
         held = super().update(seconds)

@@ -11,7 +11,7 @@ from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.window import Canvas
@@ -44,7 +44,7 @@ class Context:
 
     def prompts(
         self,
-        items: Sequence[tuple[Act, str]],
+        items: Sequence[tuple[Button, str]],
         y: int = 980,
         room: int = ROOM,
         solid: bool = False,

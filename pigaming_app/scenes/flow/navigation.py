@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 
 
@@ -15,7 +15,7 @@ class Navigation:
         self,
         context: Context,
         focus: Focus,
-        hints: Sequence[tuple[Act, str]],
+        hints: Sequence[tuple[Button, str]],
         idle: float,
         stay: float = 0.0,
         voice: Callable[[], Device] | None = None,
@@ -33,12 +33,12 @@ class Navigation:
         """Show a sentence for a while."""
         self._sentence, self._left = sentence, self.stay
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """BACK leaves the page; directions and the mouse move the focus."""
-        if press.act is Act.BACK:
+        if event.button is Button.BACK:
             self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(press):
+        if self.focus.on(event):
             self.context.sounds.play("move")
         return None
 

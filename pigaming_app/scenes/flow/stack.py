@@ -5,7 +5,7 @@ from typing import Protocol, runtime_checkable
 
 import pygame
 
-from pigaming_app.ui.input.events import Press
+from pigaming_app.ui.input.events import InputEvent
 
 
 class Scene(Protocol):
@@ -14,7 +14,7 @@ class Scene(Protocol):
     def entered(self) -> None:
         """The scene has become the top one: just pushed, or what lay above it has gone."""
 
-    def on(self, press: Press) -> "Turn":
+    def on(self, event: InputEvent) -> "Turn":
         """Answer a press."""
 
     def update(self, seconds: float) -> "Turn":

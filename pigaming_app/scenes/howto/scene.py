@@ -25,13 +25,13 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text, wrap, wrap_balanced
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_width, heading
 
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without a press until the title
-LEAVE = (Act.FIRE, Act.BACK, Act.START, Act.CLICK)
+LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
 
 class HowTo:
@@ -45,15 +45,15 @@ class HowTo:
         """Begin all pictures."""
         self.clock = 0.0
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Show another game, or leave."""
-        named = next((game for game, box in self._names() if press.at and box.collidepoint(press.at)), None)
-        if press.act in (Act.LEFT, Act.RIGHT):
+        named = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
+        if event.button in (Button.LEFT, Button.RIGHT):
             games = list(LESSONS)
-            self._show(games[(games.index(self.game) + (1 if press.act is Act.RIGHT else -1)) % len(games)])
-        elif press.act is Act.CLICK and named:
+            self._show(games[(games.index(self.game) + (1 if event.button is Button.RIGHT else -1)) % len(games)])
+        elif event.button is Button.CLICK and named:
             self._show(named)
-        elif press.act in LEAVE:
+        elif event.button in LEAVE:
             self.context.sounds.play("back")
             return Pop()
         return None
@@ -103,14 +103,14 @@ class HowTo:
         """What is printed on the device used last, and what it does; the last one stands at the right end."""
         words, controls = self.context.words, self.context.controls
         device = controls.last
-        turbo = Act.LEAVE if device.kind == "keys" else Act.BACK
+        turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
         found = [
             (controls.moves(device) or "<>", words("howto.hint_drive")),
             (controls.label(device, turbo), words("howto.hint_turbo")),
-            (controls.label(device, Act.BACK), words("howto.hint_back")),
+            (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
         if self.game in FIRES:
-            found.insert(1, (words.printed(controls.label(device, Act.FIRE)), words(f"howto.{FIRES[self.game]}")))
+            found.insert(1, (words.printed(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
         return tuple((label, what) for label, what in found if label)
 
 

@@ -13,8 +13,8 @@ from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
 
 MINUTES = 1.0
@@ -39,9 +39,9 @@ class Fight:
         """Begin, or go on after an interruption."""
         self.inner.entered()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """As in every match."""
-        return self.inner.on(press)
+        return self.inner.on(event)
 
     def update(self, seconds: float) -> Turn:
         """Let the match run on; ended by hand, it leads back at once."""
@@ -74,8 +74,8 @@ class Verdict:
         self.age = self.idle = 0.0
         self.picture: pygame.Surface | None = None
         self.access = Access(self.context, lambda: [fight.inner.devices[0]])
-        self.leaving = Holds(self.context.controls, LEAVE)
-        hints = [(Act.FIRE, "results.again"), (Act.BACK, "lab.hint_lab")]
+        self.leaving = HoldTimers(self.context.controls, LEAVE)
+        hints = [(Button.FIRE, "results.again"), (Button.BACK, "lab.hint_lab")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
@@ -83,20 +83,20 @@ class Verdict:
         mine, its = self.scores
         self.context.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE plays again, with whatever device presses it; BACK leads to the Lab, held as after every match."""
-        press = self.prompts.as_button(press)
-        admitted = self.access.admit(press)
-        if admitted is None and press.act not in (Act.FIRE, Act.START):
+        event = self.prompts.as_button(event)
+        admitted = self.access.admit(event)
+        if admitted is None and event.button not in (Button.FIRE, Button.START):
             return None
         self.idle = 0.0
         if self.age < DEAF:
             return None
-        if press.act in (Act.FIRE, Act.START):
+        if event.button in (Button.FIRE, Button.START):
             self.context.sounds.play("accept")
-            return Swap(self.fight.again(None if press.device.kind == "mouse" else press.device))
-        if admitted and press.act is Act.BACK:
-            if press.device.kind == "mouse":
+            return Swap(self.fight.again(None if event.device.kind == "mouse" else event.device))
+        if admitted and event.button is Button.BACK:
+            if event.device.kind == "mouse":
                 return self._leave()
             if self.age >= LATE:
                 self.leaving.begin(admitted)

@@ -20,7 +20,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
 MATCHES = {True: 10, False: 2}  # of every two, compiled and plain
@@ -68,15 +68,15 @@ class Compare:
         self.pairs = list(combinations(self.players, 2))
         self.whole = len(self.pairs)
         self.exam: Exam | None = None
-        self.prompts = self.context.prompts([(Act.BACK, "lab.hint_lab")])
+        self.prompts = self.context.prompts([(Button.BACK, "lab.hint_lab")])
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Any button leads back."""
-        press = self.prompts.as_button(press)
-        if press.act in (Act.BACK, Act.FIRE, Act.START):
+        event = self.prompts.as_button(event)
+        if event.button in (Button.BACK, Button.FIRE, Button.START):
             self.context.sounds.play("back")
             return Pop()
         return None

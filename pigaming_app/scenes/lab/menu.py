@@ -11,7 +11,7 @@ from pigaming_app.scenes.play.pause import items, title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import word
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
 
@@ -26,21 +26,23 @@ class LabMenu:
         self.sure = False  # the next press on it forgets everything
         self.picture: pygame.Surface | None = None
         self.focus = Focus(items(ITEMS))
-        self.prompts = self.context.prompts([(Act.FIRE, "pause.hint_ok"), (Act.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+        self.prompts = self.context.prompts(
+            [(Button.FIRE, "pause.hint_ok"), (Button.BACK, "lab.hint_lab")], PROMPTS, W - 80
+        )
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE takes what has the focus; START and BACK lead back."""
-        press = self.prompts.as_button(press)
-        if press.act in (Act.START, Act.BACK):
+        event = self.prompts.as_button(event)
+        if event.button in (Button.START, Button.BACK):
             self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(press):
+        if self.focus.on(event):
             self.sure = False
             self.context.sounds.play("move")
-        chosen = self.focus.chosen(press)
+        chosen = self.focus.chosen(event)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:

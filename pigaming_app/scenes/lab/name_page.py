@@ -20,7 +20,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters
 
@@ -38,7 +38,7 @@ class Naming:
         self.age = 0.0
         self.taken = False  # the name belongs to another robot; START again replaces it
         self.prompts = self.context.prompts(
-            [(Act.FIRE, "results.next_letter"), (Act.BACK, "lab.hint_back"), (Act.START, "lab.hint_save")],
+            [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
         )
 
     def entered(self) -> None:
@@ -49,29 +49,29 @@ class Naming:
         """What is spelled now."""
         return self.picker.spelled.strip()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Choose letters; START saves; BACK goes a letter back, and from the first one to the Lab."""
-        press = self.prompts.as_button(press)
+        event = self.prompts.as_button(event)
         if self.age < DEAF:
             return None
-        if press.act is not Act.START:
-            self.taken = self.taken and press.act is Act.POINT
-        match press.act:
-            case Act.UP | Act.DOWN:
-                self._play(self.picker.turn(-1 if press.act is Act.UP else 1))
-            case Act.RIGHT | Act.FIRE:
+        if event.button is not Button.START:
+            self.taken = self.taken and event.button is Button.POINT
+        match event.button:
+            case Button.UP | Button.DOWN:
+                self._play(self.picker.turn(-1 if event.button is Button.UP else 1))
+            case Button.RIGHT | Button.FIRE:
                 self._play(self.picker.move(1))
-            case Act.LEFT:
+            case Button.LEFT:
                 self._play(self.picker.move(-1))
-            case Act.BACK if self.picker.slot == 0:
+            case Button.BACK if self.picker.slot == 0:
                 self.context.sounds.play("back")
                 return Pop()
-            case Act.BACK:
+            case Button.BACK:
                 self._play(self.picker.move(-1))
-            case Act.START:
+            case Button.START:
                 return self._save()
-            case Act.CLICK if press.at:
-                self._click(press.at)
+            case Button.CLICK if event.at:
+                self._click(event.at)
             case _:
                 pass
         return None

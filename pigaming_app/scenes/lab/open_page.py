@@ -11,7 +11,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, heading
 
@@ -33,20 +33,20 @@ class Shelf:
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
-        """FIRE opens, BACK leads to the Lab, ALT shows the next page."""
-        press = self.prompts.as_button(press)
-        if press.act is Act.BACK or (not self.names and press.act in (Act.FIRE, Act.START)):
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE opens, BACK leads to the Lab, Y shows the next page."""
+        event = self.prompts.as_button(event)
+        if event.button is Button.BACK or (not self.names and event.button in (Button.FIRE, Button.START)):
             self.context.sounds.play("back")
             return Pop()
-        if press.act is Act.ALT and self.pages > 1:
+        if event.button is Button.Y and self.pages > 1:
             self.page = (self.page + 1) % self.pages
             self.focus = Focus(self._spots())
             self.context.sounds.play("move")
         elif self.names:
-            if self.focus.on(press):
+            if self.focus.on(event):
                 self.context.sounds.play("move")
-            chosen = self.focus.chosen(press)
+            chosen = self.focus.chosen(event)
             return self._open(chosen) if chosen and self.age > DEAF else None
         return None
 
@@ -84,9 +84,9 @@ class Shelf:
             FocusSpot("", place(0))
         ]
 
-    def _hints(self) -> list[tuple[Act, str]]:
-        more = [(Act.ALT, "lab.hint_page")] if self.pages > 1 else []
-        return ([(Act.FIRE, "lab.hint_open")] if self.names else []) + more + [(Act.BACK, "lab.hint_lab")]
+    def _hints(self) -> list[tuple[Button, str]]:
+        more = [(Button.Y, "lab.hint_page")] if self.pages > 1 else []
+        return ([(Button.FIRE, "lab.hint_open")] if self.names else []) + more + [(Button.BACK, "lab.hint_lab")]
 
     def _open(self, name: str) -> Turn:
         words, workshop = self.context.words, self.lab.workshop

@@ -21,7 +21,7 @@ from pigaming_app.scenes.lab.trainer import Workshop
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, Shown, speed_at, warming
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.ui.draw import ALARM, FOCUS
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
@@ -32,7 +32,7 @@ LAST = 20.0  # seconds before that in which it asks
 SAID = 4.0  # seconds for which a sentence stays
 PATIENT = 2.0  # seconds of compiling after which a word about it is due
 LEAST = 2.0  # Q that makes at least a whole petal
-TURNS = {Act.LEFT: -1, Act.DOWN: -1, Act.RIGHT: 1, Act.UP: 1}
+TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
 class Lab:
@@ -54,15 +54,15 @@ class Lab:
                            + [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
         self.prompts = context.prompts(
             [
-                (Act.FIRE, "lab.hint_choose"),
-                (Act.EXTRA, "lab.hint_play"),
-                (Act.ALT, "lab.hint_faster"),
-                (Act.START, "lab.hint_more"),
-                (Act.BACK, "lab.hint_leave"),
+                (Button.FIRE, "lab.hint_choose"),
+                (Button.X, "lab.hint_play"),
+                (Button.Y, "lab.hint_faster"),
+                (Button.START, "lab.hint_more"),
+                (Button.BACK, "lab.hint_leave"),
             ],
             PROMPTS_Y,
         )
-        self.turning = context.prompts([(Act.RIGHT, "lab.hint_turn"), (Act.FIRE, "lab.hint_done")], PROMPTS_Y)
+        self.turning = context.prompts([(Button.RIGHT, "lab.hint_turn"), (Button.FIRE, "lab.hint_done")], PROMPTS_Y)
 
     # ---- what happens to it
 
@@ -73,27 +73,27 @@ class Lab:
         if self.page and self.page.language != self.context.words.language:
             self.page = None
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
-        press = (self.turning if self.held else self.prompts).as_button(press)
-        if self.held and press.act not in (Act.EXTRA, Act.ALT):
-            return self._turn(press)
+        event = (self.turning if self.held else self.prompts).as_button(event)
+        if self.held and event.button not in (Button.X, Button.Y):
+            return self._turn(event)
         self.held = ""
-        match press.act:
-            case Act.EXTRA:
-                return self.play(press.device)
-            case Act.ALT:
+        match event.button:
+            case Button.X:
+                return self.play(event.device)
+            case Button.Y:
                 self._hurry((self.workshop.speed + 1) % len(SPEEDS))
-            case Act.START:
+            case Button.START:
                 return self._menu()
-            case Act.BACK:
+            case Button.BACK:
                 self.context.sounds.play("back")
                 return self.leave(Pop())
-            case Act.FIRE | Act.CLICK:
-                self.focus.on(press)
-                return self._choose(press) if self.age > DEAF else None
+            case Button.FIRE | Button.CLICK:
+                self.focus.on(event)
+                return self._choose(event) if self.age > DEAF else None
             case _:
-                if self.focus.on(press):
+                if self.focus.on(event):
                     self.context.sounds.play("move")
         return None
 
@@ -161,26 +161,26 @@ class Lab:
 
     # ---- inside
 
-    def _choose(self, press: Press) -> Turn:
-        chosen = self.focus.chosen(press)
+    def _choose(self, event: InputEvent) -> Turn:
+        chosen = self.focus.chosen(event)
         if chosen == "play":
-            return self.play(press.device)
+            return self.play(event.device)
         if chosen == "speed":
-            at = press.at
+            at = event.at
             here = self.workshop.speed
             self._hurry(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
-        elif chosen and press.at:
-            self._set(chosen, self._value(chosen) + (1 if press.at[0] > self.focus.rect(chosen).centerx else -1))
+        elif chosen and event.at:
+            self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
         elif chosen:
             self.held = chosen
             self.context.sounds.play("lift")
         return None
 
-    def _turn(self, press: Press) -> Turn:
+    def _turn(self, event: InputEvent) -> Turn:
         """A press while a knob is in hand."""
-        if press.act in TURNS:
-            self._set(self.held, self._value(self.held) + TURNS[press.act])
-        elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.CLICK):
+        if event.button in TURNS:
+            self._set(self.held, self._value(self.held) + TURNS[event.button])
+        elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.CLICK):
             self.held = ""
             self.context.sounds.play("set_down")
         return None

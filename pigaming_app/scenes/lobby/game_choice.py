@@ -12,7 +12,7 @@ from pigaming_app.scenes.flow.match_words import kept_goal, tagline
 from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Turn
 from pigaming_app.scenes.views.game_tile import TILE_H, tile, tile_rect
 from pigaming_app.ui.draw.layers import backdrop
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, heading
 
@@ -31,18 +31,18 @@ class GameChoice:
         games = list(GAMES)
         after = games[(games.index(setup.game) + 1) % len(games)]
         self.focus = Focus([FocusSpot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(games)], after)
-        hints = [(Act.FIRE, "choice.hint_ok"), (Act.BACK, "choice.hint_back")]
+        hints = [(Button.FIRE, "choice.hint_ok"), (Button.BACK, "choice.hint_back")]
         self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE chooses a game, BACK leads back to the results."""
-        admitted = self.access.admit(self.prompts.as_button(press))
+        admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
-        if admitted.act is Act.BACK:
+        if admitted.button is Button.BACK:
             self.context.sounds.play("back")
             return Pop()
         if self.focus.on(admitted):

@@ -30,7 +30,7 @@ from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
 
@@ -58,7 +58,7 @@ class SetupPage:
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
         self.access = Access(context, seats.devices)
         self.going = False  # a match was asked for
-        hints = [(Act.FIRE, "setup.hint_go"), (Act.RIGHT, "setup.hint_change"), (Act.BACK, "setup.hint_back")]
+        hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), (Button.BACK, "setup.hint_back")]
         self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
         self.navigation = Navigation(context, self.focus, hints, IDLE, voice=lambda: self.access.voice)
 
@@ -67,22 +67,22 @@ class SetupPage:
         self.clock, self.going = 0.0, False
         self.context.sounds.music(True)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Change, begin, or go back."""
-        admitted = self.access.admit(self.navigation.prompts.as_button(press))
+        admitted = self.access.admit(self.navigation.prompts.as_button(event))
         if admitted is None or self.going:
             return None
-        press = admitted
-        match press.act:
-            case Act.LEFT | Act.RIGHT:
-                self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
-            case Act.FIRE | Act.START:
+        event = admitted
+        match event.button:
+            case Button.LEFT | Button.RIGHT:
+                self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
+            case Button.FIRE | Button.START:
                 return self._go() if self.clock > DEAF else None
-            case Act.CLICK:
-                self.focus.on(press)
-                return self._click(press)
+            case Button.CLICK:
+                self.focus.on(event)
+                return self._click(event)
             case _:
-                return self.navigation.on(press)
+                return self.navigation.on(event)
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -178,10 +178,10 @@ class SetupPage:
             self.context.sounds.play("move")
         self.context.settings.games[game.name] = now
 
-    def _click(self, press: Press) -> Turn:
+    def _click(self, event: InputEvent) -> Turn:
         """The arrows and chips of a row, the picture (the next arena), the button."""
-        name = self.focus.under(press)
-        at = press.at or (0.0, 0.0)
+        name = self.focus.under(event)
+        at = event.at or (0.0, 0.0)
         if name == "go":
             return self._go()
         if name in ("goal", "minutes"):

@@ -26,7 +26,7 @@ from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES, Seats
 from pigaming_app.scenes.lobby.view import LobbyPage, Moment, problem, spots
 from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 
 IDLE = 60.0  # seconds without a press until the title
@@ -64,35 +64,35 @@ class Lobby:
             if device and not self.context.controls.connected(device):
                 self._unplugged(device)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Join, be ready, leave, call AIs, choose teams, begin."""
-        meant = self.page.prompts.as_button(press)
+        meant = self.page.prompts.as_button(event)
         admitted = self.access.admit(meant)
         if admitted is None:
             self._knock(meant)
             self._watch()
             return None
-        press, device = admitted, admitted.device
-        match press.act:
-            case Act.FIRE:
+        event, device = admitted, admitted.device
+        match event.button:
+            case Button.FIRE:
                 self._fire(device)
-            case Act.START:
+            case Button.START:
                 return self._begin(device)
-            case Act.BACK:
+            case Button.BACK:
                 return self._back(device)
-            case Act.LEAVE:
+            case Button.LEAVE_SEAT:
                 self._leave(device)
-            case Act.ALT:
+            case Button.Y:
                 self._ais()
-            case Act.EXTRA if self.seats.sides == FREE:
+            case Button.X if self.seats.sides == FREE:
                 self.seats.teams = not self.seats.teams
                 self.context.sounds.play("move")
-            case Act.LEFT | Act.RIGHT | Act.UP | Act.DOWN:
-                self._steer(device, press.act)
-            case Act.LOST:
+            case Button.LEFT | Button.RIGHT | Button.UP | Button.DOWN:
+                self._steer(device, event.button)
+            case Button.LOST:
                 self._unplugged(device)
-            case Act.POINT | Act.CLICK:
-                self._mouse(press)
+            case Button.POINT | Button.CLICK:
+                self._mouse(event)
             case _:
                 pass
         self._watch()
@@ -132,15 +132,15 @@ class Lobby:
 
     # ---- what presses do
 
-    def _knock(self, press: Press) -> None:
+    def _knock(self, event: InputEvent) -> None:
         """A free device while others are seated: it joins, or hears which of its buttons does that."""
-        if press.act in (Act.FIRE, Act.START):
-            self._fire(press.device)
-        elif press.act in (Act.BACK, Act.EXTRA, Act.ALT):
+        if event.button in (Button.FIRE, Button.START):
+            self._fire(event.device)
+        elif event.button in (Button.BACK, Button.X, Button.Y):
             words = self.context.words
             full = len(self.seats.like(HUMAN)) == PLACES
             self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
-            self.now.label = words.printed(self.context.controls.label(press.device, Act.FIRE))
+            self.now.label = words.printed(self.context.controls.label(event.device, Button.FIRE))
             self.now.said = SAID
 
     def _fire(self, device: Device) -> None:
@@ -205,16 +205,16 @@ class Lobby:
             self.now.since[seat] = 0.0
             self.context.sounds.play("join", seat)
 
-    def _steer(self, device: Device, act: Act) -> None:
+    def _steer(self, device: Device, act: Button) -> None:
         """Left and right choose one's own team where there are teams, up and down one's own robot where there is a mat;
         every other direction the strength of the AIs."""
         seat = self.seats.of(device)
-        if self.seats.mat and seat is not None and act in (Act.UP, Act.DOWN):
+        if self.seats.mat and seat is not None and act in (Button.UP, Button.DOWN):
             self._swap(seat)
             return
-        if self.seats.teams and seat is not None and act in (Act.LEFT, Act.RIGHT):
+        if self.seats.teams and seat is not None and act in (Button.LEFT, Button.RIGHT):
             self._change_team(seat)
-        elif self.seats.strengthen(1 if act in (Act.RIGHT, Act.UP) else -1):
+        elif self.seats.strengthen(1 if act in (Button.RIGHT, Button.UP) else -1):
             self._remember()
             self.context.sounds.play("move")
 
@@ -242,10 +242,10 @@ class Lobby:
             self.seats.leave(seat)
             self._say(self.context.words("lobby.unplugged", player=seat + 1), "back")
 
-    def _mouse(self, press: Press) -> None:
+    def _mouse(self, event: InputEvent) -> None:
         self.now.pointed = POINTED
-        self.focus.on(press)
-        name = self.focus.chosen(press)
+        self.focus.on(event)
+        name = self.focus.chosen(event)
         if name is None:
             return
         what, seat = name.split()[0], int(name.split()[1])

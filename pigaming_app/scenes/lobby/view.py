@@ -15,7 +15,7 @@ from pigaming_app.ui.draw import FOCUS, LABEL, dim
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.focus import FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_action, heading, pulse
@@ -68,20 +68,20 @@ class LobbyPage:
         seat = self.seats.of(self.access.voice)
         full = not self.seats.like(EMPTY)
         hints = [
-            (Act.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
-            (Act.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
-            (Act.ALT, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
+            (Button.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
+            (Button.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
+            (Button.Y, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
         ]
         if self.seats.sides == FREE:
-            hints.append((Act.EXTRA, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
-        return self.context.prompts([*hints, (Act.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
+            hints.append((Button.X, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
+        return self.context.prompts([*hints, (Button.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
 
     @property
     def invited(self) -> tuple[str, ...]:
         """The button of each device that could join, each once: of the pads, then of the keyboard's clusters."""
         controls, words = self.context.controls, self.context.words
         free = [device for device in controls.players() if self.seats.of(device) is None]
-        return tuple(dict.fromkeys(words.printed(controls.label(device, Act.FIRE)) for device in free))
+        return tuple(dict.fromkeys(words.printed(controls.label(device, Button.FIRE)) for device in free))
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
@@ -117,7 +117,7 @@ class LobbyPage:
         elif place.ready:
             ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
         else:
-            label = words.printed(self.context.controls.label(place.device, Act.FIRE))
+            label = words.printed(self.context.controls.label(place.device, Button.FIRE))
             ask_bar(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
 
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
@@ -147,7 +147,7 @@ class LobbyPage:
         if waiting:
             place = self.seats.places[waiting[0]]
             said = words("lobby.wait", player=waiting[0] + 1, button="{button}")
-            label = words.printed(self.context.controls.label(place.device, Act.FIRE))
+            label = words.printed(self.context.controls.label(place.device, Button.FIRE))
         else:
             said, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
         call_to_action(said, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)

@@ -26,21 +26,21 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 
 W, H = span(0, 3)[1], 340
 STICK, REACH = (112, 188), 58  # the middle of a stick, and how far its knob goes, px
 KEY = 70
 KEYS = {
-    Act.UP: pygame.Rect(104, 28, KEY, KEY),
-    Act.LEFT: pygame.Rect(26, 106, KEY, KEY),
-    Act.DOWN: pygame.Rect(104, 106, KEY, KEY),
-    Act.RIGHT: pygame.Rect(182, 106, KEY, KEY),
-    Act.FIRE: pygame.Rect(26, 204, 176, KEY),
-    Act.LEAVE: pygame.Rect(212, 204, 176, KEY),
+    Button.UP: pygame.Rect(104, 28, KEY, KEY),
+    Button.LEFT: pygame.Rect(26, 106, KEY, KEY),
+    Button.DOWN: pygame.Rect(104, 106, KEY, KEY),
+    Button.RIGHT: pygame.Rect(182, 106, KEY, KEY),
+    Button.FIRE: pygame.Rect(26, 204, 176, KEY),
+    Button.LEAVE_SEAT: pygame.Rect(212, 204, 176, KEY),
 }
 ROBOT = (326, 106)
-DIAMOND = {Act.FIRE: (296, 262), Act.BACK: (352, 206), Act.EXTRA: (240, 206), Act.ALT: (296, 150)}
+DIAMOND = {Button.FIRE: (296, 262), Button.BACK: (352, 206), Button.X: (240, 206), Button.Y: (296, 150)}
 START = pygame.Rect(28, 286, 168, 40)
 START_LINE = cut_box(START.x, START.y, START.w, START.h, 10)
 
@@ -75,13 +75,13 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
 
 
 @cached
-def pad_light(act: Act, label: str) -> LitImage:
+def pad_light(button: Button, label: str) -> LitImage:
     """A pressed button of a pad, over its card."""
-    if act is Act.START:
+    if button is Button.START:
         layer = Layer(*START)
         layer.glow.fill(START_LINE, dim(FOCUS, 0.35)).line(START_LINE, FOCUS, THIN, True)
         return layer.done()
-    x, y = DIAMOND[act]
+    x, y = DIAMOND[button]
     layer = Layer(x - 32, y - 32, 64, 64)
     layer.glow.disc(x, y, 30, dim(FOCUS, 0.35)).ring(x, y, 30, FOCUS, THIN)
     _printed(layer.glow, label, x, y, FOCUS)

@@ -16,7 +16,7 @@ from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui.draw import ADD, ICE
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
-from pigaming_app.ui.input.events import Act, Device, Drive, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.keyboard import CLUSTERS
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, heading
@@ -27,7 +27,7 @@ HOLD = 0.8  # seconds
 LIT = 0.25  # seconds for which a short press stays lit
 IDLE = 120.0  # seconds without a press until the title
 TURN = 3.0  # rad/s
-BUTTONS = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT, Act.START)
+BUTTONS = (Button.FIRE, Button.BACK, Button.X, Button.Y, Button.START)
 
 
 class PadTest:
@@ -37,25 +37,25 @@ class PadTest:
         self.context = context
         self.holding: Device | None = None
         self.held = 0.0
-        self.lit: dict[tuple[Device, Act], float] = {}
+        self.lit: dict[tuple[Device, Button], float] = {}
         self.headings = [-math.pi / 2] * PLACES
         self.clicks: list[tuple[float, float, float]] = []  # x, y, seconds since
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Light up; Escape, the hint, and B after a while, leave."""
-        meant = self._prompts().as_button(press)
-        if meant.act is Act.BACK and meant.device.kind != "pad":
+        meant = self._prompts().as_button(event)
+        if meant.button is Button.BACK and meant.device.kind != "pad":
             return self._leave()
-        if meant.act is Act.BACK:
+        if meant.button is Button.BACK:
             self.holding, self.held = meant.device, 0.0
-        if press.act is Act.CLICK and press.at:
-            self.clicks = [*self.clicks[-5:], (*press.at, 0.0)]
-        if press.act is Act.LOST:
-            self.lit = {key: left for key, left in self.lit.items() if key[0] != press.device}
-        self.lit[press.device, press.act] = LIT
+        if event.button is Button.CLICK and event.at:
+            self.clicks = [*self.clicks[-5:], (*event.at, 0.0)]
+        if event.button is Button.LOST:
+            self.lit = {key: left for key, left in self.lit.items() if key[0] != event.device}
+        self.lit[event.device, event.button] = LIT
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -96,7 +96,7 @@ class PadTest:
 
     def _prompts(self) -> ButtonPrompts:
         pad = self.context.controls.last.kind == "pad"
-        return self.context.prompts([(Act.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
+        return self.context.prompts([(Button.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
     def _leave(self) -> Turn:
         self.context.sounds.play("back")
@@ -104,22 +104,22 @@ class PadTest:
 
     def _pad(self, screen: pygame.Surface, x: int, y: int, device: Device) -> None:
         controls, words = self.context.controls, self.context.words
-        labels = tuple(controls.label(device, act) for act in BUTTONS)
+        labels = tuple(controls.label(device, button) for button in BUTTONS)
         gadgets.pad(words(f"devices.{controls.name(device)}"), labels).draw(screen, x, y)
         drive = controls.drive(device)
         sx, sy = gadgets.STICK
         gadgets.knob().draw(screen, x + sx + gadgets.REACH * drive.angular, y + sy - gadgets.REACH * drive.linear)
-        now = {Act.FIRE: drive.fire, Act.BACK: drive.turbo}
-        for act, label in zip(BUTTONS, labels, strict=True):
-            if now.get(act) or (device, act) in self.lit:
-                gadgets.pad_light(act, label).draw(screen, x, y)
+        now = {Button.FIRE: drive.fire, Button.BACK: drive.turbo}
+        for button, label in zip(BUTTONS, labels, strict=True):
+            if now.get(button) or (device, button) in self.lit:
+                gadgets.pad_light(button, label).draw(screen, x, y)
 
     def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
         device = Device("keys", number)
         drive, printed = self.context.controls.drive(device), CLUSTERS[number].printed
-        for act, box in gadgets.KEYS.items():
-            label = self.context.words.printed(printed[act])
-            gadgets.cap(label, *box.size, _down(drive, act)).draw(screen, x + box.x, y + box.y)
+        for button, box in gadgets.KEYS.items():
+            label = self.context.words.printed(printed[button])
+            gadgets.cap(label, *box.size, _down(drive, button)).draw(screen, x + box.x, y + box.y)
         heading = self.headings[number]
         ahead = 10 * drive.linear
         rx = x + gadgets.ROBOT[0] + ahead * math.cos(heading)
@@ -127,21 +127,21 @@ class PadTest:
         if drive.turbo:
             _add(screen, effects.flame(number, step(heading, effects.TURNS), pygame.time.get_ticks() // 60 % 2), rx, ry)
         blit_sprite(screen, tank(number, step(heading, HEADINGS)), rx, ry)
-        if drive.fire or (device, Act.FIRE) in self.lit:
+        if drive.fire or (device, Button.FIRE) in self.lit:
             muzzle = rx + 70 * math.cos(heading), ry + 70 * math.sin(heading)
             _add(screen, effects.flash(number, step(heading, effects.TURNS)), *muzzle)
 
 
-def _down(drive: Drive, act: Act) -> bool:
+def _down(drive: StickState, button: Button) -> bool:
     """Whether the key of a cluster that means `act` is held."""
     return {
-        Act.UP: drive.linear > 0,
-        Act.DOWN: drive.linear < 0,
-        Act.LEFT: drive.angular < 0,
-        Act.RIGHT: drive.angular > 0,
-        Act.FIRE: drive.fire,
-        Act.LEAVE: drive.turbo,
-    }[act]
+        Button.UP: drive.linear > 0,
+        Button.DOWN: drive.linear < 0,
+        Button.LEFT: drive.angular < 0,
+        Button.RIGHT: drive.angular > 0,
+        Button.FIRE: drive.fire,
+        Button.LEAVE_SEAT: drive.turbo,
+    }[button]
 
 
 def _add(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:

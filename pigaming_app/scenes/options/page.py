@@ -20,8 +20,8 @@ from pigaming_app.ui.draw import LABEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
-from pigaming_app.ui.input.events import Act, Press
-from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
@@ -48,28 +48,32 @@ class OptionsPage:
             self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
         self.clock = 0.0
         self.cleared = False
-        self.clearing = Holds(context.controls, CLEAR)
+        self.clearing = HoldTimers(context.controls, CLEAR)
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(self.rows)])
         self.ahead = PrewarmQueue(self._ahead())
-        hints = [(Act.RIGHT, "options.hint_change"), (Act.FIRE, "options.hint_ok"), (Act.BACK, "options.hint_back")]
+        hints = [
+            (Button.RIGHT, "options.hint_change"),
+            (Button.FIRE, "options.hint_ok"),
+            (Button.BACK, "options.hint_back"),
+        ]
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Shown, or come back to from the test of the controls."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
-        press = self.navigation.prompts.as_button(press)
-        match press.act:
-            case Act.LEFT | Act.RIGHT:
-                self._change(self.focus.name, 1 if press.act is Act.RIGHT else -1)
-            case Act.FIRE | Act.START:
-                return self._do(self.focus.name, press)
-            case Act.CLICK:
-                self.focus.on(press)
-                return self._click(press)
+        event = self.navigation.prompts.as_button(event)
+        match event.button:
+            case Button.LEFT | Button.RIGHT:
+                self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
+            case Button.FIRE | Button.START:
+                return self._do(self.focus.name, event)
+            case Button.CLICK:
+                self.focus.on(event)
+                return self._click(event)
             case _:
-                before, turn = self.focus.name, self.navigation.on(press)
+                before, turn = self.focus.name, self.navigation.on(event)
                 if self.focus.name != before:
                     self.clearing.clear()
                 return turn
@@ -152,7 +156,7 @@ class OptionsPage:
         most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
         self._take(name, max(0, min(most, value.chosen + by)))
 
-    def _do(self, name: str, press: Press) -> Turn:
+    def _do(self, name: str, event: InputEvent) -> Turn:
         """Fire: the next value, round and round; or the deed."""
         value = self._value(name)
         if value.kind != "deed":
@@ -171,17 +175,17 @@ class OptionsPage:
 
             return Push(RobotsMenu(self.context))
         self.cleared = False
-        self.clearing.begin(press)
+        self.clearing.begin(event)
         return None
 
-    def _click(self, press: Press) -> Turn:
-        name = self.focus.under(press)
-        if name is None or press.at is None:
+    def _click(self, event: InputEvent) -> Turn:
+        name = self.focus.under(event)
+        if name is None or event.at is None:
             return None
         value = self._value(name)
         if value.kind == "deed":
-            return self._do(name, press)
-        hit = dials.value_at(value.kind, value.options, value.chosen, press.at[0] - self.focus.rect(name).x)
+            return self._do(name, event)
+        hit = dials.value_at(value.kind, value.options, value.chosen, event.at[0] - self.focus.rect(name).x)
         if hit is not None:
             self._take(name, hit)
         return None

@@ -12,7 +12,7 @@ from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TI
 from pigaming_app.ui.draw.frame_budget import Steps, budget
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.text import fit_size
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 
 TOP, PITCH, HIGH = 236, 164, 140
 NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
@@ -26,15 +26,15 @@ class DeviceTable:
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[LitImage] = []
         self.making = self._make()
-        self.prompts = context.prompts([(Act.BACK, "pause.hint_back")], voice=lambda: access.voice)
+        self.prompts = context.prompts([(Button.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Any button leads back."""
-        admitted = self.access.admit(self.prompts.as_button(press))
-        if admitted and admitted.act in (Act.FIRE, Act.START, Act.BACK):
+        admitted = self.access.admit(self.prompts.as_button(event))
+        if admitted and admitted.button in (Button.FIRE, Button.START, Button.BACK):
             self.context.sounds.play("back")
             return Pop()
         return None
@@ -78,7 +78,7 @@ class DeviceTable:
         name = words(f"devices.{controls.name(device)}")
         layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, 264, "body"))
         self._moves(layer, device, y)
-        for x, act, name in ((FIRES, Act.FIRE, "pause.fires"), (TURBO, Act.LEAVE, "pause.turbo")):
+        for x, act, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
             wide = button(layer.canvas, x, y, words.printed(controls.label(device, act)))
             layer.canvas.body(words(name), x + wide + 18, y, MIST)
         return layer

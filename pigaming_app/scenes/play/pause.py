@@ -34,7 +34,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, word
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
@@ -74,7 +74,7 @@ class Held(Protocol):
     def access(self) -> Access:
         """Whose presses count in the match."""
 
-    def welcome(self, press: Press) -> bool:
+    def welcome(self, event: InputEvent) -> bool:
         """Give its seat back to a device that has walked off."""
 
     def hold(self, seconds: float) -> None:
@@ -94,32 +94,36 @@ class Pause:
         self.picture: pygame.Surface | None = None
         self.sure = self.waits = 0.0
         self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
-        hints = [(Act.FIRE, "pause.hint_ok"), (Act.BACK, "pause.hint_continue"), (Act.BRAIN, "pause.hint_brain")]
+        hints = [
+            (Button.FIRE, "pause.hint_ok"),
+            (Button.BACK, "pause.hint_continue"),
+            (Button.BRAIN, "pause.hint_brain"),
+        ]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Quiet."""
         self.context.sounds.music(False)
 
-    def on(self, press: Press) -> Turn:
-        """START and BACK go on; so does F4, or ALT of a pad, with a look into an AI; FIRE takes what has the focus."""
-        press = self.prompts.as_button(press)
-        if press.act is Act.ALT:
-            press = replace(press, act=Act.BRAIN)
-        admitted = self.access.admit(press)
+    def on(self, event: InputEvent) -> Turn:
+        """START and BACK go on; so does F4, or Y of a pad, with a look into an AI; FIRE takes what has the focus."""
+        event = self.prompts.as_button(event)
+        if event.button is Button.Y:
+            event = replace(event, button=Button.BRAIN)
+        admitted = self.access.admit(event)
         acting = self.access.acting
-        if admitted is None or (press.act is Act.BRAIN and acting and admitted.device not in acting):
+        if admitted is None or (event.button is Button.BRAIN and acting and admitted.device not in acting):
             self.waits = WAITS
             return None
-        press = admitted
-        if press.act is Act.BRAIN:
+        event = admitted
+        if event.button is Button.BRAIN:
             self.match.think_aloud()
-        if press.act in (Act.START, Act.BACK, Act.BRAIN):
+        if event.button in (Button.START, Button.BACK, Button.BRAIN):
             return self._do("continue")
-        if self.focus.on(press):
+        if self.focus.on(event):
             self.sure = 0.0
             self.context.sounds.play("move")
-        chosen = self.focus.chosen(press)
+        chosen = self.focus.chosen(event)
         if chosen in ASKED and self.sure <= 0.0:
             self.sure = SURE
             self.context.sounds.play("move")
@@ -161,7 +165,7 @@ class Pause:
 
     def _button(self) -> str:
         """What is printed on the button that takes what has the focus."""
-        return self.context.words.printed(self.context.controls.label(self.access.voice, Act.FIRE))
+        return self.context.words.printed(self.context.controls.label(self.access.voice, Button.FIRE))
 
     def _draw_owned(self, screen: pygame.Surface) -> None:
         """For how long the pause belongs to whoever asked for it."""

@@ -12,7 +12,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLA
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, word, wrap
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 
 WAIT = 15.0  # seconds
@@ -43,7 +43,7 @@ class Reconnect:
         self.match, self.context, self.seat = match, match.context, seat
         self.age, self.found = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
-        hints = [(Act.EXTRA, "pause.hint_ai"), (Act.BACK, "pause.hint_menu")]
+        hints = [(Button.X, "pause.hint_ai"), (Button.BACK, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
@@ -51,22 +51,22 @@ class Reconnect:
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
-    def on(self, press: Press) -> Turn:
-        """FIRE on a free device takes the seat; EXTRA gives it to an AI; BACK opens the menu."""
-        press = self.prompts.as_button(press)
-        admitted = self.match.access.admit(press)
-        if press.act is Act.FOUND:
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE on a free device takes the seat; X gives it to an AI; BACK opens the menu."""
+        event = self.prompts.as_button(event)
+        admitted = self.match.access.admit(event)
+        if event.button is Button.FOUND:
             self.found = True
             self.context.sounds.play("move")
-        elif press.act is Act.LOST:
+        elif event.button is Button.LOST:
             self.found = False
-        elif press.act in (Act.FIRE, Act.START) and self.match.free(press.device):
-            return self._hand(press.device)
+        elif event.button in (Button.FIRE, Button.START) and self.match.free(event.device):
+            return self._hand(event.device)
         elif admitted is None or self.age < DEAF:
             return None
-        elif admitted.act is Act.EXTRA:
+        elif admitted.button is Button.X:
             return self._hand(None)
-        elif admitted.act is Act.BACK:
+        elif admitted.button is Button.BACK:
             return Swap(Pause(self.match, admitted.device))
         return None
 
@@ -113,18 +113,18 @@ class StillThere:
         self.match, self.context = match, match.context
         self.age = 0.0
         self.picture: pygame.Surface | None = None
-        self.prompts = self.context.prompts([(Act.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
+        self.prompts = self.context.prompts([(Button.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
 
     def entered(self) -> None:
         """Ask."""
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Whatever is pressed, the match goes on, and whoever has walked off has the seat back."""
-        if press.act in (Act.LOST, Act.FOUND, Act.POINT):
+        if event.button in (Button.LOST, Button.FOUND, Button.POINT):
             return None
-        return Pop() if self.match.welcome(press) or self.match.access.admit(press) else None
+        return Pop() if self.match.welcome(event) or self.match.access.admit(event) else None
 
     def update(self, seconds: float) -> Turn:
         """The ring runs out."""

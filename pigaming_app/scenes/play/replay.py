@@ -9,7 +9,7 @@ from pigaming_app.scenes.play.runner import Stage
 from pigaming_app.scenes.play.side_hints import Column, note
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
 
@@ -30,23 +30,23 @@ class ReplayScene:
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
-        """FIRE holds and goes on, LEFT and RIGHT change the speed, EXTRA begins again, BACK leaves."""
-        press = self.hints.as_button(press)
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE holds and goes on, LEFT and RIGHT change the speed, X begins again, BACK leaves."""
+        event = self.hints.as_button(event)
         self.shown = SHOWN
-        match press.act:
-            case Act.FIRE | Act.START:
+        match event.button:
+            case Button.FIRE | Button.START:
                 if self.ended:
                     self._begin()
                 else:
                     self.playing = not self.playing
-            case Act.LEFT:
+            case Button.LEFT:
                 self.speed = max(0, self.speed - 1)
-            case Act.RIGHT:
+            case Button.RIGHT:
                 self.speed = min(len(SPEEDS) - 1, self.speed + 1)
-            case Act.EXTRA:
+            case Button.X:
                 self._begin()
-            case Act.BACK:
+            case Button.BACK:
                 return Pop()
             case _:
                 pass
@@ -88,10 +88,10 @@ class ReplayScene:
     @property
     def prompts(self) -> ButtonPrompts:
         """What the buttons do now; at the end there is nothing to hold and nothing to hurry."""
-        hints = [(Act.FIRE, "replay.hint_again"), (Act.BACK, "replay.hint_back")]
+        hints = [(Button.FIRE, "replay.hint_again"), (Button.BACK, "replay.hint_back")]
         if not self.ended:
             fire = "replay.hint_pause" if self.playing else "replay.hint_play"
-            hints = [(Act.FIRE, fire), (Act.RIGHT, "replay.hint_speed"), (Act.EXTRA, hints[0][1]), hints[1]]
+            hints = [(Button.FIRE, fire), (Button.RIGHT, "replay.hint_speed"), (Button.X, hints[0][1]), hints[1]]
         return self.context.prompts(hints)
 
     @property

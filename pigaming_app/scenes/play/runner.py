@@ -18,7 +18,7 @@ from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import Caption, caption
 
 BEHIND = 72  # of 255: how bright a match is behind a page
@@ -105,7 +105,7 @@ class Stage:
         if device:
             moves = self.context.controls.moves(device)
             steer = words("match.arrows") if "←" in moves else moves
-            return f"{steer} + {words.printed(self.context.controls.label(device, Act.FIRE))}", "keys"
+            return f"{steer} + {words.printed(self.context.controls.label(device, Button.FIRE))}", "keys"
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"

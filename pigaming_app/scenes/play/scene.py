@@ -31,8 +31,8 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.text import text, wrap
-from pigaming_app.ui.input.events import Act, Device, Drive, Press
-from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
+from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.caption import RING_STEPS, Caption, caption, hold_ring
 
 LEAD = 0.8  # seconds in which one looks round before the countdown
@@ -73,7 +73,7 @@ class MatchScene:
         self.notice: Caption | None = None
         self.results: Results | None = None
         self.access = Access(context, lambda: self.devices)
-        self.joining = Holds(context.controls, TAKE)
+        self.joining = HoldTimers(context.controls, TAKE)
         self.walkoff = WalkOff()
         self.helped: set[int] = set()
         self.open = True
@@ -94,25 +94,25 @@ class MatchScene:
         self.begun = True
         self.idle = 0.0
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """START or Escape of a seated device pauses; a free one takes a seat that an AI holds."""
         if self.match.over:
             return None
-        if press.act is Act.LOST:
-            self.walkoff.forget(press.device)
-        if self.welcome(press):
+        if event.button is Button.LOST:
+            self.walkoff.forget(event.device)
+        if self.welcome(event):
             return None
-        admitted = self.access.admit(press)
-        if press.act is Act.FIRE and self.free(press.device):
-            self._knock(press)
+        admitted = self.access.admit(event)
+        if event.button is Button.FIRE and self.free(event.device):
+            self._knock(event)
         if admitted is None:
             return None
         self.idle = 0.0
         if admitted.device in self.devices:
             self.walkoff.alive(self.devices.index(admitted.device))
-        if press.act is Act.BRAIN:
+        if event.button is Button.BRAIN:
             self.think_aloud()
-        if press.act is Act.START or (press.act is Act.BACK and self._escapes(admitted.device)):
+        if event.button is Button.START or (event.button is Button.BACK and self._escapes(admitted.device)):
             return Push(Pause(self, admitted.device))
         return None
 
@@ -127,8 +127,8 @@ class MatchScene:
             return Push(Pause(self, held.device))
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
-        for press in self.joining.update(seconds):
-            self._join(press.device)
+        for event in self.joining.update(seconds):
+            self._join(event.device)
         self.signs.work(0.0)
         self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
@@ -200,12 +200,12 @@ class MatchScene:
         self.notice, self.noticed = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.context.sounds.play("join", seat)
 
-    def welcome(self, press: Press) -> bool:
+    def welcome(self, event: InputEvent) -> bool:
         """Give its seat back to a device that has walked off and now presses something; true if it did."""
-        if press.device not in self.walkoff.away or press.act in (Act.STOP, Act.BRAIN):
+        if event.device not in self.walkoff.away or event.button in (Button.STOP, Button.BRAIN):
             return False
         self.idle = 0.0
-        self.hand(self.walkoff.away[press.device], press.device)
+        self.hand(self.walkoff.away[event.device], event.device)
         return True
 
     def think_aloud(self) -> None:
@@ -261,13 +261,13 @@ class MatchScene:
         """Whether BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
         return device.kind != "pad" or not self.access.seated
 
-    def _knock(self, press: Press) -> None:
+    def _knock(self, event: InputEvent) -> None:
         """FIRE on a free device: a seat that nobody has a claim to is taken at once, any other one after a while."""
         claimed = self.walkoff.away.values()
         if vacant := [seat for seat in self.stood_in if seat not in claimed]:
-            self.hand(vacant[0], press.device)
+            self.hand(vacant[0], event.device)
         elif self.takeable:
-            self.joining.begin(press)
+            self.joining.begin(event)
             self.notice, self.noticed = caption(self.context.words("match.hold"), sign="ai"), NOTICE
 
     def _join(self, device: Device) -> None:
@@ -305,7 +305,7 @@ class MatchScene:
         self.match.sit(seat, brain)
         self.stage.players[seat] = "human" if device else STAND_IN
 
-    def _held(self, seat: int, device: Device) -> Drive:
+    def _held(self, seat: int, device: Device) -> StickState:
         """How a device is held on the tick that acts on it."""
         drive = self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:

@@ -10,7 +10,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, button, button_w
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import wrap
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 
 ROOM = 136  # px of the 160 px between the arena and the edge of the picture
@@ -26,14 +26,14 @@ class Column:
     def __init__(self, prompts: ButtonPrompts) -> None:
         self.prompts = prompts
 
-    def as_button(self, press: Press) -> Press:
+    def as_button(self, event: InputEvent) -> InputEvent:
         """A click on one of the hints as the press that it stands for; any other press as it is."""
-        if press.act is not Act.CLICK or press.at is None:
-            return press
-        for act, box in zip(self.prompts.acts, boxes(self.prompts.said), strict=True):
-            if box.collidepoint(press.at):
-                return replace(press, act=act)
-        return press
+        if event.button is not Button.CLICK or event.at is None:
+            return event
+        for act, box in zip(self.prompts.buttons, boxes(self.prompts.said), strict=True):
+            if box.collidepoint(event.at):
+                return replace(event, button=act)
+        return event
 
     def draw(self, screen: pygame.Surface) -> None:
         """Add the column to the screen."""

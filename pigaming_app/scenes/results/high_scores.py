@@ -19,7 +19,7 @@ from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading, sign
 
 ROWS = 8
@@ -30,7 +30,7 @@ DEAF = 0.4  # seconds in which presses are ignored
 APART, WIPE = 0.05, 0.25  # seconds from row to row, for one row
 ARROW = 20  # px from the middle of an arrow to its tip
 ROOM, WHERE_ROOM = 1360, 800  # px for the conditions, and for game and arena
-STEPS = {Act.LEFT: -1, Act.RIGHT: 1, Act.UP: -1, Act.DOWN: 1}
+STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
 
 
 class Best:
@@ -41,7 +41,7 @@ class Best:
         self.shelf = [one for one in contests(context.scores) if one.arena in playable(one.game)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
-        self.prompts = context.prompts([(Act.FIRE, "results.on")])
+        self.prompts = context.prompts([(Button.FIRE, "results.on")])
 
     @property
     def game(self) -> str:
@@ -51,16 +51,16 @@ class Best:
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Directions and arrows show other tables; any button leads on."""
-        press = self.prompts.as_button(press)
+        event = self.prompts.as_button(event)
         self.idle = 0.0
-        if press.act is Act.CLICK and press.at:
-            near = (act for act, at in self.arrows.items() if hit(at, press.at))
-            press = Press(next(near, Act.CLICK), press.device)
-        if press.act in STEPS:
-            self._step(press.act)
-        elif self.age > DEAF and press.act in (Act.FIRE, Act.START, Act.BACK, Act.ALT, Act.CLICK):
+        if event.button is Button.CLICK and event.at:
+            near = (button for button, at in self.arrows.items() if hit(at, event.at))
+            event = InputEvent(next(near, Button.CLICK), event.device)
+        if event.button in STEPS:
+            self._step(event.button)
+        elif self.age > DEAF and event.button in (Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK):
             self.context.sounds.play("back")
             return Pop()
         return None
@@ -75,8 +75,8 @@ class Best:
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the tables and what leads on."""
         self.paint(screen)
-        for act, (x, y) in self.arrows.items():
-            sign(act.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
+        for button, (x, y) in self.arrows.items():
+            sign(button.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
         self.prompts.draw(screen)
 
     def paint(self, screen: pygame.Surface) -> None:
@@ -92,11 +92,11 @@ class Best:
 
     # ---- inside
 
-    def _step(self, act: Act) -> None:
+    def _step(self, button: Button) -> None:
         """Show the next table that way, round and round."""
-        ring = self._ring(act)
+        ring = self._ring(button)
         if len(ring) > 1:
-            self._show(ring[(ring.index(self.contest) + STEPS[act]) % len(ring)])
+            self._show(ring[(ring.index(self.contest) + STEPS[button]) % len(ring)])
             self.context.sounds.play("move")
 
     def _show(self, contest: Table) -> None:
@@ -104,18 +104,18 @@ class Best:
         self.contest, self.turned = contest, 0.0
         where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
         line = min(ROOM, text_width(conditions(self.context.words, contest), LABEL, "head")) / 2
-        self.arrows: dict[Act, tuple[float, float]] = {}
-        if len(self._ring(Act.UP)) > 1:
-            self.arrows[Act.UP] = RIGHT - where - 52, WHERE_Y - 24
-            self.arrows[Act.DOWN] = RIGHT - where - 52, WHERE_Y + 24
-        if len(self._ring(Act.LEFT)) > 1:
-            self.arrows[Act.LEFT] = 960 - line - 60, LINE_Y
-            self.arrows[Act.RIGHT] = 960 + line + 60, LINE_Y
+        self.arrows: dict[Button, tuple[float, float]] = {}
+        if len(self._ring(Button.UP)) > 1:
+            self.arrows[Button.UP] = RIGHT - where - 52, WHERE_Y - 24
+            self.arrows[Button.DOWN] = RIGHT - where - 52, WHERE_Y + 24
+        if len(self._ring(Button.LEFT)) > 1:
+            self.arrows[Button.LEFT] = 960 - line - 60, LINE_Y
+            self.arrows[Button.RIGHT] = 960 + line + 60, LINE_Y
 
-    def _ring(self, act: Act) -> list[Table]:
+    def _ring(self, button: Button) -> list[Table]:
         """The contests left and right of the one shown, or above and below: one in each arena."""
         here = place_of(self.contest)
-        if act in (Act.LEFT, Act.RIGHT):
+        if button in (Button.LEFT, Button.RIGHT):
             return [one for one in self.shelf if place_of(one) == here]
         firsts: dict[tuple[str, str], Table] = {}
         for one in self.shelf:

@@ -24,7 +24,7 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, LABEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LitImage, backdrop
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, call_to_action, heading, pulse
 from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
 
@@ -111,12 +111,12 @@ class Initials:
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Each player's presses change the own letters alone."""
-        device = self._meant(press)
+        device = self._meant(event)
         if self.age < DEAF or device is None:
             return None
-        if sound := self.spellings[device].on(press.act):
+        if sound := self.spellings[device].on(event.button):
             self.context.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
         return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
 
@@ -141,11 +141,11 @@ class Initials:
 
     # ---- inside
 
-    def _meant(self, press: Press) -> Device | None:
+    def _meant(self, event: InputEvent) -> Device | None:
         """Whose letters a press is about; nobody's, if it is of a key that two players on one keyboard share."""
-        if not press.among:
-            return press.device if press.device in self.spellings else None
-        clusters = [device for device in press.among if device in self.spellings]
+        if not event.among:
+            return event.device if event.device in self.spellings else None
+        clusters = [device for device in event.among if device in self.spellings]
         return clusters[0] if len(clusters) == 1 else None
 
     def _panel(self, screen: pygame.Surface, x: int, claim: Claim) -> None:
@@ -159,7 +159,7 @@ class Initials:
             page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
             return
         key = "done" if spelling.last else "next_letter"
-        label = words.printed(self.context.controls.label(claim.device, Act.FIRE))
+        label = words.printed(self.context.controls.label(claim.device, Button.FIRE))
         ask_bar(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
     def _frame(self, claim: Claim, done: bool) -> LitImage:

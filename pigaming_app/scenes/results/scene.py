@@ -19,8 +19,8 @@ from pigaming_app.scenes.results.initials import Initials, claims
 from pigaming_app.scenes.results.rematch_vote import Ballot
 from pigaming_app.scenes.results.view import ResultsPage
 from pigaming_app.ui.draw import FOCUS
-from pigaming_app.ui.input.events import Act, Device, Press
-from pigaming_app.ui.input.hold import Holds
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.caption import caption
 
 DEAF = 2.5  # seconds in which presses are ignored
@@ -62,12 +62,12 @@ class Results:
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = self.told = 0.0
         self.access = Access(context, lambda: self.ballot.devices)
-        self.leaving, self.joining = Holds(context.controls, LEAVE), Holds(context.controls, TAKE)
+        self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE)
         hints = [
-            (Act.FIRE, "results.again"),
-            *([(Act.EXTRA, "results.change")] if game_choice else []),
-            (Act.ALT, "results.scores"),
-            (Act.BACK, "results.menu"),
+            (Button.FIRE, "results.again"),
+            *([(Button.X, "results.change")] if game_choice else []),
+            (Button.Y, "results.scores"),
+            (Button.BACK, "results.menu"),
         ]
         self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
 
@@ -79,29 +79,29 @@ class Results:
         """Shown, or shown again after initials or tables."""
         self.idle = 0.0
 
-    def on(self, press: Press) -> Turn:
-        """FIRE votes, START begins, EXTRA leads to another game, BACK, held, to the title."""
-        press = self.prompts.as_button(press)
-        admitted = self.access.admit(press)
-        if admitted is None and press.act is not Act.FIRE:
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE votes, START begins, X leads to another game, BACK, held, to the title."""
+        event = self.prompts.as_button(event)
+        admitted = self.access.admit(event)
+        if admitted is None and event.button is not Button.FIRE:
             return None
         self.idle = 0.0
         if self.age < DEAF or self.claims:
             return None
-        if admitted is None or (press.act is Act.FIRE and press.device.kind != "mouse"):
-            self._fire(press)
+        if admitted is None or (event.button is Button.FIRE and event.device.kind != "mouse"):
+            self._fire(event)
             return None
-        match admitted.act:
-            case Act.START | Act.FIRE:
+        match admitted.button:
+            case Button.START | Button.FIRE:
                 return self._rematch(everyone=True)
-            case Act.EXTRA if self.game_choice:
+            case Button.X if self.game_choice:
                 self.context.sounds.play("accept")
                 return Push(self.game_choice(self.context, self.setup, self.ballot.devices))
-            case Act.ALT:
+            case Button.Y:
                 return Push(Best(self.context, contest(self.setup)))
-            case Act.BACK if admitted.device.kind == "mouse":
+            case Button.BACK if admitted.device.kind == "mouse":
                 return self._leave()
-            case Act.BACK if self.age >= LATE:
+            case Button.BACK if self.age >= LATE:
                 self.leaving.begin(admitted)
             case _:
                 pass
@@ -123,9 +123,9 @@ class Results:
                 return Push(self.initials)
         if self.leaving.update(seconds) or self.access.update(seconds):
             return self._leave()
-        for press in self.joining.update(seconds):
-            if self.ballot.take(press.device):
-                self.context.sounds.play("join", self.ballot.devices.index(press.device))
+        for event in self.joining.update(seconds):
+            if self.ballot.take(event.device):
+                self.context.sounds.play("join", self.ballot.devices.index(event.device))
         if self.ballot.update(seconds):
             return self._rematch(everyone=False)
         return Home() if self.idle > IDLE else None
@@ -142,12 +142,12 @@ class Results:
             if self.leaving.share:
                 filled(screen, self.leaving.share)
 
-    def _fire(self, press: Press) -> None:
+    def _fire(self, event: InputEvent) -> None:
         """A vote; of a free device a seat, for which FIRE is held where it is an AI's."""
-        if self.ballot.vote(press.device):
+        if self.ballot.vote(event.device):
             self.context.sounds.play("ready", None)
-        elif press.device not in self.ballot.devices and self.ballot.takeable:
-            self.joining.begin(press)
+        elif event.device not in self.ballot.devices and self.ballot.takeable:
+            self.joining.begin(event)
             self.told = SAID
 
     def _leave(self) -> Turn:

@@ -1,7 +1,7 @@
 """The initials that one player spells: the model, without drawing or sounds."""
 
 from pigaming_app.storage.scores import LETTERS
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.letter_picker import LetterPicker
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
@@ -41,26 +41,26 @@ class Spelling:
         """The last letter is being chosen."""
         return self.picker.slot == len(self.picker.letters) - 1
 
-    def on(self, act: Act) -> str | None:
+    def on(self, button: Button) -> str | None:
         """Answer a press of the player; the name of the sound that follows."""
-        match act:
-            case Act.BACK | Act.LEAVE if self.done:
+        match button:
+            case Button.BACK | Button.LEAVE_SEAT if self.done:
                 self.done = False
                 return "back"
             case _ if self.done:
                 return None
-            case Act.UP | Act.DOWN:
+            case Button.UP | Button.DOWN:
                 self.turned = True
-                return self.picker.turn(-1 if act is Act.UP else 1)
-            case Act.LEFT | Act.BACK | Act.LEAVE:
+                return self.picker.turn(-1 if button is Button.UP else 1)
+            case Button.LEFT | Button.BACK | Button.LEAVE_SEAT:
                 return self.picker.move(-1)
-            case Act.RIGHT:
+            case Button.RIGHT:
                 return self.picker.move(1)
-            case Act.FIRE if not self.last:
+            case Button.FIRE if not self.last:
                 return self.picker.move(1)
-            case Act.FIRE:
+            case Button.FIRE:
                 return self._accept(self.turned)
-            case Act.START:
+            case Button.START:
                 return self._accept(True)
         return None
 

@@ -18,7 +18,7 @@ from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, C
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import fit_size, write_lines
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import Caption, caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, overlay
 
@@ -37,9 +37,9 @@ class Trouble:
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
-        hints = [(Act.EXTRA, "mat.hint_simulate"), (Act.START, "pause.hint_menu")]
+        hints = [(Button.X, "mat.hint_simulate"), (Button.START, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
-        mending = [(Act.FIRE, "mat.hint_pair"), (Act.ALT, "mat.hint_retry")]
+        mending = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
         self.mending = self.context.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
@@ -48,29 +48,29 @@ class Trouble:
         self.context.sounds.play("error")
         self.held, self.picture = 0.0, None
 
-    def on(self, press: Press) -> Turn:
-        """EXTRA goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
-        robot did not do as it was told, FIRE pairs robots and radios again, and ALT lets it try again.
+    def on(self, event: InputEvent) -> Turn:
+        """X goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
+        robot did not do as it was told, FIRE pairs robots and radios again, and Y lets it try again.
         """
-        admitted = self.match.access.admit(press)
+        admitted = self.match.access.admit(event)
         if admitted is None:
             return None
-        press = admitted
+        event = admitted
         lasting = self.match.plant.safety.lasting
-        press = self.prompts.as_button(self.mending.as_button(press) if lasting else press)
-        if press.act is Act.EXTRA:
+        event = self.prompts.as_button(self.mending.as_button(event) if lasting else event)
+        if event.button is Button.X:
             self._simulate()
-        elif lasting and press.act is Act.FIRE and not self.match.plant.safety.stopped:
+        elif lasting and event.button is Button.FIRE and not self.match.plant.safety.stopped:
             return Push(PairAgain(self.match))
-        elif lasting and press.act is Act.ALT:
+        elif lasting and event.button is Button.Y:
             for robot in lasting:
                 self.match.plant.forgive(robot)
             self.context.sounds.play("accept")
-        elif press.act is Act.STOP:
+        elif event.button is Button.STOP:
             self.match.plant.safety.all_stop()
-            self.stopper = press.device
-        elif press.act in (Act.START, Act.BACK):
-            return Swap(Pause(self.match, press.device))
+            self.stopper = event.device
+        elif event.button in (Button.START, Button.BACK):
+            return Swap(Pause(self.match, event.device))
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -136,7 +136,7 @@ class Trouble:
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
             layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
-        fire = words.printed(self.context.controls.label(self.match.access.voice, Act.FIRE))
+        fire = words.printed(self.context.controls.label(self.match.access.voice, Button.FIRE))
         y = write_lines(layer, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:

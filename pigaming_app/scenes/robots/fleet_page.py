@@ -22,7 +22,7 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import places
 from pigaming_app.ui.widgets.focus import Focus
@@ -59,7 +59,11 @@ class RobotsPage:
         self.anew, self.age = 0.0, EVERY
         self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
-        hints = [(Act.RIGHT, "calibrate.hint_change"), (Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        hints = [
+            (Button.RIGHT, "calibrate.hint_change"),
+            (Button.FIRE, "robots.hint_ok"),
+            (Button.BACK, "robots.hint_back"),
+        ]
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
@@ -70,19 +74,19 @@ class RobotsPage:
         """Stop the robots; let go of camera and radio."""
         self.check.end()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
-        press = self.navigation.prompts.as_button(self._on_sheet(press))
-        if self.check.busy and press.act not in (Act.POINT, Act.LOST, Act.FOUND):
+        event = self.navigation.prompts.as_button(self._on_sheet(event))
+        if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
             self.check.stop()
             self.navigation.say(self.context.words("fleet.stopped"))
             return None
-        if turn := self.navigation.on(press):
+        if turn := self.navigation.on(event):
             return turn
         name = self.focus.name
-        if by := dials.step_of(press, self.focus, self._value(name)):
+        if by := dials.step_of(event, self.focus, self._value(name)):
             self._change(name, by, False)
-        elif self.focus.chosen(press) and (press.act is not Act.CLICK or self._value(name).kind == "deed"):
+        elif self.focus.chosen(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
             self._do(name)
         return None
 
@@ -148,9 +152,9 @@ class RobotsPage:
         """What is wrong, or was just found."""
         return self._trouble() or self.navigation.sentence
 
-    def _on_sheet(self, press: Press) -> Press:
+    def _on_sheet(self, event: InputEvent) -> InputEvent:
         """A press of the mouse where the block is drawn that it hits."""
-        return replace(press, at=self.aside.back(press.at)) if press.at else press
+        return replace(event, at=self.aside.back(event.at)) if event.at else event
 
     def _draw_blocks(self, screen: pygame.Surface) -> None:
         """Everything below the heading."""

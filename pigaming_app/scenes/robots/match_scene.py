@@ -27,7 +27,7 @@ from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.take_places import Gathering
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 
 IDLE = 180.0  # seconds without a press while robots take their places, until the title
@@ -90,28 +90,28 @@ class RealMatch(MatchScene):
             self.gone = True
             self.mat.close()
 
-    def on(self, press: Press) -> Turn:
-        """As in every match. STOP stops all robots. While places are taken, START begins as they stand, EXTRA
+    def on(self, event: InputEvent) -> Turn:
+        """As in every match. STOP stops all robots. While places are taken, START begins as they stand, X
         lets simulated robots begin where real ones are missing, and BACK leaves.
         """
-        if press.act is Act.STOP and not self.match.over:
+        if event.button is Button.STOP and not self.match.over:
             self.plant.safety.all_stop()
             self.plant.watch()
-            return Push(Trouble(self, press.device))
+            return Push(Trouble(self, event.device))
         if self.gathering is None:
-            return super().on(press)
-        admitted = self.access.admit(self.gathering.prompts.as_button(press))
+            return super().on(event)
+        admitted = self.access.admit(self.gathering.prompts.as_button(event))
         if admitted is None:
             return None
-        press = admitted
-        if press.act is Act.START and self.gathering.clock > self.gathering.DEAF:
+        event = admitted
+        if event.button is Button.START and self.gathering.clock > self.gathering.DEAF:
             self.plant.accept_places()
             self._begin()
-        elif press.act is Act.EXTRA:
+        elif event.button is Button.X:
             for seat in self._missing():
                 self.swap(seat, False)
             self.context.sounds.play("accept")
-        elif press.act is Act.BACK:
+        elif event.button is Button.BACK:
             self.context.sounds.play("back")
             return Pop()
         return None

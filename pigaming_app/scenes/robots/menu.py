@@ -14,7 +14,7 @@ from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, G
 from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
@@ -34,18 +34,18 @@ class RobotsMenu:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.focus = Focus(dials.spots(ROWS))
-        hints = [(Act.FIRE, "robots.hint_ok"), (Act.BACK, "robots.hint_back")]
+        hints = [(Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
         """Shown, or come back to."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Up and down choose, FIRE opens."""
-        press = self.navigation.prompts.as_button(press)
-        if turn := self.navigation.on(press):
+        event = self.navigation.prompts.as_button(event)
+        if turn := self.navigation.on(event):
             return turn
-        chosen = self.focus.chosen(press)
+        chosen = self.focus.chosen(event)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:

@@ -15,7 +15,7 @@ from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, ICE
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
 GOOD = (Case.FITS, Case.SWAPPED, Case.ABSENT)
@@ -31,20 +31,22 @@ class PairAgain:
         self.pairing: Pairing | None = None
         self.sentence = ""  # what is wrong, once all have spun
         self.clock = 0.0
-        self.stop = self.context.prompts([(Act.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
-        self.after = self.context.prompts([(Act.FIRE, "mat.hint_retry"), (Act.BACK, "mat.hint_done")], PROMPTS_Y, 1560)
+        self.stop = self.context.prompts([(Button.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
+        self.after = self.context.prompts(
+            [(Button.FIRE, "mat.hint_retry"), (Button.BACK, "mat.hint_done")], PROMPTS_Y, 1560
+        )
 
     def entered(self) -> None:
         """Nothing moves yet."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE begins anew once all have spun; before, as BACK, START and STOP at any time, it stops the robots."""
-        press = (self.after if self.sentence else self.stop).as_button(press)
-        if press.act is Act.FIRE and self.sentence:
+        event = (self.after if self.sentence else self.stop).as_button(event)
+        if event.button is Button.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0
-        elif press.act in (Act.FIRE, Act.BACK, Act.START, Act.STOP):
+        elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.STOP):
             self.match.plant.rig.tell([None] * ROBOTS)
-            if press.act is Act.STOP:
+            if event.button is Button.STOP:
                 self.match.plant.safety.all_stop()
             self.context.sounds.play("back")
             return Pop()

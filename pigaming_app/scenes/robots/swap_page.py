@@ -9,7 +9,7 @@ from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import fit_size, word
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
 
@@ -23,26 +23,26 @@ class SwapPage:
         self.wanted = {seat: seat in match.real for seat in self.seats}
         self.focus = Focus(items([str(seat) for seat in self.seats]))
         self.picture: pygame.Surface | None = None
-        hints = [(Act.FIRE, "mat.hint_change"), (Act.BACK, "mat.hint_done")]
+        hints = [(Button.FIRE, "mat.hint_change"), (Button.BACK, "mat.hint_done")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
 
     def entered(self) -> None:
         """Nothing has been chosen yet."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """FIRE, LEFT and RIGHT change the robot in focus; BACK and START do what was chosen."""
-        admitted = self.access.admit(self.prompts.as_button(press))
+        admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
-        press = admitted
-        if press.act in (Act.BACK, Act.START):
+        event = admitted
+        if event.button in (Button.BACK, Button.START):
             for seat, real in self.wanted.items():
                 self.match.swap(seat, real)
             self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(press):
+        if self.focus.on(event):
             self.context.sounds.play("move")
-        chosen = self.focus.name if press.act in (Act.LEFT, Act.RIGHT) else self.focus.chosen(press)
+        chosen = self.focus.name if event.button in (Button.LEFT, Button.RIGHT) else self.focus.chosen(event)
         if chosen:
             self.wanted[int(chosen)] = not self.wanted[int(chosen)]
             self.context.sounds.play("move")

@@ -39,7 +39,7 @@ from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.labels import blit_sprite
 
@@ -61,7 +61,7 @@ class Gathering:
         self.clock = 0.0
         self.flood = Flood()
         self.prompts = context.prompts(
-            [(Act.START, "mat.hint_begin"), (Act.EXTRA, "mat.hint_missing"), (Act.BACK, "mat.hint_leave")],
+            [(Button.START, "mat.hint_begin"), (Button.X, "mat.hint_missing"), (Button.BACK, "mat.hint_leave")],
             HINTS_Y, 1560, voice=voice,
         )  # fmt: skip
 

@@ -16,7 +16,7 @@ from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.ui.draw import ALARM, ICE, MIST
 from pigaming_app.ui.draw.layers import Layer, backdrop
 from pigaming_app.ui.draw.text import write_lines
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
 
 UNCALIBRATED = ("none", "damaged", "version", "other_display")  # sentences after which one must calibrate
@@ -39,25 +39,25 @@ class Refused:
         self.match_of = match_of
         self.picture: pygame.Surface | None = None
         self.access = Access(context, lambda: self.devices)
-        hints = [(Act.FIRE, "mat.hint_simulated"), (Act.EXTRA, "mat.hint_again"), (Act.BACK, "mat.hint_leave")]
+        hints = [(Button.FIRE, "mat.hint_simulated"), (Button.X, "mat.hint_again"), (Button.BACK, "mat.hint_leave")]
         self.prompts = context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
         """Let it be heard."""
         self.context.sounds.play("error")
 
-    def on(self, press: Press) -> Turn:
-        """FIRE plays with simulated robots, EXTRA tries again, BACK leaves."""
-        admitted = self.access.admit(self.prompts.as_button(press))
+    def on(self, event: InputEvent) -> Turn:
+        """FIRE plays with simulated robots, X tries again, BACK leaves."""
+        admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
-        press = admitted
-        if press.act in (Act.FIRE, Act.START):
+        event = admitted
+        if event.button in (Button.FIRE, Button.START):
             self.context.sounds.play("accept")
             return Swap(self.match_of(self.setup, self.devices, ()))
-        if press.act is Act.EXTRA:
+        if event.button is Button.X:
             return Swap(self.match_of(self.setup, self.devices, self.real))
-        if press.act is Act.BACK:
+        if event.button is Button.BACK:
             self.context.sounds.play("back")
             return Pop()
         return None

@@ -19,7 +19,7 @@ from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import Best
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 
 MINUTES = 1.0  # of a match
@@ -48,12 +48,12 @@ class Attract:
         """Quiet: nobody is listening."""
         self.context.sounds.music(False)
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Whatever is pressed, back to the title, where it counts for nothing; F4 shows what the AIs think."""
-        if press.act is Act.BRAIN and isinstance(self.show, Demonstration):
+        if event.button is Button.BRAIN and isinstance(self.show, Demonstration):
             self.show.stage.brain.next()
             return None
-        return None if press.act is Act.LOST else Home()
+        return None if event.button is Button.LOST else Home()
 
     def update(self, seconds: float) -> Turn:
         """Let the show go on, or begin the next one."""
@@ -110,7 +110,7 @@ class Demonstration:
     def entered(self) -> None:
         """Nothing to begin."""
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Nobody is asked."""
 
     def update(self, seconds: float) -> Turn:
@@ -135,7 +135,7 @@ class Page:
         """Begin it."""
         self.page.entered()
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         """Nobody is asked."""
 
     def update(self, seconds: float) -> Turn:

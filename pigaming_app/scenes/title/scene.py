@@ -23,7 +23,7 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
     black_out,
@@ -59,14 +59,14 @@ class Title:
         self.context.sounds.music(True)
         self.focus.place(self._spots())
 
-    def on(self, press: Press) -> Turn:
-        """Directions and the mouse move the focus; FIRE, START or a click choose; ALT changes the language."""
-        if press.act is Act.ALT:
+    def on(self, event: InputEvent) -> Turn:
+        """Directions and the mouse move the focus; FIRE, START or a click choose; Y changes the language."""
+        if event.button is Button.Y:
             self._speak(self.context.words.other)
-        elif self.focus.on(press):
+        elif self.focus.on(event):
             self.context.sounds.play("move")
         self.game = self.focus.name if self.focus.name in GAMES else self.game
-        chosen = self.focus.chosen(press)
+        chosen = self.focus.chosen(event)
         return self._open(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
@@ -172,7 +172,7 @@ class Title:
     def asked(self) -> tuple[str, str]:
         """The line that asks for a press, and the label of the button in it."""
         words, name = self.context.words, self.focus.name
-        label = words.printed(self.context.controls.label(None, Act.FIRE))
+        label = words.printed(self.context.controls.label(None, Button.FIRE))
         if name in GAMES:
             return words("title.press", button="{button}"), label
         return words("title.choose", button="{button}", what=self._what(name)), label
@@ -187,7 +187,7 @@ class Title:
             lit = name == words.language if name in LANGUAGES else name == self.focus.name
             said, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
             chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
-        label = self.context.controls.label(None, Act.ALT)
+        label = self.context.controls.label(None, Button.Y)
         if label:
             button_label(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
 

@@ -2,24 +2,24 @@
 
 from collections import deque
 
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 
 MOST = 8  # edges kept for a button: four taps
 
 
-class Edges:
-    """A queue for each button of each device; `button` is Act.FIRE or None, the turbo."""
+class TapQueue:
+    """A queue for each button of each device; `button` is Button.FIRE or None, the turbo."""
 
     def __init__(self) -> None:
-        self._queues: dict[tuple[Device, Act | None], deque[bool]] = {}
+        self._queues: dict[tuple[Device, Button | None], deque[bool]] = {}
 
-    def note(self, device: Device, button: Act | None, down: bool) -> None:
+    def note(self, device: Device, button: Button | None, down: bool) -> None:
         """A button went down or up. What exceeds the queue is dropped."""
         queue = self._queues.setdefault((device, button), deque())
         if len(queue) < MOST:
             queue.append(down)
 
-    def read(self, device: Device, button: Act | None, held: bool) -> bool:
+    def read(self, device: Device, button: Button | None, held: bool) -> bool:
         """Whether the button counts as down on this tick: its oldest unread edge; without one, how it is held."""
         queue = self._queues.get((device, button))
         return queue.popleft() if queue else held

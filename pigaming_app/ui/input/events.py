@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import Enum, auto
 
 
-class Act(Enum):
+class Button(Enum):
     """What a press means. In every menu FIRE accepts; START accepts too, and begins at once where that makes sense."""
 
     UP = auto()
@@ -13,9 +13,9 @@ class Act(Enum):
     RIGHT = auto()
     FIRE = auto()  # pad A; the fire key of a keyboard cluster
     BACK = auto()  # pad B; Escape, Backspace
-    LEAVE = auto()  # the turbo key of a keyboard cluster: gives a seat up in the lobby, means nothing elsewhere
-    EXTRA = auto()  # pad X; X
-    ALT = auto()  # pad Y; Tab
+    LEAVE_SEAT = auto()  # the turbo key of a keyboard cluster: gives a seat up in the lobby, means nothing elsewhere
+    X = auto()  # pad X; X
+    Y = auto()  # pad Y; Tab
     START = auto()  # pad Start; Enter; P pauses a match as Start does
     BRAIN = auto()  # F4: show what the AIs of a match think, one after the other
     STOP = auto()  # F1; both upper shoulder buttons of a pad: all real robots stand at once
@@ -34,13 +34,13 @@ class Device:
 
 
 @dataclass(frozen=True)
-class Press:
+class InputEvent:
     """One press. `repeat`: a direction held down, repeated. `at`: canvas position, 1920 x 1080, of the mouse.
 
     `among`: of a key that all clusters of the keyboard share (Enter, Escape …), the clusters, the last used first.
     """
 
-    act: Act
+    button: Button
     device: Device
     repeat: bool = False
     at: tuple[float, float] | None = None
@@ -48,7 +48,7 @@ class Press:
 
 
 @dataclass(frozen=True)
-class Drive:
+class StickState:
     """How a device is held right now: stick in [-1, 1] (ahead and clockwise positive) and two buttons."""
 
     linear: float = 0.0

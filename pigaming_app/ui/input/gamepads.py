@@ -10,38 +10,38 @@ from typing import Protocol
 import pygame
 from pygame._sdl2 import controller
 
-from pigaming_app.ui.input.events import Act, Drive
-from pigaming_app.ui.input.filters import Change, StickDirection, Trigger, outside_dead_zone
+from pigaming_app.ui.input.events import Button, StickState
+from pigaming_app.ui.input.filters import ButtonChange, StickDirection, Trigger, outside_dead_zone
 
 _FULL = 32767.0  # SDL's largest axis value
 _BUTTONS = {
-    pygame.CONTROLLER_BUTTON_A: Act.FIRE,
-    pygame.CONTROLLER_BUTTON_B: Act.BACK,
-    pygame.CONTROLLER_BUTTON_X: Act.EXTRA,
-    pygame.CONTROLLER_BUTTON_Y: Act.ALT,
-    pygame.CONTROLLER_BUTTON_START: Act.START,
-    pygame.CONTROLLER_BUTTON_DPAD_UP: Act.UP,
-    pygame.CONTROLLER_BUTTON_DPAD_DOWN: Act.DOWN,
-    pygame.CONTROLLER_BUTTON_DPAD_LEFT: Act.LEFT,
-    pygame.CONTROLLER_BUTTON_DPAD_RIGHT: Act.RIGHT,
+    pygame.CONTROLLER_BUTTON_A: Button.FIRE,
+    pygame.CONTROLLER_BUTTON_B: Button.BACK,
+    pygame.CONTROLLER_BUTTON_X: Button.X,
+    pygame.CONTROLLER_BUTTON_Y: Button.Y,
+    pygame.CONTROLLER_BUTTON_START: Button.START,
+    pygame.CONTROLLER_BUTTON_DPAD_UP: Button.UP,
+    pygame.CONTROLLER_BUTTON_DPAD_DOWN: Button.DOWN,
+    pygame.CONTROLLER_BUTTON_DPAD_LEFT: Button.LEFT,
+    pygame.CONTROLLER_BUTTON_DPAD_RIGHT: Button.RIGHT,
 }
 _STICK = (pygame.CONTROLLER_AXIS_LEFTX, pygame.CONTROLLER_AXIS_LEFTY)
 _SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
 _PLAIN_SHOULDERS = (4, 5)
-_PLAIN = (Act.FIRE, Act.BACK, Act.EXTRA, Act.ALT)  # the first four buttons of a plain joystick
-_DIRECTIONS = {Act.UP: "↑", Act.DOWN: "↓", Act.LEFT: "←", Act.RIGHT: "→"}
-_SHARED = {Act.LEAVE: Act.BACK, Act.BRAIN: Act.ALT}  # one button for both; BRAIN only in a pause
+_PLAIN = (Button.FIRE, Button.BACK, Button.X, Button.Y)  # the first four buttons of a plain joystick
+_DIRECTIONS = {Button.UP: "↑", Button.DOWN: "↓", Button.LEFT: "←", Button.RIGHT: "→"}
+_SHARED = {Button.LEAVE_SEAT: Button.BACK, Button.BRAIN: Button.Y}  # one button for both; BRAIN only in a pause
 _PRINTED = {
-    "Xbox": {Act.FIRE: "A", Act.BACK: "B", Act.EXTRA: "X", Act.ALT: "Y", Act.START: "START"},
+    "Xbox": {Button.FIRE: "A", Button.BACK: "B", Button.X: "X", Button.Y: "Y", Button.START: "START"},
     "PlayStation": {
-        Act.FIRE: "Cross",
-        Act.BACK: "Circle",
-        Act.EXTRA: "Square",
-        Act.ALT: "Triangle",
-        Act.START: "OPTIONS",
+        Button.FIRE: "Cross",
+        Button.BACK: "Circle",
+        Button.X: "Square",
+        Button.Y: "Triangle",
+        Button.START: "OPTIONS",
     },
-    "Nintendo": {Act.FIRE: "A", Act.BACK: "B", Act.EXTRA: "X", Act.ALT: "Y", Act.START: "+"},
-    "Joystick": {Act.FIRE: "1", Act.BACK: "2", Act.EXTRA: "3", Act.ALT: "4", Act.START: "START"},
+    "Nintendo": {Button.FIRE: "A", Button.BACK: "B", Button.X: "X", Button.Y: "Y", Button.START: "+"},
+    "Joystick": {Button.FIRE: "1", Button.BACK: "2", Button.X: "3", Button.Y: "4", Button.START: "START"},
 }
 _MAKERS = {
     "PlayStation": ("playstation", "dualshock", "dualsense", "sony", "ps3", "ps4", "ps5"),
@@ -54,10 +54,10 @@ class Pad(Protocol):
 
     kind: str
 
-    def changes(self, event: pygame.Event) -> Iterator[Change]:
+    def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
         """What an event of this pad means."""
 
-    def drive(self) -> Drive:
+    def drive(self) -> StickState:
         """How the pad is held now."""
 
     def attached(self) -> bool:
@@ -81,15 +81,15 @@ class MappedPad:
         self._shoulders: set[int] = set()
         self.kind = _kind(self._pad.name)
 
-    def changes(self, event: pygame.Event) -> Iterator[Change]:
+    def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
         if event.type in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):
             down = event.type == pygame.CONTROLLERBUTTONDOWN
             if event.button in _BUTTONS:
-                yield Change(_BUTTONS[event.button], down)
+                yield ButtonChange(_BUTTONS[event.button], down)
             elif event.button in _SHOULDERS:
                 yield from _both(self._shoulders, event.button, down, _SHOULDERS)
                 if event.button == pygame.CONTROLLER_BUTTON_RIGHTSHOULDER:
-                    yield Change(None, down, "shoulder")
+                    yield ButtonChange(None, down, "shoulder")
         elif event.type == pygame.CONTROLLERAXISMOTION:
             if event.axis in _STICK:
                 self._at[event.axis] = max(-1.0, event.value / _FULL)
@@ -100,12 +100,12 @@ class MappedPad:
     def attached(self) -> bool:
         return bool(self._pad.attached())
 
-    def drive(self) -> Drive:
+    def drive(self) -> StickState:
         if not self.attached():
-            return Drive()
+            return StickState()
         held = self._pad.get_button
         x, y = outside_dead_zone(self._axis(pygame.CONTROLLER_AXIS_LEFTX), self._axis(pygame.CONTROLLER_AXIS_LEFTY))
-        return Drive(
+        return StickState(
             float(held(pygame.CONTROLLER_BUTTON_DPAD_UP) - held(pygame.CONTROLLER_BUTTON_DPAD_DOWN)) or -y,
             float(held(pygame.CONTROLLER_BUTTON_DPAD_RIGHT) - held(pygame.CONTROLLER_BUTTON_DPAD_LEFT)) or x,
             held(pygame.CONTROLLER_BUTTON_A) or self._axis(pygame.CONTROLLER_AXIS_TRIGGERRIGHT) > 0.5,
@@ -126,16 +126,16 @@ class PlainPad:
     def __init__(self, joystick: "pygame.joystick.JoystickType") -> None:
         self._pad = joystick
         self._stick = StickDirection()
-        self._hat: dict[Act, bool] = {}
+        self._hat: dict[Button, bool] = {}
         self._shoulders: set[int] = set()
         self._axes = joystick.get_numaxes() >= 2
         self._at = [joystick.get_axis(0), joystick.get_axis(1)] if self._axes else [0.0, 0.0]
         count = joystick.get_numbuttons()
         self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start comes behind them
         start = 9 if self._shoulders_too else min(7, count - 1)
-        self._acts = dict(enumerate(_PLAIN)) | ({start: Act.START} if start >= len(_PLAIN) else {})
+        self._buttons = dict(enumerate(_PLAIN)) | ({start: Button.START} if start >= len(_PLAIN) else {})
 
-    def changes(self, event: pygame.Event) -> Iterator[Change]:
+    def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
         if event.type in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP):
             yield from self._button(event.button, event.type == pygame.JOYBUTTONDOWN)
         elif event.type == pygame.JOYAXISMOTION:
@@ -145,11 +145,11 @@ class PlainPad:
         elif event.type == pygame.JOYHATMOTION and event.hat == 0:
             yield from self._hat_moved(*event.value)
 
-    def drive(self) -> Drive:
+    def drive(self) -> StickState:
         pad = self._pad
         x, y = outside_dead_zone(pad.get_axis(0), pad.get_axis(1)) if self._axes else (0.0, 0.0)
         right, up = pad.get_hat(0) if pad.get_numhats() else (0, 0)
-        return Drive(
+        return StickState(
             float(up) or -y,
             float(right) or x,
             self._held(0) or (self._shoulders_too and self._held(7)),
@@ -159,24 +159,24 @@ class PlainPad:
     def attached(self) -> bool:
         return True  # a plain joystick that is gone reads as one at rest
 
-    def _button(self, button: int, down: bool) -> Iterator[Change]:
-        if button in self._acts:
-            yield Change(self._acts[button], down)
+    def _button(self, button: int, down: bool) -> Iterator[ButtonChange]:
+        if button in self._buttons:
+            yield ButtonChange(self._buttons[button], down)
         elif button in _PLAIN_SHOULDERS:
             yield from _both(self._shoulders, button, down, _PLAIN_SHOULDERS)
         if button == _PLAIN_SHOULDERS[1] or (self._shoulders_too and button == 6):
-            yield Change(None, down, str(button))
+            yield ButtonChange(None, down, str(button))
         elif self._shoulders_too and button == 7:
-            yield Change(Act.FIRE, down, str(button))
+            yield ButtonChange(Button.FIRE, down, str(button))
 
     def _held(self, button: int) -> bool:
         return button < self._pad.get_numbuttons() and bool(self._pad.get_button(button))
 
-    def _hat_moved(self, right: int, up: int) -> Iterator[Change]:
-        now = {Act.UP: up > 0, Act.DOWN: up < 0, Act.LEFT: right < 0, Act.RIGHT: right > 0}
+    def _hat_moved(self, right: int, up: int) -> Iterator[ButtonChange]:
+        now = {Button.UP: up > 0, Button.DOWN: up < 0, Button.LEFT: right < 0, Button.RIGHT: right > 0}
         for act, down in now.items():
             if down != self._hat.get(act, False):
-                yield Change(act, down, "hat")
+                yield ButtonChange(act, down, "hat")
         self._hat = now
 
 
@@ -212,17 +212,17 @@ class Pads:
         return self.plugged.pop(number, None) is not None
 
 
-def label(kind: str, act: Act) -> str:
+def label(kind: str, act: Button) -> str:
     """What is printed on the button of a kind of pad that means `act`; empty if none does."""
     return _DIRECTIONS.get(act) or _PRINTED[kind].get(_SHARED.get(act, act), "")
 
 
-def _both(held: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[Change]:
+def _both(held: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[ButtonChange]:
     """The all-stop, when the second button of a pair goes down or the first of both comes up."""
     together = held.issuperset(pair)
     (held.add if down else held.discard)(button)
     if together or held.issuperset(pair):
-        yield Change(Act.STOP, down, "shoulders")
+        yield ButtonChange(Button.STOP, down, "shoulders")
 
 
 def _kind(name: str) -> str:

@@ -1,30 +1,30 @@
 """Buttons that count only after they have been held for a while; every device holds its own."""
 
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Device, Press
+from pigaming_app.ui.input.events import Device, InputEvent
 
 
-class Holds:
+class HoldTimers:
     """Presses that are still held down. `needed`: seconds until one counts."""
 
     def __init__(self, controls: Controls, needed: float) -> None:
         self.controls, self.needed = controls, needed
-        self._held: dict[Device, tuple[Press, float]] = {}
+        self._held: dict[Device, tuple[InputEvent, float]] = {}
 
-    def begin(self, press: Press) -> None:
+    def begin(self, event: InputEvent) -> None:
         """A button went down."""
-        self._held[press.device] = (press, 0.0)
+        self._held[event.device] = (event, 0.0)
 
-    def update(self, seconds: float) -> list[Press]:
+    def update(self, seconds: float) -> list[InputEvent]:
         """Let time pass; the presses that have now been held long enough. Whatever was let go is forgotten."""
         done = []
-        for device, (press, since) in list(self._held.items()):
-            self._held[device] = (press, since + seconds)
-            if not self.controls.holds(device, press.act):
+        for device, (event, since) in list(self._held.items()):
+            self._held[device] = (event, since + seconds)
+            if not self.controls.holds(device, event.button):
                 del self._held[device]
             elif since + seconds >= self.needed:
                 del self._held[device]
-                done.append(press)
+                done.append(event)
         return done
 
     def clear(self) -> None:

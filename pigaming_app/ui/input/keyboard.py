@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.input.events import Act, Device, Drive
-from pigaming_app.ui.input.filters import Change
+from pigaming_app.ui.input.events import Button, Device, StickState
+from pigaming_app.ui.input.filters import ButtonChange
 
 
 @dataclass(frozen=True)
@@ -24,11 +24,11 @@ class Cluster:
     fire: tuple[int, ...]
     turbo: tuple[int, ...]
     moves: str
-    printed: dict[Act, str]
+    printed: dict[Button, str]
 
 
-def _printed(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Act, str]:
-    acts = (Act.UP, Act.LEFT, Act.DOWN, Act.RIGHT, Act.FIRE, Act.LEAVE)
+def _printed(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Button, str]:
+    acts = (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT, Button.FIRE, Button.LEAVE_SEAT)
     return dict(zip(acts, (up, left, down, right, fire, turbo), strict=True))
 
 
@@ -76,32 +76,39 @@ CLUSTERS = (
 )
 
 _SHARED = {
-    pygame.KSCAN_RETURN: Act.START,
-    pygame.KSCAN_P: Act.START,
-    pygame.KSCAN_ESCAPE: Act.BACK,
-    pygame.KSCAN_BACKSPACE: Act.BACK,
-    pygame.KSCAN_TAB: Act.ALT,
-    pygame.KSCAN_X: Act.EXTRA,
-    pygame.KSCAN_F4: Act.BRAIN,
-    pygame.KSCAN_F1: Act.STOP,
+    pygame.KSCAN_RETURN: Button.START,
+    pygame.KSCAN_P: Button.START,
+    pygame.KSCAN_ESCAPE: Button.BACK,
+    pygame.KSCAN_BACKSPACE: Button.BACK,
+    pygame.KSCAN_TAB: Button.Y,
+    pygame.KSCAN_X: Button.X,
+    pygame.KSCAN_F4: Button.BRAIN,
+    pygame.KSCAN_F1: Button.STOP,
 }
 SHARED = frozenset(_SHARED.values())
-_SHARED_PRINTED = {Act.START: "ENTER", Act.BACK: "ESC", Act.ALT: "TAB", Act.EXTRA: "X", Act.BRAIN: "F4", Act.STOP: "F1"}
+_SHARED_PRINTED = {
+    Button.START: "ENTER",
+    Button.BACK: "ESC",
+    Button.Y: "TAB",
+    Button.X: "X",
+    Button.BRAIN: "F4",
+    Button.STOP: "F1",
+}
 _SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # held with another key, these speak to the window manager
 
 
-def _own_keys() -> dict[int, tuple[Device, Act]]:
+def _own_keys() -> dict[int, tuple[Device, Button]]:
     keys = {}
     for number, cluster in enumerate(CLUSTERS):
         parts = (
-            (cluster.up, Act.UP),
-            (cluster.left, Act.LEFT),
-            (cluster.down, Act.DOWN),
-            (cluster.right, Act.RIGHT),
-            (cluster.fire, Act.FIRE),
-            (cluster.turbo, Act.LEAVE),
+            (cluster.up, Button.UP),
+            (cluster.left, Button.LEFT),
+            (cluster.down, Button.DOWN),
+            (cluster.right, Button.RIGHT),
+            (cluster.fire, Button.FIRE),
+            (cluster.turbo, Button.LEAVE_SEAT),
         )
-        keys.update({code: (Device("keys", number), act) for codes, act in parts for code in codes})
+        keys.update({code: (Device("keys", number), button) for codes, button in parts for code in codes})
     return keys
 
 
@@ -115,7 +122,7 @@ class Keyboard:
         self._down: set[int] = set()
         self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # the last used first
 
-    def changes(self, event: pygame.Event) -> Iterator[tuple[Device, Change]]:
+    def changes(self, event: pygame.Event) -> Iterator[tuple[Device, ButtonChange]]:
         """What a KEYDOWN or KEYUP event means, and for which cluster."""
         code = event.scancode
         down = event.type == pygame.KEYDOWN
@@ -123,21 +130,21 @@ class Keyboard:
             return
         (self._down.add if down else self._down.discard)(code)
         if code in _OWN:
-            device, act = _OWN[code]
+            device, button = _OWN[code]
             if down:
                 self.latest = (device, *(other for other in self.latest if other != device))
-            yield device, Change(act, down, str(code))
+            yield device, ButtonChange(button, down, str(code))
         elif code in _SHARED:
-            yield self.latest[0], Change(_SHARED[code], down, str(code))
+            yield self.latest[0], ButtonChange(_SHARED[code], down, str(code))
 
     def release(self) -> None:
         """Let go of every key: the window lost the focus, and nobody will say when they come up."""
         self._down.clear()
 
-    def drive(self, number: int) -> Drive:
+    def drive(self, number: int) -> StickState:
         """How a cluster is held now."""
         cluster, down = CLUSTERS[number], self._down
-        return Drive(
+        return StickState(
             float(any(key in down for key in cluster.up) - any(key in down for key in cluster.down)),
             float(any(key in down for key in cluster.right) - any(key in down for key in cluster.left)),
             any(key in down for key in cluster.fire),
@@ -145,6 +152,6 @@ class Keyboard:
         )
 
 
-def label(number: int, act: Act) -> str:
+def label(number: int, button: Button) -> str:
     """What is printed on the key of a cluster that means `act`; empty if no key does."""
-    return CLUSTERS[number].printed.get(act) or _SHARED_PRINTED.get(act, "")
+    return CLUSTERS[number].printed.get(button) or _SHARED_PRINTED.get(button, "")

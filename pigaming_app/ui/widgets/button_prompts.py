@@ -20,7 +20,7 @@ from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 
 ROOM = 1760  # px for the whole row
 GAPS = (56, 44, 32, 24)
@@ -37,7 +37,7 @@ class ButtonPrompts:
         self,
         words: Words,
         controls: Controls,
-        items: Sequence[tuple[Act, str]],
+        items: Sequence[tuple[Button, str]],
         y: int = 980,
         room: int = ROOM,
         solid: bool = False,
@@ -53,18 +53,18 @@ class ButtonPrompts:
         return tuple((words.printed(self._label(act)), words(key)) for act, key in self.items if self._label(act))
 
     @property
-    def acts(self) -> list[Act]:
+    def buttons(self) -> list[Button]:
         """What each of the hints stands for."""
         return [act for act, _ in self.items if self._label(act)]
 
-    def as_button(self, press: Press) -> Press:
+    def as_button(self, event: InputEvent) -> InputEvent:
         """A click on one of the hints as the press that it stands for; any other press as it is."""
-        if press.act is not Act.CLICK or press.at is None or abs(press.at[1] - self.y) > HIGH:
-            return press
-        for act, (left, right) in zip(self.acts, places(self.said, self.room), strict=True):
-            if left <= press.at[0] <= right:
-                return replace(press, act=act)
-        return press
+        if event.button is not Button.CLICK or event.at is None or abs(event.at[1] - self.y) > HIGH:
+            return event
+        for act, (left, right) in zip(self.buttons, places(self.said, self.room), strict=True):
+            if left <= event.at[0] <= right:
+                return replace(event, button=act)
+        return event
 
     def draw(self, screen: pygame.Surface) -> None:
         """Add the row to the screen."""
@@ -75,9 +75,9 @@ class ButtonPrompts:
             pygame.draw.polygon(screen, STEEL, outline, THIN)
         row(self.said, self.y, self.room).draw(screen)
 
-    def _label(self, act: Act) -> str:
+    def _label(self, act: Button) -> str:
         """What is printed on the button; RIGHT stands for left and right."""
-        return "<>" if act is Act.RIGHT else self.controls.label(self.voice() if self.voice else None, act)
+        return "<>" if act is Button.RIGHT else self.controls.label(self.voice() if self.voice else None, act)
 
 
 def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:

@@ -13,14 +13,14 @@ import pygame
 from pigaming_app.ui.draw import BOLD, FOCUS, LINE, Color, GlowCanvas
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 GLIDE = 0.12  # seconds from one spot to the next
 ACROSS = 3.0  # a pixel off the line counts as so many along it
 SMALL = 150  # px; lower spots have small corners
 REACH = 84  # px that the picture of a corner covers on each side
 
-WAYS = {Act.LEFT: (-1, 0), Act.RIGHT: (1, 0), Act.UP: (0, -1), Act.DOWN: (0, 1)}
+WAYS = {Button.LEFT: (-1, 0), Button.RIGHT: (1, 0), Button.UP: (0, -1), Button.DOWN: (0, 1)}
 
 
 @dataclass(frozen=True)
@@ -55,21 +55,21 @@ class Focus:
         """Where the spot of that name is."""
         return self.spots[self._index(name)].rect
 
-    def on(self, press: Press) -> bool:
+    def on(self, event: InputEvent) -> bool:
         """Go where a press leads; true if that is another spot."""
-        if press.act in WAYS:
-            return self.go(self._next(press))
-        return press.act in (Act.POINT, Act.CLICK) and self.go(self.under(press) or self.name)
+        if event.button in WAYS:
+            return self.go(self._next(event))
+        return event.button in (Button.POINT, Button.CLICK) and self.go(self.under(event) or self.name)
 
-    def chosen(self, press: Press) -> str | None:
+    def chosen(self, event: InputEvent) -> str | None:
         """The spot that a press accepts: FIRE and START the one in focus, a click the one that it hits."""
-        if press.act in (Act.FIRE, Act.START):
+        if event.button in (Button.FIRE, Button.START):
             return self.name
-        return self.under(press) if press.act is Act.CLICK else None
+        return self.under(event) if event.button is Button.CLICK else None
 
-    def under(self, press: Press) -> str | None:
+    def under(self, event: InputEvent) -> str | None:
         """The spot that the mouse points at."""
-        at = press.at
+        at = event.at
         return next((spot.name for spot in self.spots if at and spot.rect.collidepoint(at)), None)
 
     def go(self, name: str) -> bool:
@@ -109,14 +109,14 @@ class Focus:
     def _index(self, name: str | None) -> int:
         return next((i for i, spot in enumerate(self.spots) if spot.name == name), 0)
 
-    def _next(self, press: Press) -> str:
+    def _next(self, event: InputEvent) -> str:
         """The nearest spot in a direction; past the last, the farthest the other way, unless the key is held."""
-        way, here = WAYS[press.act], self.spot.rect
+        way, here = WAYS[event.button], self.spot.rect
         ahead = [spot for spot in self.spots if _beyond(here, spot.rect, way)]
         if ahead:
             return min(ahead, key=lambda spot: _distance(here, spot.rect, way)).name
         row = [spot for spot in self.spots if _gap(here, spot.rect, way) == 0]
-        return self.name if press.repeat else min(row, key=lambda spot: _along(here, spot.rect, way)).name
+        return self.name if event.repeat else min(row, key=lambda spot: _along(here, spot.rect, way)).name
 
 
 @cached

@@ -25,7 +25,7 @@ from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, paragraph, text
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import glow_bar
 
@@ -67,12 +67,12 @@ def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values:
     focus.draw(screen)
 
 
-def step_of(press: Press, focus: Focus, value: SettingValue) -> int:
+def step_of(event: InputEvent, focus: Focus, value: SettingValue) -> int:
     """By how much a press changes the row in focus: 1, -1, or 0; a click does what it hits."""
-    if press.act in (Act.LEFT, Act.RIGHT):
-        return 1 if press.act is Act.RIGHT else -1
-    if press.act is Act.CLICK and press.at and focus.under(press) == focus.name and value.kind != "deed":
-        across = press.at[0] - focus.spot.rect.x
+    if event.button in (Button.LEFT, Button.RIGHT):
+        return 1 if event.button is Button.RIGHT else -1
+    if event.button is Button.CLICK and event.at and focus.under(event) == focus.name and value.kind != "deed":
+        across = event.at[0] - focus.spot.rect.x
         if value.kind == "toggle":
             place = value_at(value.kind, value.options, value.chosen, across)
             return 0 if place is None else place - value.chosen

@@ -19,7 +19,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.labels import text_width
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
@@ -89,7 +89,7 @@ def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human easy off off", 1.0), KEYS[:1])
     arcade.open(match)
     arcade.wait(4.5)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     page = arcade.shown(Pause)
     assert any("F4" in label for label, _ in page.prompts.said)
     f4(arcade)
@@ -132,13 +132,13 @@ def test_in_the_show_it_is_no_reason_to_leave(arcade: Arcade) -> None:
         assert show.show.stage.brain.seat == seat
         assert arcade.stack.top is show
     show._next()
-    assert isinstance(show.on(press(Act.BRAIN)), Home), "over a page it counts like any other key"
+    assert isinstance(show.on(press(Button.BRAIN)), Home), "over a page it counts like any other key"
 
 
-def press(act: Act):
-    from pigaming_app.ui.input.events import Press
+def press(button: Button):
+    from pigaming_app.ui.input.events import InputEvent
 
-    return Press(act, KEYS[0])
+    return InputEvent(button, KEYS[0])
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -28,7 +28,7 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.i18n import Words, texts
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from tests.scenes.operated import Operated
 
@@ -55,7 +55,7 @@ def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Op
     assert result.finding.residuals.mean_mm < 1.5
     assert result.finding.residuals.max_mm < 3.0
     arcade.shown(ResultPage)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.stack.top is first
     ground = kept.load(arcade.context.canvas.projection, arcade.site, (1920, 1080))
     assert ground.width_mm == arcade.site.measures.width
@@ -76,7 +76,7 @@ def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
 
 def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operated) -> None:
     arcade.go("by")
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.RIGHT)
     assert "height" not in [spot.name for spot in arcade.shown(CalibrationPage).focus.spots]
     arcade.begin()
     arcade.pictures(OutlinesPage)
@@ -97,7 +97,7 @@ def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operat
     assert result.picture is not None, "what the camera saw is shown"
     assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
     arcade.shown(ResultPage)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.pictures(ResultPage).finding.good
 
 
@@ -108,8 +108,8 @@ def test_a_calibration_that_is_too_bad_cannot_be_saved(arcade: Operated, monkeyp
     assert result.finding.residuals is not None
     assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
     arcade.shown(ResultPage)
-    arcade.press(Act.RIGHT)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.FIRE)
     arcade.shown(CalibrationPage)
     with pytest.raises(NoGround):
         kept.load(arcade.context.canvas.projection, arcade.site, (1920, 1080))
@@ -121,7 +121,7 @@ def test_a_folder_that_cannot_be_written(arcade: Operated, tmp_path: Path) -> No
     (tmp_path / "config").chmod(0o500)
     arcade.begin()
     arcade.pictures(ResultPage)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).navigation.sentence
 
 
@@ -132,7 +132,7 @@ def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monk
     arcade.begin()
     arcade.pictures(ResultPage)
     monkeypatch.setattr(kept, "keep", full)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert str(kept.path(arcade.site)) in arcade.shown(ResultPage).navigation.sentence
     monkeypatch.undo()
 
@@ -140,13 +140,13 @@ def test_what_cannot_be_saved_is_said_and_nothing_is_lost(arcade: Operated, monk
 def test_the_way_back_leads_out_of_every_page(arcade: Operated) -> None:
     arcade.begin()
     arcade.picture()
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.shown(CalibrationPage)
     arcade.begin()
     arcade.pictures(ResultPage)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.shown(CalibrationPage)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 
@@ -164,7 +164,7 @@ def test_nobody_puts_a_robot_on_the_outline(arcade: Operated, monkeypatch: pytes
     monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
     arcade.go("by")
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.RIGHT)
     arcade.begin()
     result = arcade.pictures(ResultPage)
     assert result.finding.trouble.key == "nobody"
@@ -173,8 +173,8 @@ def test_nobody_puts_a_robot_on_the_outline(arcade: Operated, monkeypatch: pytes
 def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> None:
     arcade.begin()
     arcade.pictures(ResultPage)
-    arcade.press(Act.FIRE)
-    arcade.press(Act.BACK)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.BACK)
     arcade.open(CheckPage(arcade.context, arcade.site))
     checking = arcade.shown(CheckPage).work
     for _ in range(24):
@@ -192,7 +192,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
         arcade.picture()
     assert checking.mm == pytest.approx(8 * checking.drift.ground.mm, abs=2.0)  # type: ignore[union-attr]
     canvas.pin([])
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 
@@ -213,8 +213,8 @@ def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -
         time.sleep(0.01)
         assert time.monotonic() < end
     assert arcade.stack.top.finding.good
-    arcade.press(Act.BACK)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
+    arcade.press(Button.BACK)
     site.close()
 
 

@@ -26,7 +26,7 @@ from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.operated import Operated
 
 LONG = 30.0  # s after which a test gives up waiting
@@ -90,7 +90,7 @@ def test_the_camera_of_the_settings_is_gone_so_the_one_that_is_there_is_shown(co
     assert first.preview is not None
     until(arcade, lambda: first.preview.small is not None and first.preview.trouble is None)
     assert first.preview.size == (640, 480)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
@@ -111,7 +111,7 @@ def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
     until(arcade, lambda: first.preview.trouble is None and first.preview.small is not None)
     driver.sends = False
     until(arcade, lambda: first.preview.trouble is not None)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
@@ -126,11 +126,11 @@ def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert arcade.shown(ResultPage).finding.trouble.key == "few"  # type: ignore[union-attr]
     driver.sends = False
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert isinstance(arcade.shown(ResultPage).finding.trouble, Said)
-    arcade.press(Act.BACK)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
+    arcade.press(Button.BACK)
 
 
 @pytest.mark.usefixtures("_home", "_no_threads_stay")
@@ -150,8 +150,8 @@ def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
     arcade.begin()
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert arcade.shown(ResultPage).finding.trouble == said(missing)
-    arcade.press(Act.BACK)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
+    arcade.press(Button.BACK)
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
@@ -165,7 +165,7 @@ def test_what_breaks_in_the_thread_ends_in_a_sentence_not_in_silence(
     arcade = real(controls, Driver())
     first = arcade.shown(CalibrationPage)
     until(arcade, lambda: first.preview is not None and first.preview.trouble == looking.BROKEN)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
@@ -173,16 +173,16 @@ def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls
     arcade = real(controls, Driver())
     first = arcade.go("width")
     before = first.measures.width
-    arcade.press(Act.RIGHT, Device("pad", 0))
+    arcade.press(Button.RIGHT, Device("pad", 0))
     assert first.measures.width == before + 1
     for _ in range(60):
-        arcade.stack.top.on(page.Press(Act.RIGHT, Device("pad", 0), repeat=True))
+        arcade.stack.top.on(page.InputEvent(Button.RIGHT, Device("pad", 0), repeat=True))
     assert first.measures.width > before + 1000
     arcade.go("lid")
     for _ in range(3):
-        arcade.press(Act.LEFT)
+        arcade.press(Button.LEFT)
     assert first.measures.lid == 67
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     settings, wrong = Settings.load(tmp_path / "config")
     assert not wrong
     assert (settings.arena_mm, settings.lid_mm, settings.camera) == (first.measures.width, 67.0, 3)
@@ -218,8 +218,8 @@ def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     result = arcade.shown(ResultPage)
     assert result.finding.good, result.finding.trouble
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     ground = kept.load(arcade.context.canvas.projection, arcade.site, (1920, 1080))
     assert (tmp_path / "config" / "calibration.toml").exists()
     assert ground.max_mm < 3.0
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)

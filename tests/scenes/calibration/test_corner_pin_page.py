@@ -15,7 +15,7 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas, NoPin
 from tests.scenes.arcade import Arcade
 
@@ -42,10 +42,10 @@ def shown(canvas: Canvas) -> pygame.Surface:
 
 def test_a_corner_moves_by_ten_or_by_one_and_the_picture_with_it(arcade: Arcade) -> None:
     canvas = arcade.context.canvas
-    for act in (Act.RIGHT, Act.RIGHT, Act.DOWN):
-        arcade.press(act)
-    arcade.press(Act.EXTRA)
-    arcade.press(Act.DOWN)
+    for button in (Button.RIGHT, Button.RIGHT, Button.DOWN):
+        arcade.press(button)
+    arcade.press(Button.X)
+    arcade.press(Button.DOWN)
     assert canvas.corners[:2] == (20, 11)
     window = shown(canvas)
     assert window.get_at((10, 5))[:3] == (0, 0, 0)
@@ -72,7 +72,7 @@ def test_the_arrow_points_at_the_chosen_corner_of_the_picture(corner: int) -> No
 def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) -> None:
     page = arcade.shown(PinPage)
     for corner in (1, 2, 3, 0):
-        arcade.press(Act.FIRE)
+        arcade.press(Button.FIRE)
         assert page.chosen == corner
     for at, corner in (((1700, 900), 2), ((100, 100), 0), ((1700, 60), 1), ((80, 1000), 3)):
         arcade.click(*at)
@@ -80,8 +80,8 @@ def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) 
 
 
 def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
-    for act in (Act.RIGHT, Act.DOWN, Act.FIRE, Act.LEFT, Act.START):
-        arcade.press(act)
+    for button in (Button.RIGHT, Button.DOWN, Button.FIRE, Button.LEFT, Button.START):
+        arcade.press(button)
     assert arcade.stack.top is arcade.setup
     settings, wrong = Settings.load(tmp_path / "config")
     assert not wrong
@@ -93,19 +93,19 @@ def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None
 
 
 def test_who_leaves_without_saving_leaves_it_as_it_was(arcade: Arcade) -> None:
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.context.canvas.pin(ASKEW)
     arcade.open(PinPage(arcade.context))
-    for act in (Act.RIGHT, Act.DOWN, Act.ALT, Act.BACK):
-        arcade.press(act)
+    for button in (Button.RIGHT, Button.DOWN, Button.Y, Button.BACK):
+        arcade.press(button)
     assert arcade.context.canvas.corners == tuple(ASKEW)
 
 
 def test_reset_is_straight_and_costs_nothing(arcade: Arcade, tmp_path: Path) -> None:
     arcade.context.canvas.pin(ASKEW)
-    arcade.press(Act.ALT)
+    arcade.press(Button.Y)
     assert arcade.context.canvas.corners == ()
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert Settings.load(tmp_path / "config")[0].corners == []
     assert arcade.context.canvas.screen is pygame.display.get_surface()
 
@@ -113,8 +113,8 @@ def test_reset_is_straight_and_costs_nothing(arcade: Arcade, tmp_path: Path) -> 
 def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
     page = arcade.shown(PinPage)
     for _ in range(300):
-        arcade.press(Act.RIGHT)
-        arcade.press(Act.DOWN)
+        arcade.press(Button.RIGHT)
+        arcade.press(Button.DOWN)
     assert page.corners[0] <= FARTHEST
     assert page.said > 0.0 or page.corners[0] == FARTHEST
     arcade.shown(PinPage)
@@ -126,8 +126,8 @@ def test_a_full_disk_is_said_and_the_page_stays(arcade: Arcade, monkeypatch: pyt
         raise NotSaved("the disk is full")
 
     monkeypatch.setattr(Settings, "save", full)
-    arcade.press(Act.RIGHT)
-    arcade.press(Act.START)
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.START)
     assert arcade.shown(PinPage).sentence == arcade.context.words("app.unsaved")
 
 
@@ -139,7 +139,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.corner_pin.opencv", none)
     assert markers.opencv is not none
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.RIGHT)
     page = arcade.shown(PinPage)
     assert page.sentence == "OpenCV is not installed."
     assert page.corners == [0, 0, 1920, 0, 1920, 1080, 0, 1080]
@@ -174,7 +174,7 @@ def test_a_setting_of_corners_that_makes_no_sense_is_said_and_ignored(tmp_path: 
 
 
 def test_corners_into_which_nothing_fits_are_said_at_the_start(arcade: Arcade) -> None:
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.context.settings.corners = [0, 0, 1920, 0, 0, 1080, 1920, 1080]
     app = App(Options(headless=True), arcade.context, [])
     assert arcade.context.words("app.pin") in app.notices.waiting

@@ -23,13 +23,23 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import LATE, LEAVE, Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import PLAYSTATION, VirtualPad
 
 RUNNING = 4.0  # seconds until a match runs
 BUTTONS = ("b", "start", "x", "y", "up", "down", "left", "right", "rightshoulder")  # all but FIRE
-EVERY = (Act.BACK, Act.START, Act.EXTRA, Act.ALT, Act.UP, Act.DOWN, Act.LEFT, Act.RIGHT, Act.LEAVE)
+EVERY = (
+    Button.BACK,
+    Button.START,
+    Button.X,
+    Button.Y,
+    Button.UP,
+    Button.DOWN,
+    Button.LEFT,
+    Button.RIGHT,
+    Button.LEAVE_SEAT,
+)
 
 
 @pytest.fixture
@@ -80,8 +90,8 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
     arcade.stack.scenes[1:] = []
     page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
-    arcade.press(Act.FIRE, first)
-    arcade.press(Act.ALT, first)
+    arcade.press(Button.FIRE, first)
+    arcade.press(Button.Y, first)
     before = [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places]
     for _ in range(3):
         tap(arcade, guest, *BUTTONS[:1], *BUTTONS[2:])
@@ -102,26 +112,26 @@ def test_in_a_full_lobby_a_free_pad_hears_only_that_it_is_full(arcade: Arcade) -
     page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
     for device in KEYS:
-        arcade.press(Act.FIRE, device)
+        arcade.press(Button.FIRE, device)
     seats = [place.device for place in page.seats.places]
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         page.now.message = ""
         arcade.press(act, Device("pad", 9))
         assert [place.device for place in page.seats.places] == seats
-        if act in (Act.FIRE, Act.START, Act.BACK):
+        if act in (Button.FIRE, Button.START, Button.BACK):
             assert page.now.message == arcade.context.words("lobby.full")
 
 
 def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
     arcade.open(Lobby(arcade.context, "pitanks"))
-    arcade.press(Act.ALT, KEYS[2])
-    arcade.press(Act.ALT, KEYS[3])
-    arcade.press(Act.START, KEYS[1])
+    arcade.press(Button.Y, KEYS[2])
+    arcade.press(Button.Y, KEYS[3])
+    arcade.press(Button.START, KEYS[1])
     arcade.shown(SetupPage)
-    arcade.press(Act.BACK, KEYS[3])
+    arcade.press(Button.BACK, KEYS[3])
     arcade.shown(Lobby)
-    arcade.press(Act.BACK, KEYS[0])
+    arcade.press(Button.BACK, KEYS[0])
     assert arcade.stack.top is arcade.title
 
 
@@ -129,7 +139,7 @@ def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Ar
     _, first = plug(arcade, pads)
     arcade.stack.scenes[1:] = []
     arcade.open(Lobby(arcade.context, "pitanks"))
-    arcade.press(Act.FIRE, first)
+    arcade.press(Button.FIRE, first)
     key(arcade, pygame.KSCAN_ESCAPE, 0.3)
     arcade.shown(Lobby)
     key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
@@ -170,11 +180,11 @@ def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
     arcade.open(scene)
     arcade.wait(1.0)
     before = (scene.chosen, scene.focus.name)
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         arcade.press(act, KEYS[1])
         assert arcade.shown(SetupPage) is scene
         assert (scene.chosen, scene.focus.name) == before
-    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, KEYS[0])
     arcade.shown(MatchScene)
 
 
@@ -186,8 +196,8 @@ def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack
     guest, _ = plug(arcade, pads)
     match = running(arcade, "human easy off off", [first])
     tap(arcade, guest, *BUTTONS, "a")
-    arcade.press(Act.BACK, KEYS[0])
-    arcade.press(Act.START, KEYS[0])
+    arcade.press(Button.BACK, KEYS[0])
+    arcade.press(Button.START, KEYS[0])
     arcade.frame()
     assert arcade.shown(MatchScene) is match
     assert match.devices == [first, None, None, None]
@@ -220,26 +230,26 @@ def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack)
 
 def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
-    arcade.press(Act.START, KEYS[1])
+    arcade.press(Button.START, KEYS[1])
     page = arcade.shown(Pause)
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         for device in (KEYS[0], KEYS[3]):
             arcade.press(act, device)
             assert arcade.shown(Pause) is page
             assert page.focus.name == "continue"
-    arcade.press(Act.DOWN, KEYS[1])
-    arcade.press(Act.DOWN, KEYS[1])
-    arcade.press(Act.FIRE, KEYS[1])
-    arcade.press(Act.BACK, KEYS[0])
+    arcade.press(Button.DOWN, KEYS[1])
+    arcade.press(Button.DOWN, KEYS[1])
+    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.BACK, KEYS[0])
     arcade.shown(DeviceTable)
     arcade.wait(OWNED + 0.2)
-    arcade.press(Act.BACK, KEYS[3])
+    arcade.press(Button.BACK, KEYS[3])
     arcade.shown(DeviceTable)
-    arcade.press(Act.BACK, KEYS[0])
+    arcade.press(Button.BACK, KEYS[0])
     assert arcade.shown(Pause) is page
-    arcade.press(Act.START, KEYS[3])
+    arcade.press(Button.START, KEYS[3])
     assert arcade.shown(Pause) is page
-    arcade.press(Act.START, KEYS[0])
+    arcade.press(Button.START, KEYS[0])
     assert arcade.stack.top is match
 
 
@@ -261,32 +271,32 @@ def test_an_unplugged_pad_owns_no_pause(arcade: Arcade, pads: ExitStack) -> None
     running(arcade, "human human off off", [first, second])
     tap(arcade, two, "start")
     page = arcade.shown(Pause)
-    arcade.press(Act.START, first)
+    arcade.press(Button.START, first)
     assert arcade.shown(Pause) is page
     two.unplug()
     arcade.frame()
-    arcade.press(Act.START, first)
+    arcade.press(Button.START, first)
     assert arcade.stack.top is not page
 
 
 @pytest.mark.parametrize(("name", "downs"), [("restart", 1), ("end", 3)])
 def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None:
     match = running(arcade, "human easy off off", KEYS[:1])
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     page = arcade.shown(Pause)
     for _ in range(downs):
-        arcade.press(Act.DOWN)
+        arcade.press(Button.DOWN)
     assert page.focus.name == name
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.wait(SURE + 0.2, draw=True)
-    arcade.press(Act.FIRE)
-    arcade.press(Act.UP)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.UP)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
     assert arcade.shown(Pause) is page, "time and another item take the question back"
     assert not match.repeated
     assert not match.stopped
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert match.repeated or match.stopped
 
 
@@ -299,7 +309,7 @@ def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads:
     for _ in range(2):
         pad.tap("a")
     pygame.time.wait(800)
-    assert [press.act for press in controls.presses(pygame.event.get())] == [Act.FIRE, Act.FIRE]
+    assert [event.button for event in controls.presses(pygame.event.get())] == [Button.FIRE, Button.FIRE]
     pygame.time.wait(200)
     assert [controls.drive(device).fire for _ in range(6)] == [True, False, True, False, False, False]
 
@@ -307,7 +317,7 @@ def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads:
 def test_a_tap_of_both_shoulders_in_one_frame_is_the_all_stop(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
     pad.tap("leftshoulder", "rightshoulder")
-    assert [press.act for press in arcade.context.controls.presses(pygame.event.get())] == [Act.STOP]
+    assert [event.button for event in arcade.context.controls.presses(pygame.event.get())] == [Button.STOP]
     assert [arcade.context.controls.drive(device).turbo for _ in range(2)] == [True, False]
 
 
@@ -375,9 +385,9 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
 
 def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.wait(REST + ASK + 5.0, fps=10)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.wait(3.0)
     assert arcade.stack.top is match
     assert match.devices[:2] == KEYS[:2]
@@ -389,7 +399,7 @@ def test_when_all_have_gone_the_match_asks_as_before_and_the_first_press_brings_
     match = running(arcade, "human human off off", KEYS[:2], 5.0)
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.devices[:2] == [None, None]
-    arcade.press(Act.LEFT, KEYS[1])
+    arcade.press(Button.LEFT, KEYS[1])
     assert arcade.stack.top is match
     assert match.devices[:2] == [None, KEYS[1]]
 
@@ -410,7 +420,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
     tap(arcade, guest, "start")
     arcade.shown(Pause)
     match.restart()
-    arcade.press(Act.START, device)
+    arcade.press(Button.START, device)
     arcade.frame()
     again = arcade.shown(MatchScene)
     assert again.devices == [first, None, device, None]
@@ -460,7 +470,7 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
     arcade.wait(TAKE + 0.2, draw=True)
     guest.release("a")
     assert results.ballot.votes == {1}
-    arcade.press(Act.FIRE, first)
+    arcade.press(Button.FIRE, first)
     arcade.frame()
     match = arcade.shown(MatchScene)
     assert match.devices[:2] == [first, device]
@@ -470,15 +480,15 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
 def test_change_game_changes_the_game_and_keeps_everybodys_seat(arcade: Arcade) -> None:
     ended(arcade, "human off human hard", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
     arcade.wait(3.0)
-    arcade.press(Act.EXTRA, KEYS[1])
+    arcade.press(Button.X, KEYS[1])
     arcade.shown(Results)
-    arcade.press(Act.EXTRA, KEYS[0])
+    arcade.press(Button.X, KEYS[0])
     page = arcade.shown(GameChoice)
     assert page.focus.name != "pitanks"
-    for act in (Act.FIRE, *EVERY):
+    for act in (Button.FIRE, *EVERY):
         arcade.press(act, KEYS[1])
     assert arcade.shown(GameChoice) is page
-    arcade.press(Act.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, KEYS[2])
     there = arcade.shown(Lobby)
     assert there.game == "factory"
     assert [place.device for place in there.seats.places] == [KEYS[2], None, KEYS[0], None]
@@ -507,7 +517,11 @@ def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) ->
     arcade.stack.scenes[1:] = []
     page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
-    acts = [act for act in Act if act not in (Act.START, Act.EXTRA, Act.POINT, Act.CLICK, Act.FOUND, Act.LOST)]
+    acts = [
+        act
+        for act in Button
+        if act not in (Button.START, Button.X, Button.POINT, Button.CLICK, Button.FOUND, Button.LOST)
+    ]
     for _ in range(4000):
         arcade.stack.scenes[1:] = [page]
         device, act = chance.choice([*KEYS, Device("pad", 7)]), chance.choice(acts)
@@ -523,7 +537,7 @@ def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) ->
 def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> None:
     chance = random.Random(4)
     arcade.stack.scenes[1:] = []
-    acts = [act for act in Act if act not in (Act.POINT, Act.CLICK, Act.FOUND, Act.LOST)]
+    acts = [act for act in Button if act not in (Button.POINT, Button.CLICK, Button.FOUND, Button.LOST)]
     seen = set()
     for i in range(3000):
         if len(arcade.stack.scenes) == 1:

@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby.match_setup import SetupPage
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.sim.kernel import can_compile
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade
 
 ENDLESS = (sys.executable, "-c", "import sys; sys.stdin.read()")
@@ -78,8 +78,8 @@ def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, ho
             return self.done
 
     arcade.context.preloader = busy = Busy()
-    arcade.press(Act.FIRE)
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.RIGHT)
     arcade.wait(0.5)
     assert arcade.stack.top is page, "nothing else can be chosen meanwhile"
     busy.done = True

@@ -4,7 +4,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Stack, Swap, Turn
-from pigaming_app.ui.input.events import Press
+from pigaming_app.ui.input.events import InputEvent
 
 
 class Plain:
@@ -13,7 +13,7 @@ class Plain:
     def entered(self) -> None:
         pass
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:

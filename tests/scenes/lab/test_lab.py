@@ -25,7 +25,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.ui.draw.theme import BODY, text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import ROOM, places
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
@@ -64,10 +64,10 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
         title = arcade.shown(Title)
         title.lab = title.lab or Lab(arcade.context, fast=False)
         title.focus.go("lab")
-        arcade.press(Act.FIRE)
+        arcade.press(Button.FIRE)
         assert lab(arcade) is title.lab
         arcade.wait(0.5)
-        arcade.press(Act.BACK)
+        arcade.press(Button.BACK)
     assert lab_of(arcade).workshop.training.match.tick > 0
     assert lab_of(arcade).workshop.join()
 
@@ -93,7 +93,7 @@ def test_while_it_is_watched_it_plays_in_real_time_and_ten_times_as_fast(arcade:
     before = match.tick
     arcade.wait(1.0)
     assert match.tick - before == pytest.approx(50, abs=2)
-    arcade.press(Act.ALT)
+    arcade.press(Button.Y)
     before = match.tick
     arcade.wait(1.0)
     assert match.tick - before == pytest.approx(500, abs=20)
@@ -125,15 +125,15 @@ def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
 def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     here = lab(arcade)
     here.focus.go("still")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     for _ in range(3):
-        arcade.press(Act.LEFT)
-    arcade.press(Act.UP)
+        arcade.press(Button.LEFT)
+    arcade.press(Button.UP)
     assert here.workshop.recipe.still == -2.0
     assert lab(arcade).held == "still"
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert lab(arcade).held == "", "BACK lets go of the knob and does not leave"
-    arcade.press(Act.LEFT)
+    arcade.press(Button.LEFT)
     assert here.workshop.recipe.still == -2.0
     arcade.frame()
     assert here.workshop.training.recipe.still == -2.0
@@ -142,17 +142,17 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
 
 def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
     lab(arcade).focus.go("hit")
-    arcade.press(Act.FIRE)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.X)
     arcade.shown(Fight)
 
 
-@pytest.mark.parametrize(("act", "end"), [(Act.RIGHT, 10.0), (Act.LEFT, -10.0)])
-def test_a_knob_stops_at_its_ends(arcade: Arcade, act: Act, end: float) -> None:
+@pytest.mark.parametrize(("act", "end"), [(Button.RIGHT, 10.0), (Button.LEFT, -10.0)])
+def test_a_knob_stops_at_its_ends(arcade: Arcade, button: Button, end: float) -> None:
     lab(arcade).focus.go("miss")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     for _ in range(25):
-        arcade.press(act)
+        arcade.press(button)
     assert lab(arcade).workshop.recipe.miss == end
 
 
@@ -166,8 +166,8 @@ def test_what_it_has_learned_stays_when_a_knob_is_turned(arcade: Arcade) -> None
 def test_a_pad_reaches_everything(arcade: Arcade) -> None:
     here = lab(arcade)
     found = {here.focus.name}
-    for act in (Act.DOWN, *[Act.LEFT] * 3, Act.UP, Act.RIGHT):
-        arcade.press(act)
+    for button in (Button.DOWN, *[Button.LEFT] * 3, Button.UP, Button.RIGHT):
+        arcade.press(button)
         found.add(here.focus.name)
     assert found == {"speed", "play", *KNOB_NAMES}
 
@@ -189,7 +189,7 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     here = lab(arcade)
     here.name = "ZUMI"
     experiences = here.workshop.training.experiences
-    arcade.press(Act.EXTRA, KEYS[1])
+    arcade.press(Button.X, KEYS[1])
     fight = arcade.shown(Fight)
     assert fight.inner.devices[0] == KEYS[1]
     assert fight.inner.stage.driver(ROBOT, None) == ("ZUMI", "ai")
@@ -214,50 +214,50 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
 def test_one_can_look_into_the_brain_that_one_plays_against(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     at_full_speed(arcade, monkeypatch)
     arcade.wait(0.2)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     fight = arcade.shown(Fight)
     arcade.until(lambda: fight.inner.match.state.tick > 20)
     before = digest(fight.inner.match.state)
-    arcade.press(Act.BRAIN)
+    arcade.press(Button.BRAIN)
     arcade.shown(Fight)
     assert fight.inner.stage.brain.seats == [ROBOT]
     assert digest(fight.inner.match.state) == before
 
 
 def test_once_more_and_an_early_end(arcade: Arcade) -> None:
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     first = arcade.shown(Fight)
     while not first.inner.match.over:
         first.inner.match.tick()
     arcade.wait(3.0)
     arcade.shown(Verdict)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     second = arcade.shown(Fight)
     assert second is not first
     arcade.wait(0.2)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(Pause).focus.go("restart")
-    arcade.press(Act.FIRE)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE)
     arcade.wait(0.1)
     third = arcade.shown(Fight)
     assert third is not second
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(Pause).focus.go("end")
-    arcade.press(Act.FIRE)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE)
     arcade.wait(0.1)
     lab(arcade)
 
 
 def test_forgetting_everything_takes_two_presses(arcade: Arcade) -> None:
     here = lab(arcade)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(LabMenu).focus.go("anew")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(LabMenu)
     assert here.workshop.training.experiences > 0
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert here.workshop.training.experiences == 0
     assert lab(arcade) is here
 
@@ -268,9 +268,9 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
     at_full_speed(arcade, monkeypatch)
     learn(arcade, 1)
     here = lab(arcade)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(LabMenu).focus.go("compare")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     table = arcade.shown(Compare)
     assert [player.own for player in table.players] == [True, True, False]
     arcade.until(lambda: not table.pairs, 600.0)
@@ -279,7 +279,7 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
     assert {player.won + player.tied + player.lost for player in table.players} == {4}
     points = [player.points for player in table.order()]
     assert points == sorted(points, reverse=True)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert lab(arcade) is here
 
 

@@ -12,7 +12,7 @@ from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, Shelf
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -30,9 +30,9 @@ def lab(arcade: Arcade) -> Lab:
 
 
 def menu(arcade: Arcade, item: str) -> None:
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(LabMenu).focus.go(item)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.wait(0.5)
 
 
@@ -41,7 +41,7 @@ def save(arcade: Arcade, name: str) -> None:
     menu(arcade, "save")
     page = arcade.shown(Naming)
     spell(page, name)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
 
 
 def spell(page: Naming, name: str) -> None:
@@ -76,7 +76,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
     here.begin()
     menu(arcade, "open")
     arcade.shown(Shelf)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert lab(arcade) is here
     assert (here.name, here.workshop.training.experiences) == ("B9", kept.experiences)
     assert digest(here.workshop.training.table) == digest(kept.table)
@@ -92,7 +92,7 @@ def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> N
     page = arcade.shown(Naming)
     assert page.taken
     assert robots.file_of("VOLT").read_bytes() == before
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert lab(arcade).name == "VOLT"
     assert robots.file_of("VOLT").read_bytes() != before
 
@@ -101,7 +101,7 @@ def test_saving_again_under_the_same_name_needs_no_question(arcade: Arcade) -> N
     save(arcade, "NEON")
     menu(arcade, "save")
     assert arcade.shown(Naming).name == "NEON"
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert lab(arcade).name == "NEON"
 
 
@@ -109,7 +109,7 @@ def test_no_name_is_no_name(arcade: Arcade) -> None:
     save(arcade, " ")
     arcade.shown(Naming)
     assert robots.names() == []
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     lab(arcade)
 
 
@@ -158,7 +158,7 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     path.write_bytes(path.read_bytes()[:200])
     before = lab(arcade).workshop.training
     menu(arcade, "open")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     here = lab(arcade)
     assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.broken"))
     assert here.workshop.training is before
@@ -167,7 +167,7 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
 def test_an_empty_shelf_leads_back(arcade: Arcade) -> None:
     menu(arcade, "open")
     arcade.shown(Shelf)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     lab(arcade)
 
 
@@ -179,9 +179,9 @@ def test_many_robots_fill_more_than_one_page(arcade: Arcade) -> None:
     menu(arcade, "open")
     page = arcade.shown(Shelf)
     assert (len(page.names), page.pages) == (COLUMNS * ROWS + 2, 2)
-    arcade.press(Act.ALT)
+    arcade.press(Button.Y)
     assert len(arcade.shown(Shelf).focus.spots) == 2
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     lab(arcade)
 
 

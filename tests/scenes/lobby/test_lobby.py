@@ -13,7 +13,7 @@ from pigaming_app.scenes.lobby.seat_card import TEAM_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN
 from pigaming_app.scenes.lobby.view import card_rect
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -45,91 +45,91 @@ def test_two_pads_of_one_make_are_two_players(arcade: Arcade) -> None:
 
 
 def test_fire_again_is_ready_and_back_takes_that_back_then_leaves_then_goes_to_the_title(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
-    arcade.press(Act.FIRE, KEYS[1])
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.FIRE)
     place = arcade.shown(Lobby).seats.places[0]
     assert place.ready
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert not place.ready
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert kinds(arcade) == ".H.."
-    arcade.press(Act.BACK, KEYS[1])
-    arcade.press(Act.BACK, KEYS[1])
+    arcade.press(Button.BACK, KEYS[1])
+    arcade.press(Button.BACK, KEYS[1])
     assert arcade.stack.top is arcade.title
 
 
 def test_a_turbo_key_gives_up_the_seat_of_its_own_cluster_only(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
-    arcade.press(Act.FIRE, KEYS[1])
-    arcade.press(Act.LEAVE, KEYS[1])
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.LEAVE_SEAT, KEYS[1])
     assert kinds(arcade) == "H..."
-    arcade.press(Act.LEAVE, KEYS[2])
+    arcade.press(Button.LEAVE_SEAT, KEYS[2])
     assert kinds(arcade) == "H..."
 
 
 def test_one_person_alone_who_is_ready_gets_an_ai_and_a_moment_in_which_others_may_join(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE)
     assert kinds(arcade) == "HA.."
     arcade.wait(lobby.ALONE - 0.3, draw=True)
-    arcade.press(Act.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(2.0)
     assert kinds(arcade) == "HAH."
-    arcade.press(Act.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(lobby.ALL + 0.2)
     arcade.shown(SetupPage)
 
 
 def test_start_begins_at_once_and_the_unready_count_as_ready(arcade: Arcade) -> None:
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert kinds(arcade) == "H..."
-    arcade.press(Act.FIRE, KEYS[1])
-    arcade.press(Act.START)
+    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.START)
     page = arcade.shown(SetupPage)
     assert [seat.brain for seat in page.seats.seats()] == ["human", "human", "off", "off"]
 
 
 def test_ais_come_one_by_one_and_go_all_at_once(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     for expected in ("HA..", "HAA.", "HAAA", "H..."):
-        arcade.press(Act.ALT)
+        arcade.press(Button.Y)
         assert kinds(arcade) == expected
 
 
 def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade) -> None:
-    arcade.press(Act.ALT)
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.Y)
+    arcade.press(Button.RIGHT)
     assert arcade.shown(Lobby).seats.places[0].strength == "hard"
     assert arcade.context.settings.strength == "hard"
     assert Lobby(arcade.context, "pitanks").seats.strength == "hard"
 
 
 def test_beyond_the_strongest_ai_come_those_that_taught_themselves_and_they_play(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
-    arcade.press(Act.ALT)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.Y)
     for wanted in ("hard", "q1", "q2", "q2"):
-        arcade.press(Act.UP)
+        arcade.press(Button.UP)
         assert arcade.shown(Lobby).seats.places[1].strength == wanted
         arcade.frame(draw=True)
     assert arcade.context.settings.strength == "hard"
-    arcade.press(Act.START)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
+    arcade.press(Button.START)
     assert [seat.brain for seat in arcade.shown(SetupPage).seats.seats()] == ["human", "q2", "off", "off"]
 
 
 def test_with_teams_left_and_right_choose_ones_own_and_nobody_plays_against_nobody(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
-    arcade.press(Act.FIRE, KEYS[1])
-    arcade.press(Act.EXTRA)
-    arcade.press(Act.LEFT, KEYS[1])
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.X)
+    arcade.press(Button.LEFT, KEYS[1])
     seats = arcade.shown(Lobby).seats
     assert [place.team for place in seats.places[:2]] == [0, 0]
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert arcade.sounds.heard[-1] == "error"
     assert arcade.shown(Lobby).now.message == arcade.context.words("lobby.teams_need")
-    arcade.press(Act.RIGHT, KEYS[1])
-    arcade.press(Act.START)
+    arcade.press(Button.RIGHT, KEYS[1])
+    arcade.press(Button.START)
     assert [seat.team for seat in arcade.shown(SetupPage).seats.seats()][:2] == [0, 1]
 
 
@@ -147,8 +147,8 @@ def test_a_pad_that_is_pulled_out_leaves_its_seat_with_a_word(arcade: Arcade) ->
 
 def test_four_people_are_enough(arcade: Arcade) -> None:
     for device in KEYS:
-        arcade.press(Act.FIRE, device)
-    arcade.press(Act.FIRE, Device("pad", 9))
+        arcade.press(Button.FIRE, device)
+    arcade.press(Button.FIRE, Device("pad", 9))
     assert kinds(arcade) == "HHHH"
     assert arcade.sounds.heard[-1] == "error"
 
@@ -164,21 +164,21 @@ def test_a_mouse_alone_can_have_ais_play(arcade: Arcade) -> None:
     arcade.click(*card_rect(2).center)
     assert kinds(arcade) == "A..."
     arcade.click(*card_rect(2).center)
-    arcade.stack.turn(arcade.stack.top.on(Press(Act.START, Device("mouse"))))
+    arcade.stack.turn(arcade.stack.top.on(InputEvent(Button.START, Device("mouse"))))
     assert [seat.brain for seat in arcade.shown(SetupPage).seats.seats()] == ["hard", "off", "hard", "off"]
 
 
 def test_when_nobody_is_there_the_title_comes_back(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.context.idle = lobby.IDLE + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
 
 
 def test_whoever_comes_back_from_the_choice_of_the_arena_has_to_be_ready_again(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
-    arcade.press(Act.START)
-    arcade.press(Act.BACK)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.START)
+    arcade.press(Button.BACK)
     assert not arcade.shown(Lobby).seats.places[0].ready
     arcade.wait(3.0)
     arcade.shown(Lobby)
@@ -188,19 +188,19 @@ def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(
     arcade.context.mat = EmulatedMat(live=False)
     arcade.context.settings.real = [2]
     arcade.open(Lobby(arcade.context, "pitanks"))
-    arcade.press(Act.FIRE)
-    arcade.press(Act.FIRE, KEYS[1])
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, KEYS[1])
     page = arcade.shown(Lobby)
     assert page.seats.real() == [1]
-    arcade.press(Act.UP)
-    arcade.press(Act.DOWN, KEYS[1])
+    arcade.press(Button.UP)
+    arcade.press(Button.DOWN, KEYS[1])
     assert page.seats.real() == [0]
     assert arcade.context.settings.real == [1]
     arcade.click(card_rect(1).centerx, card_rect(1).top + TEAM_Y)
     assert page.seats.real() == [0, 1]
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     arcade.shown(Lobby)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert page.seats.real() == [1]
 
 
@@ -210,8 +210,8 @@ def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls,
     arcade.context.mat = EmulatedMat(live=False)
     arcade.context.settings.radio, arcade.context.settings.real = "stock", [1]
     arcade.open(Lobby(arcade.context, "pitanks"))
-    arcade.press(Act.FIRE)
-    arcade.press(Act.UP)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.UP)
     page = arcade.shown(Lobby)
     assert page.seats.real() == []
     assert "deadman" in page.now.message
@@ -220,7 +220,7 @@ def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls,
 def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
     arcade.context.settings.real = [1, 2, 3, 4]
     arcade.open(Lobby(arcade.context, "race"))
-    arcade.press(Act.FIRE)
-    arcade.press(Act.UP)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.UP)
     assert arcade.shown(Lobby).seats.real() == []
     assert arcade.context.settings.real == [1, 2, 3, 4]

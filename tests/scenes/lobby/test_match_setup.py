@@ -17,7 +17,7 @@ from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -41,20 +41,20 @@ def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
     seen = []
     for _ in arenas("pitanks"):
         seen.append(page(arcade).chosen.arena)
-        arcade.press(Act.RIGHT)
+        arcade.press(Button.RIGHT)
     assert sorted(seen) == sorted(arenas("pitanks"))
     assert page(arcade).chosen.arena == seen[0]
 
 
 def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
-    for act in (Act.RIGHT, Act.DOWN, Act.RIGHT, Act.DOWN, Act.RIGHT):
-        arcade.press(act)
+    for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.RIGHT):
+        arcade.press(button)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, GAMES["pitanks"].variants[1])
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
     arcade.wait(0.5)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
     assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
@@ -64,10 +64,10 @@ def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp
 
 
 def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
-    arcade.press(Act.DOWN)
-    for act, last in ((Act.RIGHT, max(GAMES["pitanks"].minutes)), (Act.LEFT, min(GAMES["pitanks"].minutes))):
+    arcade.press(Button.DOWN)
+    for button, last in ((Button.RIGHT, max(GAMES["pitanks"].minutes)), (Button.LEFT, min(GAMES["pitanks"].minutes))):
         for _ in range(6):
-            arcade.press(act)
+            arcade.press(button)
         assert page(arcade).chosen.minutes == last
 
 
@@ -127,13 +127,13 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
     seats.join(KEYS[0])
     seats.fill()
     arcade.open(SetupPage(arcade.context, game, seats))
-    arcade.press(Act.DOWN)
-    for act, last in ((Act.RIGHT, max(rules.goals)), (Act.LEFT, min(rules.goals))):
+    arcade.press(Button.DOWN)
+    for button, last in ((Button.RIGHT, max(rules.goals)), (Button.LEFT, min(rules.goals))):
         for _ in rules.goals:
-            arcade.press(act)
+            arcade.press(button)
         assert page(arcade).chosen.goal == last
     arcade.wait(0.5, draw=True)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert match.setup.goal == min(rules.goals)
     assert arcade.context.settings.choice("pitanks") == Choice()

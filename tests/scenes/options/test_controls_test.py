@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.scenes.options import controls_test as padtest
 from pigaming_app.scenes.options.controls_test import PadTest
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -64,7 +64,7 @@ def test_a_short_b_is_only_shown_and_a_long_one_leaves(arcade: Arcade) -> None:
 
 
 def test_escape_and_a_click_on_the_hint_leave(arcade: Arcade) -> None:
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
     arcade.open(PadTest(arcade.context))
     arcade.click(960, 980)

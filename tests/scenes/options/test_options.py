@@ -13,7 +13,7 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, Table
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
@@ -36,7 +36,7 @@ def go(arcade: Arcade, name: str) -> OptionsPage:
     """Put the focus on a row."""
     page = arcade.shown(OptionsPage)
     while page.focus.name != name:
-        arcade.press(Act.DOWN)
+        arcade.press(Button.DOWN)
     return page
 
 
@@ -46,7 +46,7 @@ def kept(tmp_path: Path) -> dict[str, object]:
 
 def test_the_language_changes_under_ones_hands(arcade: Arcade, tmp_path: Path) -> None:
     go(arcade, "language")
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.RIGHT)
     assert arcade.context.words("options.title") == "Opções"
     assert kept(tmp_path)["language"] == "pt"
     arcade.shown(OptionsPage)
@@ -55,10 +55,10 @@ def test_the_language_changes_under_ones_hands(arcade: Arcade, tmp_path: Path) -
 def test_volumes_go_from_0_to_10_and_no_further(arcade: Arcade, tmp_path: Path) -> None:
     go(arcade, "music")
     for _ in range(12):
-        arcade.press(Act.LEFT)
+        arcade.press(Button.LEFT)
     assert arcade.context.settings.music == 0
     for _ in range(12):
-        arcade.press(Act.RIGHT)
+        arcade.press(Button.RIGHT)
     assert kept(tmp_path)["music"] == 10
 
 
@@ -67,7 +67,7 @@ def test_fire_goes_round(arcade: Arcade) -> None:
     before = arcade.context.settings.flashes
     seen = [before]
     for _ in range(3):
-        arcade.press(Act.FIRE)
+        arcade.press(Button.FIRE)
         seen.append(arcade.context.settings.flashes)
     assert set(seen) == {"off", "soft", "full"}
     assert seen[-1] == before
@@ -124,7 +124,7 @@ def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, kiosk: bool)
     arcade.open(OptionsPage(arcade.context, operator=True))
     page = arcade.shown(OptionsPage)
     for name in (*page.rows[1:], page.rows[0]):
-        arcade.press(Act.DOWN)
+        arcade.press(Button.DOWN)
         assert page.focus.name == name
 
 
@@ -135,7 +135,7 @@ def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -
         go(arcade, "reset")
         pad.press("a")
         arcade.wait(1.0)
-        arcade.press(Act.UP)
+        arcade.press(Button.UP)
         arcade.wait(2.0)
     assert arcade.context.scores.best(TABLE)
 
@@ -157,7 +157,7 @@ def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkey
 
     monkeypatch.setattr(Settings, "save", full)
     page = go(arcade, "shake")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.context.settings.shake is False
     assert page.navigation.sentence == arcade.context.words("app.unsaved")
     arcade.shown(OptionsPage)
@@ -170,13 +170,13 @@ def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arc
     assert {"music", "sounds", "display", "fullscreen", "reset", "close", "language"} <= set(operator.rows)
     arcade.open(operator)
     go(arcade, "close")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.stack.scenes == []
 
 
 def test_the_test_of_the_controls_is_one_press_away(arcade: Arcade) -> None:
     go(arcade, "padtest")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(PadTest)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.shown(OptionsPage).focus.name == "padtest"

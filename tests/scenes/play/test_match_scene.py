@@ -14,7 +14,7 @@ from pigaming_app.scenes.play.reconnect import WAIT, Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -90,8 +90,8 @@ def test_a_nap_of_the_machine_is_no_burst_of_ticks(arcade: Arcade) -> None:
     assert match.match.state.tick - before <= 4
 
 
-@pytest.mark.parametrize("act", [Act.START, Act.BACK])
-def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: Act) -> None:
+@pytest.mark.parametrize("act", [Button.START, Button.BACK])
+def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: Button) -> None:
     match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS)
     arcade.open(match)
     arcade.wait(COUNTDOWN + 1.0)
@@ -118,27 +118,27 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     match = MatchScene(arcade.context, setup("human easy off off", 1.0), KEYS[:1])
     arcade.open(match)
     arcade.wait(COUNTDOWN + 1.0)
-    arcade.press(Act.START)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.START)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
     arcade.shown(DeviceTable)
-    arcade.press(Act.BACK)
-    arcade.press(Act.UP)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.BACK)
+    arcade.press(Button.UP)
+    arcade.press(Button.FIRE)
     arcade.shown(Pause)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.frame()
     fresh = arcade.shown(MatchScene)
     assert fresh is not match
     assert fresh.match.state.tick == 0
     assert fresh.setup.seed != match.setup.seed
     assert fresh.devices[0] == KEYS[0]
-    arcade.press(Act.START)
-    arcade.press(Act.UP)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.START)
+    arcade.press(Button.UP)
+    arcade.press(Button.FIRE)
     arcade.shown(Pause)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.until(lambda: isinstance(arcade.stack.top, Results))
     assert not arcade.shown(Results).page.finished
     assert len(arcade.stack.scenes) == 3
@@ -176,11 +176,11 @@ def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade, pads: Exi
     arcade.frame()
     arcade.frame()
     assert arcade.shown(Reconnect).seat == 0
-    arcade.press(Act.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, KEYS[2])
     arcade.frame()
     assert arcade.shown(Reconnect).seat == 1, "one after the other"
     arcade.wait(1.1)
-    arcade.press(Act.EXTRA, KEYS[2])
+    arcade.press(Button.X, KEYS[2])
     arcade.frame()
     arcade.shown(MatchScene)
     assert match.devices[:2] == [KEYS[2], None]
@@ -234,7 +234,7 @@ def test_still_there(arcade: Arcade) -> None:
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.match.seconds == pytest.approx(60.0, abs=1.0)
     arcade.shown(StillThere)
-    arcade.press(Act.LEFT)
+    arcade.press(Button.LEFT)
     assert arcade.stack.top is match
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     arcade.until(lambda: arcade.stack.top is arcade.title, 20.0)
@@ -257,9 +257,9 @@ def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcad
     match = MatchScene(arcade.context, setup("human human off off", 1.0), [KEYS[0], None])
     arcade.open(match)
     assert match.stood_in == [1]
-    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, KEYS[0])
     assert match.stood_in == [1]
-    arcade.press(Act.FIRE, KEYS[3])
+    arcade.press(Button.FIRE, KEYS[3])
     assert match.devices[1] == KEYS[3]
 
 

@@ -13,7 +13,7 @@ from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, Demonstration, Page
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import Arcade, setup
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.title.test_attract import scores_of
@@ -42,11 +42,13 @@ def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) 
     assert arcade.sounds.heard == [], "nobody is listening"
 
 
-@pytest.mark.parametrize("act", [Act.FIRE, Act.START, Act.LEFT, Act.BACK, Act.POINT, Act.CLICK, Act.FOUND])
-def test_any_input_ends_it(arcade: Arcade, act: Act) -> None:
+@pytest.mark.parametrize(
+    "act", [Button.FIRE, Button.START, Button.LEFT, Button.BACK, Button.POINT, Button.CLICK, Button.FOUND]
+)
+def test_any_input_ends_it(arcade: Arcade, button: Button) -> None:
     arcade.open(Attract(arcade.context))
     arcade.wait(0.2, draw=True)
-    arcade.press(act, Device("mouse") if act in (Act.POINT, Act.CLICK) else Device("keys"))
+    arcade.press(button, Device("mouse") if button in (Button.POINT, Button.CLICK) else Device("keys"))
     assert arcade.stack.top is arcade.title
 
 
@@ -72,21 +74,21 @@ def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple
     scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     arcade.wait(1.0, draw=True)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     before = scene.stage.match.state.tick
     arcade.wait(1.0, draw=True)
     assert scene.stage.match.state.tick == before
-    for act in (Act.FIRE, Act.RIGHT, Act.RIGHT, Act.RIGHT):
-        arcade.press(act)
+    for button in (Button.FIRE, Button.RIGHT, Button.RIGHT, Button.RIGHT):
+        arcade.press(button)
     arcade.wait(1.0, draw=True)
     assert scene.stage.match.state.tick - before == pytest.approx(200, abs=5)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     assert scene.stage.match.state.tick == 0
-    arcade.press(Act.LEFT)
+    arcade.press(Button.LEFT)
     arcade.until(lambda: scene.ended)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert not scene.ended
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 
@@ -100,7 +102,7 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
     arena = pygame.Rect(160, 136, 1600, 908)
     with measuring(monkeypatch) as screen:
         if paused:
-            scene.on(Press(Act.FIRE, Device("keys")))
+            scene.on(InputEvent(Button.FIRE, Device("keys")))
         monkeypatch.setattr(scene.stage, "draw", lambda canvas: canvas.fill("black"))
         monkeypatch.setattr(scene.stage, "captions", lambda *_: None)
         scene.draw(screen)
@@ -109,18 +111,18 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
         lit = pygame.mask.from_threshold(screen, "black", (12, 12, 12, 255))
         lit.invert()
         assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
-    for act, box in zip(scene.prompts.acts, boxes(scene.prompts.said), strict=True):
-        assert scene.hints.as_button(Press(Act.CLICK, Device("mouse"), at=box.center)).act is act
+    for button, box in zip(scene.prompts.buttons, boxes(scene.prompts.said), strict=True):
+        assert scene.hints.as_button(InputEvent(Button.CLICK, Device("mouse"), at=box.center)).button is button
 
 
 def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:
     scene = ReplayScene(arcade.context, load(recorded[0]))
     arcade.open(scene)
     assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(ReplayScene)
     assert scene.prompts.said[0][1] == "Play"
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.until(lambda: scene.ended)
     arcade.shown(ReplayScene)
     assert [text for _, text in scene.prompts.said] == ["From the start", "Back"]

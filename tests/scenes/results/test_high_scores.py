@@ -12,7 +12,7 @@ from pigaming_app.storage.scores import Table
 from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 
 ALONE = Table("pitanks", "classic", "points", rules="pickups", length=2, people=1)
@@ -57,20 +57,20 @@ def test_an_empty_table_gives_way_to_the_nearest_one_with_rows(
 
 def test_left_and_right_lead_round_the_tables_of_an_arena_and_up_and_down_round_the_arenas(arcade: Arcade) -> None:
     best = opened(arcade, ALONE, ALONE, PAIR, OLDER, ISLANDS, LAP)
-    for act, table in (
-        (Act.RIGHT, PAIR),
-        (Act.RIGHT, OLDER),
-        (Act.RIGHT, ALONE),
-        (Act.LEFT, OLDER),
-        (Act.DOWN, ISLANDS),
-        (Act.DOWN, LAP),
-        (Act.LEFT, LAP),
-        (Act.DOWN, ALONE),
-        (Act.UP, LAP),
+    for button, table in (
+        (Button.RIGHT, PAIR),
+        (Button.RIGHT, OLDER),
+        (Button.RIGHT, ALONE),
+        (Button.LEFT, OLDER),
+        (Button.DOWN, ISLANDS),
+        (Button.DOWN, LAP),
+        (Button.LEFT, LAP),
+        (Button.DOWN, ALONE),
+        (Button.UP, LAP),
     ):
-        arcade.press(act)
+        arcade.press(button)
         arcade.frame(draw=True)
-        assert shown(best, table), act
+        assert shown(best, table), button
     assert arcade.stack.top is best
 
 
@@ -81,17 +81,17 @@ def test_every_table_with_rows_can_be_reached(arcade: Arcade) -> None:
     for _ in range(3):
         for _ in tables:
             seen.add(best.contest)
-            arcade.press(Act.RIGHT)
-        arcade.press(Act.DOWN)
+            arcade.press(Button.RIGHT)
+        arcade.press(Button.DOWN)
     assert seen == set(contests(arcade.context.scores))
 
 
 def test_a_click_on_an_arrow_goes_its_way_and_a_click_elsewhere_leads_on(arcade: Arcade) -> None:
     best = opened(arcade, ALONE, ALONE, PAIR, ISLANDS)
-    assert set(best.arrows) == {Act.LEFT, Act.RIGHT, Act.UP, Act.DOWN}
-    arcade.click(*best.arrows[Act.RIGHT])
+    assert set(best.arrows) == {Button.LEFT, Button.RIGHT, Button.UP, Button.DOWN}
+    arcade.click(*best.arrows[Button.RIGHT])
     assert shown(best, PAIR)
-    arcade.click(*best.arrows[Act.DOWN])
+    arcade.click(*best.arrows[Button.DOWN])
     assert shown(best, ISLANDS)
     arcade.click(960, 600)
     assert arcade.stack.top is not best
@@ -100,7 +100,7 @@ def test_a_click_on_an_arrow_goes_its_way_and_a_click_elsewhere_leads_on(arcade:
 def test_it_leaves_when_nobody_presses_any_more(arcade: Arcade) -> None:
     best = opened(arcade, ALONE, ALONE, PAIR)
     arcade.wait(STAY - 2.0)
-    arcade.press(Act.RIGHT)
+    arcade.press(Button.RIGHT)
     arcade.wait(STAY - 1.0)
     assert arcade.stack.top is best
     arcade.wait(2.0)
@@ -128,7 +128,7 @@ def test_every_heading_fits_and_nothing_runs_over_the_edge(controls: Controls, l
     arcade = Arcade(controls, language)
     best = opened(arcade, tables[0], *tables)
     for _ in tables[:8]:
-        arcade.press(Act.RIGHT)
+        arcade.press(Button.RIGHT)
         arcade.wait(1.0, fps=10, draw=True)
         lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
         lit.invert()

@@ -19,7 +19,7 @@ from pigaming_app.scenes.results.scene import IDLE, Results
 from pigaming_app.storage.scores import Scores, Table
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 from tests.scenes.arcade import KEYS, Arcade, setup
 
@@ -95,8 +95,8 @@ def test_every_ending_is_shown(
 def test_nobody_who_still_fires_leaves_the_results_unseen(arcade: Arcade) -> None:
     results = opened(arcade, "human human hard off", LOST)
     for _ in range(10):
-        for act in (Act.FIRE, Act.BACK, Act.START, Act.EXTRA):
-            arcade.press(act)
+        for button in (Button.FIRE, Button.BACK, Button.START, Button.X):
+            arcade.press(button)
         arcade.frame(0.1)
     assert arcade.stack.top is results
     assert not results.ballot.votes
@@ -105,13 +105,13 @@ def test_nobody_who_still_fires_leaves_the_results_unseen(arcade: Arcade) -> Non
 def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
     results = opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
-    arcade.press(Act.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, KEYS[1])
     arcade.frame()
     assert arcade.shown(Results) is results
-    arcade.press(Act.FIRE, KEYS[3])
+    arcade.press(Button.FIRE, KEYS[3])
     arcade.frame()
     assert arcade.stack.top is results, "a free key cluster has no vote"
-    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, KEYS[0])
     arcade.frame()
     match = arcade.shown(MatchScene)
     assert match.devices == [KEYS[0], KEYS[1], None, None]
@@ -123,14 +123,14 @@ def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
 def test_start_waits_for_nobody(arcade: Arcade) -> None:
     opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
-    arcade.press(Act.START, KEYS[1])
+    arcade.press(Button.START, KEYS[1])
     assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[1]]
 
 
 def test_somebody_who_has_gone_holds_nobody_up(arcade: Arcade) -> None:
     opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
-    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, KEYS[0])
     waited = arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
     assert waited == pytest.approx(PATIENCE, abs=0.2)
     assert arcade.shown(MatchScene).devices == [KEYS[0], None, None, None]
@@ -140,8 +140,8 @@ def test_a_free_pad_votes_for_a_seat_whose_pad_has_gone(arcade: Arcade) -> None:
     results = opened(arcade, "human human hard off", LOST)
     results.ballot.devices[1] = Device("pad", 999)
     arcade.wait(LONG)
-    arcade.press(Act.FIRE, KEYS[0])
-    arcade.press(Act.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, KEYS[2])
     arcade.frame()
     assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[2]]
 
@@ -149,14 +149,14 @@ def test_a_free_pad_votes_for_a_seat_whose_pad_has_gone(arcade: Arcade) -> None:
 def test_other_ways_on(arcade: Arcade) -> None:
     opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
-    arcade.press(Act.ALT)
+    arcade.press(Button.Y)
     arcade.wait(1.0, draw=True)
     arcade.shown(Best)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(Results)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     arcade.shown(GameChoice)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.shown(Results)
     opened(arcade, "human human hard off", LOST)
     arcade.until(lambda: arcade.stack.top is arcade.title, IDLE + 1.0)
@@ -176,21 +176,21 @@ def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) 
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     page = arcade.shown(Initials)
     assert [claim.seat for claim in page.claims] == [0, 1], "an AI and a loss do not count"
-    arcade.press(Act.DOWN, KEYS[1])
+    arcade.press(Button.DOWN, KEYS[1])
     arcade.wait(1.0)
-    for act in (Act.UP, Act.FIRE, Act.DOWN, Act.DOWN, Act.FIRE, Act.BACK, Act.FIRE):
-        arcade.press(act, KEYS[1])
-        arcade.press(Act.DOWN, KEYS[3])  # the others cannot interfere
-        arcade.press(Act.START, KEYS[2])
+    for button in (Button.UP, Button.FIRE, Button.DOWN, Button.DOWN, Button.FIRE, Button.BACK, Button.FIRE):
+        arcade.press(button, KEYS[1])
+        arcade.press(Button.DOWN, KEYS[3])  # the others cannot interfere
+        arcade.press(Button.START, KEYS[2])
         arcade.frame(draw=True)
-    arcade.press(Act.DOWN, KEYS[0])
+    arcade.press(Button.DOWN, KEYS[0])
     assert [page.spellings[KEYS[seat]].spelled for seat in (0, 1)] == ["BAA", "ZCA"]
-    arcade.press(Act.START, KEYS[0])
+    arcade.press(Button.START, KEYS[0])
     assert arcade.shown(Initials) is page, "START of one player does not accept the letters of another"
-    arcade.press(Act.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(2.0, draw=True)
     assert [row.initials for row in arcade.shown(Best).fresh] == ["BAA", "ZCA"]
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.shown(Results) is results
     kept, said = Scores.load(folders().data)
     assert not said
@@ -203,9 +203,9 @@ def test_after_ten_seconds_letters_are_taken_as_they_are_but_not_those_of_somebo
     opened(arcade, "human human human off", outcome({0: 4, 1: 9, 2: 3}, (1,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.wait(1.0)
-    arcade.press(Act.UP, KEYS[0])
+    arcade.press(Button.UP, KEYS[0])
     for _ in range(30):
-        arcade.press(Act.FIRE, KEYS[1])
+        arcade.press(Button.FIRE, KEYS[1])
     waited = 1.0 + arcade.until(lambda: isinstance(arcade.stack.top, Best))
     assert waited == pytest.approx(SECONDS, abs=0.2)
     assert [row.initials for row in arcade.shown(Best).fresh] == ["ZAA"]
@@ -220,13 +220,13 @@ def test_rude_words_and_their_look_alikes_are_refused(arcade: Arcade) -> None:
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.wait(1.0)
     for device in (KEYS[0], KEYS[3]):
-        for act in (Act.RIGHT, *[Act.UP] * 8, Act.RIGHT, *[Act.DOWN] * 18, Act.START):
-            arcade.press(act, device)
+        for button in (Button.RIGHT, *[Button.UP] * 8, Button.RIGHT, *[Button.DOWN] * 18, Button.START):
+            arcade.press(button, device)
     page = arcade.shown(Initials)
     assert page.spellings[KEYS[0]].refused
     assert not page.spellings[KEYS[0]].done
-    arcade.press(Act.UP, KEYS[0])
-    arcade.press(Act.FIRE, KEYS[0])
+    arcade.press(Button.UP, KEYS[0])
+    arcade.press(Button.FIRE, KEYS[0])
     arcade.until(lambda: isinstance(arcade.stack.top, Best))
     assert [row.initials for row in arcade.shown(Best).fresh] == ["ASR", HARMLESS]
 
@@ -265,8 +265,8 @@ def test_enter_counts_for_nobody_while_two_players_share_a_keyboard(arcade: Arca
     opened(arcade, "human human off off", outcome({0: 4, 1: 9}, (1,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.wait(1.0)
-    arcade.press(Act.UP, KEYS[1])
-    arcade.stack.top.on(Press(Act.START, KEYS[1], among=(KEYS[1], KEYS[0], KEYS[2], KEYS[3])))
+    arcade.press(Button.UP, KEYS[1])
+    arcade.stack.top.on(InputEvent(Button.START, KEYS[1], among=(KEYS[1], KEYS[0], KEYS[2], KEYS[3])))
     assert not any(spelling.done for spelling in arcade.shown(Initials).spellings.values())
 
 
@@ -350,7 +350,7 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
         [("lap", 9_870), ("race", 30_120)],
     )
     arcade.wait(1.0)
-    arcade.press(Act.START, KEYS[0])
+    arcade.press(Button.START, KEYS[0])
     arcade.wait(2.0, draw=True)
     arcade.shown(Best)
     kept, said = Scores.load(folders().data)

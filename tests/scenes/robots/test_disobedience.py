@@ -10,7 +10,7 @@ from pigaming_app.scenes.robots.fault_page import Trouble
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.start_match import match_of
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import arcade, begun, kept, mat, match_for, play, until
 
@@ -63,7 +63,7 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
     assert {name for name, _ in named(arcade)} == {"disobeys"}
     mat.arena.faults.switch(fault, False, 0)
     play(arcade, 3.0)
-    arcade.press(Act.ALT)
+    arcade.press(Button.Y)
     until(arcade, RealMatch)
     before = match.match.state.tick
     play(arcade, 2.5)
@@ -75,7 +75,7 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(arcad
     mat.arena.faults.switch("lids_swapped", True, 0)
     until(arcade, Trouble, 3.0)
     play(arcade, 0.1)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(PairAgain)
     until(arcade, RealMatch, 25.0)
     assert arcade.context.settings.radios[:2] == [2, 1]
@@ -87,17 +87,17 @@ def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcad
     mat.arena.faults.switch("motors_reversed", True, 1)
     until(arcade, Trouble, 3.0)
     play(arcade, 0.1)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     page = arcade.shown(PairAgain)
     for _ in range(100):
         play(arcade, 0.2)
         if page.sentence:
             break
     assert page.sentence.startswith("Robot 2 turns the wrong way")
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     play(arcade, 0.5)
     assert ("disobeys", 1) in named(arcade)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     until(arcade, RealMatch)
 
 
@@ -106,9 +106,9 @@ def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedMat
     mat.arena.faults.switch("motors_reversed", True, 1)
     until(arcade, Trouble, 3.0)
     play(arcade, 0.1)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     play(arcade, 2.0)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     stopped = mat.arena.clock()
     play(arcade, 1.0)
     assert max(mat.arena.ran) - stopped < 0.3
@@ -120,7 +120,7 @@ def test_a_single_reversed_motor_drives_off_only_a_hand_wide_while_pairing(arcad
     until(arcade, Trouble, 3.0)
     play(arcade, 0.5)
     x, y, _ = mat.arena.poses()[1]
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     page = arcade.shown(PairAgain)
     for _ in range(100):
         play(arcade, 0.2)

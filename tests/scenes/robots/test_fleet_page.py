@@ -12,7 +12,7 @@ from pigaming_app.scenes.robots.avoid_discs import hit
 from pigaming_app.scenes.robots.fleet_page import RobotsPage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
@@ -49,10 +49,10 @@ def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: 
     arcade.context.settings.radio = "stock"
     page = RobotsPage(arcade.context)
     arcade.open(page)
-    arcade.press(Act.UP)
+    arcade.press(Button.UP)
     assert page.focus.name == "radio"
     assert "no deadman" in page._line()
-    arcade.press(Act.LEFT)
+    arcade.press(Button.LEFT)
     assert "no deadman" not in page._line()
 
 
@@ -78,12 +78,12 @@ def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedMat) -
     discs = page.discs.circles({0, 1, 2, 3})
     assert len(discs) == 12
     assert not hit(page.aside.placed, discs)
-    arcade.press(Act.DOWN)
+    arcade.press(Button.DOWN)
     assert page.focus.name == "latency"
     box = page.focus.spots[0].rect
     rows = page.aside.placed[0]
     at = [rows.at[i] + (box.center[i] - rows.home.topleft[i]) * rows.scale for i in (0, 1)]
-    page.on(Press(Act.POINT, Device("mouse"), at=(at[0], at[1])))
+    page.on(InputEvent(Button.POINT, Device("mouse"), at=(at[0], at[1])))
     assert page.focus.name == "pair", "the row is where it is shown"
 
 
@@ -95,7 +95,7 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedM
     heard = mat.arena.firmwares
     heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot  # each radio sits in the other robot
     try:
-        arcade.press(Act.FIRE)
+        arcade.press(Button.FIRE)
         assert page.check.busy
         idle(arcade, page)
         assert rig.channels[:2] == (1, 0)
@@ -110,10 +110,10 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedM
 
 def test_any_press_stops_what_moves(arcade: Arcade, mat: EmulatedMat) -> None:
     page = arcade.shown(RobotsPage)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.wait(1.2, fps=50)
     assert any(robot.left for robot in mat.arena.robots)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.shown(RobotsPage) is page
     arcade.wait(0.3, fps=50)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)
@@ -148,13 +148,13 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         arcade.wait(0.5)
         arcade.until(lambda: mat.trouble is not None, 5.0)
         assert "Não há nenhuma porta /dev/nowhere" in str(page._trouble())
-        arcade.press(Act.UP)
-        arcade.press(Act.LEFT)
+        arcade.press(Button.UP)
+        arcade.press(Button.LEFT)
         assert settings.radio == "api2"
-        arcade.press(Act.RIGHT)
+        arcade.press(Button.RIGHT)
         assert settings.radio == "api1"
         assert Settings.load(folders().config)[0].radio == "api1"
         arcade.wait(1.5, draw=True)
     finally:
-        arcade.press(Act.BACK)
+        arcade.press(Button.BACK)
     assert arcade.context.mat.trouble is None

@@ -15,7 +15,7 @@ from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.robots.menu import SHEET, RobotsMenu
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
@@ -28,24 +28,24 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.open(OptionsPage(arcade.context))
     go(arcade, OptionsPage, "robots")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     return arcade
 
 
 def go(arcade: Arcade, kind: type[OptionsPage] | type[RobotsMenu], name: str) -> None:
     page = arcade.shown(kind)
     while page.focus.name != name:
-        arcade.press(Act.DOWN)
+        arcade.press(Button.DOWN)
 
 
 @pytest.mark.parametrize(("name", "kind"), [("calibrate", CalibrationPage), ("check", CheckPage), ("pin", PinPage)])
 def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, kind: type[PinPage]) -> None:
     go(arcade, RobotsMenu, name)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     arcade.shown(kind)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     assert arcade.shown(RobotsMenu).focus.name == name
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     arcade.shown(OptionsPage)
 
 
@@ -53,7 +53,7 @@ def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, ki
 def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, tmp_path: Path, language: str) -> None:
     arcade.context.words.switch(language)
     go(arcade, RobotsMenu, "sheet")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     written = tmp_path / "data" / SHEET
     assert written.read_bytes().startswith(b"%PDF")
     assert str(written) in arcade.shown(RobotsMenu).navigation.sentence
@@ -64,14 +64,14 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
 ) -> None:
     (tmp_path / "data" / SHEET).mkdir(parents=True)
     go(arcade, RobotsMenu, "sheet")
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("app.unsaved")
 
     def none() -> bytes:
         raise NoVision(Said("OpenCV is not installed.", "no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("vision.no_opencv")
 
 

@@ -22,7 +22,7 @@ from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.unavailable import Refused
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -87,7 +87,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     play(arcade, 5.0)
     assert match.match.seconds > 0.5
     return match
@@ -121,7 +121,7 @@ def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: 
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     until(arcade, Results, 25.0)
     assert match.match.over
 
@@ -160,7 +160,7 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
 
 def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
-    arcade.press(Act.STOP)
+    arcade.press(Button.STOP)
     arcade.shown(Trouble)
     pressed = mat.arena.clock()
     play(arcade, 3.0)
@@ -182,8 +182,8 @@ def test_both_shoulders_of_a_pad_are_the_all_stop(controls: Controls) -> None:
         heard = []
         for button in ("leftshoulder", "rightshoulder"):
             pad.press(button)
-            heard.append([press.act for press in controls.presses(pygame.event.get())])
-    assert heard == [[], [Act.STOP]]
+            heard.append([event.button for event in controls.presses(pygame.event.get())])
+    assert heard == [[], [Button.STOP]]
 
 
 def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade: Arcade, mat: EmulatedMat) -> None:
@@ -191,7 +191,7 @@ def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade
     mat.arena.faults.switch("robot_off", True, 1)
     until(arcade, Trouble, 3.0)
     play(arcade, 0.1)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     until(arcade, RealMatch)
     assert match.real == {0}
     before, x = match.match.state.tick, match.match.state.robots[1].x
@@ -202,19 +202,19 @@ def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade
 
 def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(arcade: Arcade) -> None:
     match = begun(arcade, real=(0,))
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     arcade.shown(Pause)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
     page = arcade.shown(SwapPage)
-    arcade.press(Act.DOWN)
-    arcade.press(Act.FIRE)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
     assert page.wanted == {0: True, 1: True}
-    arcade.press(Act.BACK)
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
+    arcade.press(Button.BACK)
     assert arcade.shown(RealMatch).gathering is not None
     play(arcade, 1.0)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     assert match.plant.real == {0, 1}
     play(arcade, 4.5)
     assert match.gathering is None
@@ -273,7 +273,7 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedMat) -> No
     assert again is not match
     assert again.real == {0, 1}
     play(arcade, 1.0)
-    arcade.press(Act.START)
+    arcade.press(Button.START)
     play(arcade, 4.8)
     assert again.match.seconds > 0.5
     assert mat.open() is again.plant.rig
@@ -286,7 +286,7 @@ def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat:
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 2.5, lit=True)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     assert match.real == {0}
     assert match.gathering is not None
     for _ in range(60):
@@ -322,7 +322,7 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedMat
     page = arcade.shown(Refused)
     assert "no deadman" in page.sentence
     arcade.frame(draw=True)
-    arcade.press(Act.EXTRA)
+    arcade.press(Button.X)
     assert "no deadman" in arcade.shown(Refused).sentence
     assert mat._rig is None
     mat.arena.advance(0.3)
@@ -340,5 +340,5 @@ def test_what_cannot_be_used_is_said_and_simulated_robots_play(
     assert isinstance(page, Refused)
     arcade.open(page)
     assert arcade.shown(Refused).sentence == "There is no camera 3: plug one in."
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert type(arcade.shown(MatchScene)) is MatchScene

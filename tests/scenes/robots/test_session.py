@@ -21,7 +21,7 @@ from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
@@ -150,7 +150,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
     try:
         assert soon(told)
         assert {fault.name for fault in match.plant.faults} >= {"radio", "camera"}
-        arcade.press(Act.EXTRA)
+        arcade.press(Button.X)
         arcade.wait(6.0)
         assert match.match.seconds > 1.0
     finally:
@@ -167,7 +167,7 @@ class Failing(RealMatch):
             raise RuntimeError("on purpose")
         return turn
 
-    def on(self, press: Press) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
 

@@ -15,7 +15,7 @@ from pigaming_app.scenes.title.kiosk_unlock import HOLD
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Act
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
@@ -35,9 +35,9 @@ def title(arcade: Arcade) -> Title:
 
 
 def test_fire_opens_the_lobby_of_the_game_and_back_returns(arcade: Arcade) -> None:
-    arcade.press(Act.FIRE)
+    arcade.press(Button.FIRE)
     assert arcade.shown(Lobby).game == "pitanks"
-    arcade.press(Act.BACK)
+    arcade.press(Button.BACK)
     title(arcade)
 
 
@@ -45,7 +45,7 @@ def test_the_row_below_leads_to_how_to_play_options_and_out(arcade: Arcade) -> N
     for name, kind in (("howto", HowTo), ("options", OptionsPage)):
         arcade.click(*title(arcade).focus.rect(name).center)
         arcade.shown(kind)
-        arcade.press(Act.BACK)
+        arcade.press(Button.BACK)
     arcade.click(*title(arcade).focus.rect("quit").center)
     assert arcade.stack.scenes == []
 
@@ -57,7 +57,7 @@ def test_in_a_kiosk_nobody_can_quit(arcade: Arcade) -> None:
 
 
 def test_one_press_changes_the_language(arcade: Arcade) -> None:
-    arcade.press(Act.ALT)
+    arcade.press(Button.Y)
     assert (arcade.context.words.language, arcade.context.settings.language) == ("pt", "pt")
     arcade.click(*title(arcade).focus.rect("en").center)
     assert arcade.context.words.language == "en"
@@ -80,7 +80,7 @@ def test_when_nobody_is_there_a_match_begins_and_any_press_ends_it(arcade: Arcad
     arcade.context.idle = 10.1
     arcade.frame()
     assert isinstance(arcade.stack.top, Attract)
-    arcade.press(Act.DOWN)
+    arcade.press(Button.DOWN)
     title(arcade)
     assert arcade.context.idle == 0.0
 

@@ -21,7 +21,7 @@ from pigaming_app.ui.draw.frame_budget import (
     run_to_end,
 )
 from pigaming_app.ui.draw.surface_cache import SurfaceCache
-from pigaming_app.ui.input.events import Act, Press
+from pigaming_app.ui.input.events import Button, InputEvent
 
 PIECE = 0.004  # s that a piece takes
 FRAME = 0.010  # s of a frame for pieces
@@ -187,13 +187,13 @@ class Slow:
 
     def __init__(self, watch: Watch) -> None:
         self.made, self.piece = pieces(watch)
-        self.heard: list[Act] = []
+        self.heard: list[Button] = []
 
     def entered(self) -> None:
         pass
 
-    def on(self, press: Press) -> Turn:
-        self.heard.append(press.act)
+    def on(self, event: InputEvent) -> Turn:
+        self.heard.append(event.button)
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -239,7 +239,7 @@ def test_a_tap_while_a_picture_is_made_is_heard(app: App, watch: Watch) -> None:
     for kind in (pygame.KEYDOWN, pygame.KEYUP):
         pygame.event.post(pygame.Event(kind, key=pygame.K_SPACE, scancode=pygame.KSCAN_SPACE, mod=0, unicode=""))
     assert not app.compose(1 / 60)
-    assert page.heard == [Act.FIRE]
+    assert page.heard == [Button.FIRE]
 
 
 def test_a_picture_that_never_gets_ready_is_completed_after_a_while(

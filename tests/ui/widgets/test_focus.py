@@ -3,7 +3,7 @@
 import pygame
 import pytest
 
-from pigaming_app.ui.input.events import Act, Device, Press
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import GLIDE, Focus, FocusSpot
 
 PAD, MOUSE = Device("pad", 7), Device("mouse")
@@ -19,49 +19,49 @@ def focus(controls: object) -> Focus:
     return Focus([*tiles, *chips])
 
 
-def go(focus: Focus, *acts: Act, repeat: bool = False) -> str:
-    for act in acts:
-        focus.on(Press(act, PAD, repeat))
+def go(focus: Focus, *acts: Button, repeat: bool = False) -> str:
+    for button in acts:
+        focus.on(InputEvent(button, PAD, repeat))
     return focus.name
 
 
 def test_directions_lead_to_what_lies_there(focus: Focus) -> None:
-    assert go(focus, Act.RIGHT) == "race"
-    assert go(focus, Act.DOWN) == "quit"
-    assert go(focus, Act.LEFT, Act.LEFT) == "how"
-    assert go(focus, Act.UP) == "tanks"
+    assert go(focus, Button.RIGHT) == "race"
+    assert go(focus, Button.DOWN) == "quit"
+    assert go(focus, Button.LEFT, Button.LEFT) == "how"
+    assert go(focus, Button.UP) == "tanks"
 
 
 def test_past_the_last_comes_the_first_but_not_while_a_key_is_held(focus: Focus) -> None:
-    assert go(focus, Act.RIGHT, Act.RIGHT) == "tanks"
-    assert go(focus, Act.LEFT, repeat=True) == "tanks"
-    assert go(focus, Act.LEFT) == "race"
+    assert go(focus, Button.RIGHT, Button.RIGHT) == "tanks"
+    assert go(focus, Button.LEFT, repeat=True) == "tanks"
+    assert go(focus, Button.LEFT) == "race"
 
 
 def test_a_press_into_nothing_changes_nothing(controls: object) -> None:
     alone = Focus([FocusSpot("only", pygame.Rect(0, 0, 10, 10))])
-    assert not any(alone.on(Press(act, PAD)) for act in (Act.UP, Act.DOWN, Act.LEFT, Act.RIGHT))
+    assert not any(alone.on(InputEvent(button, PAD)) for button in (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT))
     assert alone.name == "only"
 
 
 def test_the_mouse_focuses_what_it_points_at_and_a_click_chooses_it(focus: Focus) -> None:
-    assert focus.on(Press(Act.POINT, MOUSE, at=(320.0, 620.0)))
+    assert focus.on(InputEvent(Button.POINT, MOUSE, at=(320.0, 620.0)))
     assert focus.name == "options"
-    click = Press(Act.CLICK, MOUSE, at=(320.0, 620.0))
+    click = InputEvent(Button.CLICK, MOUSE, at=(320.0, 620.0))
     assert focus.chosen(click) == "options"
-    beside = Press(Act.CLICK, MOUSE, at=(10.0, 10.0))
+    beside = InputEvent(Button.CLICK, MOUSE, at=(10.0, 10.0))
     assert not focus.on(beside)
     assert focus.chosen(beside) is None
 
 
 def test_fire_and_start_choose_what_is_in_focus_and_back_does_not(focus: Focus) -> None:
-    assert focus.chosen(Press(Act.FIRE, PAD)) == "tanks"
-    assert focus.chosen(Press(Act.START, PAD)) == "tanks"
-    assert focus.chosen(Press(Act.BACK, PAD)) is None
+    assert focus.chosen(InputEvent(Button.FIRE, PAD)) == "tanks"
+    assert focus.chosen(InputEvent(Button.START, PAD)) == "tanks"
+    assert focus.chosen(InputEvent(Button.BACK, PAD)) is None
 
 
 def test_the_corners_are_there_after_120_ms_and_most_of_the_way_after_half_of_that(focus: Focus) -> None:
-    go(focus, Act.RIGHT)
+    go(focus, Button.RIGHT)
     assert focus.box.x == 100
     focus.update(GLIDE / 2)
     assert focus.box.x == 100 + round(600 * (1 - 0.5**3))
@@ -71,7 +71,7 @@ def test_the_corners_are_there_after_120_ms_and_most_of_the_way_after_half_of_th
 
 
 def test_other_spots_keep_what_was_meant_if_it_is_still_there(focus: Focus) -> None:
-    go(focus, Act.RIGHT)
+    go(focus, Button.RIGHT)
     focus.place([FocusSpot("race", pygame.Rect(0, 0, 100, 100)), FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
     assert focus.name == "race"
     focus.place([FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
