@@ -130,13 +130,13 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
 
     if game not in VIEWS:
         return
-    from pigaming_app.scenes.views.benchmark.pitanks import Full
+    from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 
     pygame.display.init()
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
     match = Match(setup(game, arena))
-    scene = VIEWS[game](match.arena, match.state, ["easy", "random", "random", "random"], Full())
+    scene = VIEWS[game](match.arena, match.state, ["easy", "random", "random", "random"], AllEffects())
     for seat in range(4):
         match.sit(seat, make(game, "random", seat))
     screen.fill((1, 2, 3))

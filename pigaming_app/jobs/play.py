@@ -261,9 +261,9 @@ def _on_screen(
 def _camera(match: Match) -> Any:
     """A camera that needs no window."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
-    from pigaming_app.scenes.views.screenshot import Still
+    from pigaming_app.scenes.views.screenshot import Screenshot
 
-    return Still(match)
+    return Screenshot(match)
 
 
 def _tell(match: Match, as_json: bool, seconds: float) -> None:

@@ -40,13 +40,13 @@ def main(seconds: float) -> int:
     good = True
     if can_compile():
         good &= measured("compiling", arcade, lab, seconds, until_fast=True)
-        for lab.workshop.speed in range(len(SPEEDS)):
+        for lab.trainer.speed in range(len(SPEEDS)):
             good &= measured("compiled", arcade, lab, seconds)
-    lab.workshop.close()
-    lab.workshop.join()
+    lab.trainer.close()
+    lab.trainer.join()
     plain = Lab(arcade.context, fast=False)
     arcade.open(plain)
-    for plain.workshop.speed in range(len(SPEEDS)):
+    for plain.trainer.speed in range(len(SPEEDS)):
         good &= measured("plain", arcade, plain, seconds)
     return 0 if good else 1
 
@@ -55,15 +55,15 @@ def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, until_fast: bo
     """Frames for so long, or until it is compiled; whether their work was little enough."""
     clock, work, frames = pygame.time.Clock(), [], []
     began = last = perf_counter()
-    matches = lab.workshop.moment.matches
-    while not lab.workshop.fast if until_fast else last - began < seconds:
+    matches = lab.trainer.moment.matches
+    while not lab.trainer.fast if until_fast else last - began < seconds:
         now, busy = perf_counter(), thread_time()
         arcade.frame(min(0.1, now - last), draw=True)
         work.append(1000 * (thread_time() - busy))
         frames.append(1000 * (now - last))
         last = now
         clock.tick(FPS)
-    matches = lab.workshop.moment.matches - matches
+    matches = lab.trainer.moment.matches - matches
     more = PLAIN if name != "compiled" else 0.0
     work, frames = sorted(work[WARM:]), sorted(frames[WARM:])
     if not work:
@@ -71,7 +71,7 @@ def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, until_fast: bo
         return True
     median, p99 = work[len(work) // 2], work[int(0.99 * len(work))]
     told = f"frame median {frames[len(frames) // 2]:.1f} p99 {frames[int(0.99 * len(frames))]:.1f} max {frames[-1]:.1f}"
-    said = f"{name:9} {SPEEDS[lab.workshop.speed]:>3}  work median {median:.2f} p99 {p99:.2f} ms"
+    said = f"{name:9} {SPEEDS[lab.trainer.speed]:>3}  work median {median:.2f} p99 {p99:.2f} ms"
     print(f"{said}  {told} ms  {matches} matches")
     return median <= MEDIAN + more and p99 <= P99 + more
 

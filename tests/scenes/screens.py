@@ -10,17 +10,17 @@ from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
-from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.results.high_score_tables import boards
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_score_tables import high_score_tables
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
@@ -111,10 +111,10 @@ def best(game: str) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         rules = GAMES[game]
         conditions = Table(game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4)
-        for board in boards(conditions):
+        for board in high_score_tables(conditions):
             for score in (999, 599_990, -100):
                 arcade.context.scores.add(board.table, "WWW", score)
-        scene = Best(arcade.context, conditions)
+        scene = HighScores(arcade.context, conditions)
         scene.age = 9.0
         return scene
 
@@ -126,7 +126,7 @@ def lesson(game: str) -> Callable[[Arcade], Scene]:
 
 
 def choice(game: str) -> Callable[[Arcade], Scene]:
-    return lambda arcade: SetupPage(arcade.context, game, seats(game))
+    return lambda arcade: MatchSetupPage(arcade.context, game, seats(game))
 
 
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
@@ -134,7 +134,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "options": lambda arcade: OptionsPage(arcade.context),
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
-    "pad test": lambda arcade: PadTest(arcade.context),
+    "pad test": lambda arcade: ControlsTest(arcade.context),
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
     "still there": lambda arcade: StillThere(match(arcade)),

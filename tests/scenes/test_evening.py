@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.scenes.flow.stack import Stack
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
@@ -39,7 +39,7 @@ def test_two_friends_and_a_loose_cable(controls: Controls, tmp_path: Path, monke
         tap(two, "a")
         tap(one, "a")
         tap(two, "a")
-        arcade.until(lambda: isinstance(arcade.stack.top, SetupPage), 10.0)
+        arcade.until(lambda: isinstance(arcade.stack.top, MatchSetupPage), 10.0)
         arcade.wait(0.5, draw=True)
         tap(two, "a")
         match = arcade.shown(MatchScene)

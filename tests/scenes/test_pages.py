@@ -12,11 +12,11 @@ from pigaming_app.scenes.howto import scene as howto
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby import seat_card as card
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.options import controls_pictures as gadgets
-from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views import game_tile
@@ -51,10 +51,10 @@ def filled() -> Seats:
 PAGES: dict[str, Callable[[Arcade], Scene]] = {
     "title": lambda arcade: Title(arcade.context),
     "lobby": lambda arcade: Lobby(arcade.context, "pitanks"),
-    "setup": lambda arcade: SetupPage(arcade.context, "pitanks", filled()),
+    "setup": lambda arcade: MatchSetupPage(arcade.context, "pitanks", filled()),
     "options": lambda arcade: OptionsPage(arcade.context),
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
-    "padtest": lambda arcade: PadTest(arcade.context),
+    "padtest": lambda arcade: ControlsTest(arcade.context),
     "howto": lambda arcade: HowTo(arcade.context),
 }
 
@@ -157,9 +157,9 @@ def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
         for _ in range(3):
             scene.on(InputEvent(Button.Y, device))
         yield scene.page.prompts
-    elif isinstance(scene, PadTest):
+    elif isinstance(scene, ControlsTest):
         yield scene._prompts()
-    elif isinstance(scene, SetupPage | OptionsPage):
+    elif isinstance(scene, MatchSetupPage | OptionsPage):
         yield scene.navigation.prompts
 
 

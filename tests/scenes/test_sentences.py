@@ -6,9 +6,9 @@ import pytest
 
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
-from pigaming_app.scenes.flow.match_words import limits, numbers, tagline
+from pigaming_app.scenes.flow.match_words import limits_line, rule_numbers, tagline
 from pigaming_app.scenes.howto.scene import HowTo
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.headline import headline, winning_color
 from pigaming_app.scenes.title.scene import Title
@@ -91,25 +91,25 @@ def test_the_race_says_how_many_laps_it_has(
 
 
 def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
-    assert numbers("pitanks", 2, "plain") == {
+    assert rule_numbers("pitanks", 2, "plain") == {
         "minutes": "2", "protection": "0.75", "patience": "0", "turbo": "2", "refill": "4"
     }  # fmt: skip
-    assert numbers("race", 10, "standard")["patience"] == "30"
+    assert rule_numbers("race", 10, "standard")["patience"] == "30"
     for game in GAMES:
-        drain = 1.0 / (float(numbers(game, 5, GAMES[game].variants[0])["turbo"]) / DT)
+        drain = 1.0 / (float(rule_numbers(game, 5, GAMES[game].variants[0])["turbo"]) / DT)
         assert drain == pytest.approx(0.01), "of the meter, per tick"
 
 
 def test_the_lessons_say_what_limits_a_match() -> None:
     english, portuguese = Words("en"), Words("pt")
-    assert "0.75 s of protection" in limits(english, "pitanks", 2)
-    assert "0,75 s" in limits(portuguese, "pitanks", 2)
-    assert "Time limit: 5 min." in limits(english, "factory", 5)
-    assert "Time limit: 10 min, 30 s after the winner." in limits(english, "race", 10)
-    assert "10 min; 30 s" in limits(portuguese, "race", 10)
+    assert "0.75 s of protection" in limits_line(english, "pitanks", 2)
+    assert "0,75 s" in limits_line(portuguese, "pitanks", 2)
+    assert "Time limit: 5 min." in limits_line(english, "factory", 5)
+    assert "Time limit: 10 min, 30 s after the winner." in limits_line(english, "race", 10)
+    assert "10 min; 30 s" in limits_line(portuguese, "race", 10)
     for game in GAMES:
-        assert "Turbo lasts 2 s and refills in 4 s." in limits(english, game, 5)
-        assert "O turbo dura 2 s e enche em 4 s." in limits(portuguese, game, 5)
+        assert "Turbo lasts 2 s and refills in 4 s." in limits_line(english, game, 5)
+        assert "O turbo dura 2 s e enche em 4 s." in limits_line(portuguese, game, 5)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -121,7 +121,7 @@ def test_the_page_of_a_game_shows_its_limits(
     with measuring(monkeypatch) as screen:
         HowTo(arcade.context, "factory").draw(screen)
         shown = [mark.text for mark in screen.texts]
-    assert limits(arcade.context.words, "factory", 8) in shown
+    assert limits_line(arcade.context.words, "factory", 8) in shown
     assert any("8 min" in text for text in shown)
 
 
@@ -135,7 +135,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
     for variant in GAMES["pitanks"].variants:
         arcade.context.settings.choice("pitanks").variant = variant
         with measuring(monkeypatch) as screen:
-            SetupPage(arcade.context, "pitanks", seats("pitanks")).draw(screen)
+            MatchSetupPage(arcade.context, "pitanks", seats("pitanks")).draw(screen)
             shown = " ".join(mark.text for mark in screen.texts)
         assert words(f"setup.{variant}_line") in shown
 

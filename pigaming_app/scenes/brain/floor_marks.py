@@ -47,7 +47,7 @@ GOAL_R = 30  # px: radius of the outer ring where it is going
 SMALL, LARGE = 4.0, 6.0  # px: radius of the dots to what it sees, and on its way
 
 
-class Marks:
+class FloorMarks:
     """Light round the robot at `pose`, for one picture; `others` are where the other robots are, px on the canvas."""
 
     def __init__(self, pose: Pose, others: Sequence[Pose], color: Color, clock: float) -> None:

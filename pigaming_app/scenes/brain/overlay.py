@@ -13,10 +13,10 @@ from pigaming_app.ai.brain.kind import Thinker
 from pigaming_app.ai.brain.thoughts import PETALS, Move, Thoughts
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain import panels as cards
-from pigaming_app.scenes.brain.floor_marks import Marks
+from pigaming_app.scenes.brain.floor_marks import FloorMarks
 from pigaming_app.scenes.flow.match_words import FIRES
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.view import Picture
+from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PLAYERS
 
@@ -29,7 +29,7 @@ TILTED = 0.35  # of a stick's way from which on it counts as held
 class BrainOverlay:
     """Shows the brain of one AI seat of a match, or none."""
 
-    def __init__(self, match: Match, view: Picture, words: Callable[..., str]) -> None:
+    def __init__(self, match: Match, view: MatchView, words: Callable[..., str]) -> None:
         self.match, self.view, self.words = match, view, words
         self.seat: int | None = None
         self.thoughts = Thoughts("starts")
@@ -79,7 +79,7 @@ class BrainOverlay:
 
     def _floor(self, screen: pygame.Surface, state: Any, seat: int, blend: float) -> None:
         others = [self.view.pose(other, blend) for other in self.view.seats if other != seat]
-        marks = Marks(self.view.pose(seat, blend), others, PLAYERS[seat], self.clock)
+        marks = FloorMarks(self.view.pose(seat, blend), others, PLAYERS[seat], self.clock)
         marks.sights(state, self.thoughts.sights)
         marks.rose(self.rose, self.thoughts.sights)
         screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))

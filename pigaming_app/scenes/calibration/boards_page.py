@@ -10,8 +10,8 @@ from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import Measures, Site
 from pigaming_app.hardware.messages import said
 from pigaming_app.hardware.vision.markers import NoVision
-from pigaming_app.scenes.calibration.height_page import OutlinesPage
-from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
+from pigaming_app.scenes.calibration.height_page import HeightPage
+from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.ui.draw.pixels import grey_surface
@@ -54,10 +54,12 @@ class BoardsPage:
             return None
         self.left()
         work = self.work
-        finding = Finding(self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small)
+        finding = CalibrationResult(
+            self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small
+        )
         self.context.sounds.play("accept" if finding.good else "back")
         if finding.good and not self.measures.height:
-            return Swap(OutlinesPage(self.context, finding, self._again))
+            return Swap(HeightPage(self.context, finding, self._again))
         return Swap(ResultPage(self.context, finding, self._again))
 
     def draw(self, screen: pygame.Surface) -> None:

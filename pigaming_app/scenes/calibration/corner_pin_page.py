@@ -53,7 +53,7 @@ FARTHEST = 800  # px that a corner may be from its own place
 log = logging.getLogger("pigaming")
 
 
-class PinPage:
+class CornerPinPage:
     """The page. What is pinned stays as it was unless it is saved."""
 
     def __init__(self, context: Context) -> None:

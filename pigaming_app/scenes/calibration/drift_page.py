@@ -30,7 +30,7 @@ MOST = 20.0  # mm at the right end of the bar
 IDLE = 300.0  # seconds without a press until the title
 
 
-class CheckPage:
+class DriftPage:
     """The page, for the camera of the settings."""
 
     def __init__(self, context: Context, site: Site | None = None) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, Standing
-from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
+from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
 from pigaming_app.scenes.views.background import LEFT, TOP
@@ -21,10 +21,10 @@ GREY = (128, 128, 128)
 NEAR, FAR = 86, 128  # px from the middle, of the four lines that help to aim
 
 
-class OutlinesPage:
+class HeightPage:
     """The page. `finding`: a calibration that lacks only the camera's place; `again`: the page that repeats it."""
 
-    def __init__(self, context: Context, finding: Finding, again: Callable[[], Scene]) -> None:
+    def __init__(self, context: Context, finding: CalibrationResult, again: Callable[[], Scene]) -> None:
         assert finding.ground is not None
         self.context, self.finding, self.again = context, finding, again
         self.work = Standing(finding.site, finding.number, finding.ground)

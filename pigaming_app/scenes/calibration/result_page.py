@@ -38,7 +38,7 @@ log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
-class Finding:
+class CalibrationResult:
     """How a calibration went: with what, and what came out. `marker_mm`: of a robot's marker, if one was seen."""
 
     site: Site
@@ -59,7 +59,7 @@ class Finding:
 class ResultPage:
     """The page: save, again, or back. `again`: makes the page that repeats the calibration."""
 
-    def __init__(self, context: Context, finding: Finding, again: Callable[[], Scene]) -> None:
+    def __init__(self, context: Context, finding: CalibrationResult, again: Callable[[], Scene]) -> None:
         self.context, self.finding, self.again = context, finding, again
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])

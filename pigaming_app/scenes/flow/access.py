@@ -77,7 +77,7 @@ class Access:
         return buttons[0] if buttons and last not in buttons else last
 
 
-class Ownership(Access):
+class PauseAccess(Access):
     """A pause belongs to the device that asked for it, for a while and as long as it is plugged in."""
 
     def __init__(self, context: Context, devices: Callable[[], Devices], owner: Device) -> None:

@@ -6,7 +6,7 @@ from functools import lru_cache
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import measure
+from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.storage.settings import Choice
 
@@ -14,32 +14,32 @@ log = logging.getLogger(__name__)
 
 
 @lru_cache(maxsize=32)
-def load_kept(game: str, name: str) -> Arena:
+def load_cached(game: str, name: str) -> Arena:
     """An arena, read once. Raises ArenaError."""
     return load(game, name)
 
 
 @lru_cache(maxsize=4)
-def playable(game: str) -> tuple[str, ...]:
+def playable_arenas(game: str) -> tuple[str, ...]:
     """The arenas of a game whose files are right; what is wrong with the others goes to the log."""
     names = []
     for name in arenas(game):
         try:
-            load_kept(game, name)
+            load_cached(game, name)
             names.append(name)
         except ArenaError as trouble:
             log.warning("%s", trouble)
     return tuple(names)
 
 
-def title(arena: Arena, language: str) -> str:
+def arena_title(arena: Arena, language: str) -> str:
     """What an arena is called."""
     return arena.title.get(language, arena.name)
 
 
-def chosen(context: Context, game: str) -> Choice:
+def last_choice(context: Context, game: str) -> Choice:
     """What was chosen last, or the game's own where that is not there (any more)."""
-    rules, last, names = GAMES[game], context.settings.choice(game), playable(game)
+    rules, last, names = GAMES[game], context.settings.choice(game), playable_arenas(game)
     return Choice(
         arena=last.arena if last.arena in names else names[0],
         minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
@@ -48,8 +48,8 @@ def chosen(context: Context, game: str) -> Choice:
     )
 
 
-def summary(context: Context, game: str) -> str:
+def choice_summary(context: Context, game: str) -> str:
     """Game, minutes or goal, and arena in one line."""
-    words, now = context.words, chosen(context, game)
-    where = title(load_kept(game, now.arena), words.language)
-    return "  ·  ".join((words(f"games.{game}"), measure(words, GAMES[game], now.minutes, now.goal), where))
+    words, now = context.words, last_choice(context, game)
+    where = arena_title(load_cached(game, now.arena), words.language)
+    return "  ·  ".join((words(f"games.{game}"), match_length(words, GAMES[game], now.minutes, now.goal), where))

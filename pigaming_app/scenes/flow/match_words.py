@@ -23,9 +23,9 @@ RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
 }
 
 
-def limits(words: Words, game: str, minutes: float) -> str:
+def limits_line(words: Words, game: str, minutes: float) -> str:
     """One line for the page of a game whose matches last `minutes` at most."""
-    return words(f"howto.limits_{game}", **numbers(game, minutes, GAMES[game].variants[0]))
+    return words(f"howto.limits_{game}", **rule_numbers(game, minutes, GAMES[game].variants[0]))
 
 
 def tagline(words: Words, game: str, goal: int) -> str:
@@ -33,24 +33,24 @@ def tagline(words: Words, game: str, goal: int) -> str:
     return words("games.race_line_one" if game == "race" and goal == 1 else f"games.{game}_line", n=goal)
 
 
-def kept_goal(settings: Settings, game: str) -> int:
+def last_goal(settings: Settings, game: str) -> int:
     """The laps or pallets that were chosen last."""
     goal, rules = settings.choice(game).goal, GAMES[game]
     return goal if goal in rules.goals else rules.default_goal
 
 
-def kept_minutes(settings: Settings, game: str) -> int:
+def last_minutes(settings: Settings, game: str) -> int:
     """The minutes that were chosen last."""
     minutes, rules = settings.choice(game).minutes, GAMES[game]
     return minutes if minutes in rules.minutes else rules.default_minutes
 
 
-def measure(words: Words, game: Game, minutes: float, goal: int) -> str:
+def match_length(words: Words, game: Game, minutes: float, goal: int) -> str:
     """How long a match is: its laps or pallets, or its minutes."""
     return words(f"setup.count_{game.goal}", count=goal) if game.goal else words("setup.min", minutes=f"{minutes:g}")
 
 
-def numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
+def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
     """The numbers by the names they have in texts."""
     make, set_rules = RULES[game]
     rules, nobody = make(), Seat("off", 0)

@@ -25,7 +25,7 @@ class Scene(Protocol):
 
 
 @runtime_checkable
-class Holding(Protocol):
+class Closable(Protocol):
     """A scene that holds something, such as a camera, for as long as it lies on the stack."""
 
     def left(self) -> None:
@@ -107,7 +107,7 @@ class Stack:
         """Let the scenes that are gone let go, the topmost first; then raise the first error among them."""
         errors: list[Exception] = []
         for scene in reversed(before):
-            if scene not in self.scenes and isinstance(scene, Holding):
+            if scene not in self.scenes and isinstance(scene, Closable):
                 try:
                     scene.left()
                 except Exception as error:

@@ -11,7 +11,7 @@ from pigaming_app.sim.world import DT
 MOST = 4  # ticks in one frame at normal speed: full speed down to 12.5 frames a second
 
 
-class Pace:
+class FixedTimestep:
     """How many ticks are due in this frame, and how far between two ticks the picture is."""
 
     def __init__(self) -> None:

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.scenes.howto.animation import Loop, add, drive_by, drive_round
 from pigaming_app.scenes.views.race.sprites import clods
-from pigaming_app.scenes.views.race.track import EDGE, MUD, Frame, draw_line
+from pigaming_app.scenes.views.race.track import EDGE, MUD, LineFrame, draw_line
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, SUB, THIN, Color, GlowCanvas, badge, dim, mix
@@ -90,7 +90,7 @@ def _round(lined: bool) -> LitImage:
         glow.neon(ROUND.outline(out), EDGE, 5, True)
     for line in range(4 if lined else 1):
         x, y, heading, _ = ROUND.at(line * ROUND.length / 4)
-        frame = Frame(x, y, math.cos(heading), math.sin(heading), ROAD)
+        frame = LineFrame(x, y, math.cos(heading), math.sin(heading), ROAD)
         draw_line(glow, crisp, frame, PLAYERS[line])
     return _lit(glow, crisp)
 
@@ -102,7 +102,7 @@ def _own() -> LitImage:
     for side in (-1, 1):
         glow.neon([(-WIDE, side * STRAIGHT), (WIDE, side * STRAIGHT)], EDGE, 5)
     for line, at in ((0, YOURS), (1, THEIRS)):
-        draw_line(glow, crisp, Frame(at, 0.0, 1.0, 0.0, STRAIGHT), PLAYERS[line])
+        draw_line(glow, crisp, LineFrame(at, 0.0, 1.0, 0.0, STRAIGHT), PLAYERS[line])
         badge(glow, line, at, -STRAIGHT - 54, 34)
     return _lit(glow, crisp)
 

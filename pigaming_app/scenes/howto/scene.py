@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import FIRES, kept_minutes, limits
+from pigaming_app.scenes.flow.match_words import FIRES, last_minutes, limits_line
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.ui.draw import (
@@ -81,7 +81,7 @@ class HowTo:
             if said:
                 text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
-        said = limits(words, self.game, kept_minutes(self.context.settings, self.game))
+        said = limits_line(words, self.game, last_minutes(self.context.settings, self.game))
         text(said, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
         keys(self._keys()).draw(screen)
 

@@ -32,7 +32,7 @@ Pose = tuple[float, float, float]  # px of the arena, rad
 Wall = tuple[float, float, float, float, float, int, int]  # both ends, half its width (px), health when whole, and now
 
 
-class Arena:
+class ArenaView:
     """The picture of a running match. `ground`: the page on which it lies, whole."""
 
     def __init__(self, ground: pygame.Surface) -> None:

@@ -5,17 +5,17 @@ from typing import Protocol
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.lab.trainer import Workshop
+from pigaming_app.scenes.lab.trainer import Trainer
 
 IDLE = 90.0  # seconds without a press until the Lab
 DARK = 72  # of 255: how bright the Lab is behind a page
 
 
-class Bench(Protocol):
+class LabHost(Protocol):
     """The Lab below a page."""
 
     context: Context
-    workshop: Workshop
+    trainer: Trainer
     name: str
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -28,7 +28,7 @@ class Bench(Protocol):
         """Everything from an empty table."""
 
 
-def behind(lab: Bench) -> pygame.Surface:
+def behind(lab: LabHost) -> pygame.Surface:
     """The Lab as it lies behind a page."""
     canvas = pygame.Surface((1920, 1080))
     lab.draw(canvas)

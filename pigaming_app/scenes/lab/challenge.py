@@ -8,7 +8,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.play.pause import title
+from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
@@ -23,7 +23,7 @@ DEAF = 1.0  # seconds in which presses are ignored
 IDLE = 60.0  # seconds without a press until the Lab
 
 
-class Fight:
+class Challenge:
     """One match of a person against the robot."""
 
     def __init__(self, context: Context, kind: Kind, device: Device, arena: str = ARENA) -> None:
@@ -33,7 +33,7 @@ class Fight:
         self.inner = MatchScene(context, setup, [device])
         self.inner.open = False  # nobody else takes the robot's seat
         self.inner.match.sit(ROBOT, Thinker(kind, setup.seed))
-        self.inner.stage.players[ROBOT] = kind.name
+        self.inner.runner.players[ROBOT] = kind.name
 
     def entered(self) -> None:
         """Begin, or go on after an interruption."""
@@ -52,23 +52,23 @@ class Fight:
             return Pop()
         if inner.match.over:
             inner.frozen += seconds
-            inner.stage.wait(seconds)
-            return Swap(Verdict(self)) if inner.frozen >= FREEZE else None
+            inner.runner.wait(seconds)
+            return Swap(ChallengeResult(self)) if inner.frozen >= FREEZE else None
         return inner.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         """The match."""
         self.inner.draw(screen)
 
-    def again(self, device: Device | None) -> "Fight":
+    def again(self, device: Device | None) -> "Challenge":
         """Once more, driven with this device, or with the same one."""
-        return Fight(self.context, self.kind, device or self.device, self.arena)
+        return Challenge(self.context, self.kind, device or self.device, self.arena)
 
 
-class Verdict:
+class ChallengeResult:
     """Who won, and whether once more."""
 
-    def __init__(self, fight: Fight) -> None:
+    def __init__(self, fight: Challenge) -> None:
         self.fight, self.context = fight, fight.context
         self.scores = [robot.score for robot in fight.inner.match.state.robots][:2]
         self.age = self.idle = 0.0
@@ -130,10 +130,12 @@ class Verdict:
         mine, its = self.scores
         name = self.fight.kind.name.upper()
         if mine == its:
-            title(layer, None, words("results.tie"), ICE)
+            sheet_title(layer, None, words("results.tie"), ICE)
         else:
             seat = 0 if mine > its else ROBOT
-            title(layer, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat])
+            sheet_title(
+                layer, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat]
+            )
         middle = (HEAD + FOOT) / 2
         for seat, side, score, who in ((0, -1, mine, words("lab.you")), (ROBOT, 1, its, name)):
             layer.canvas.text(

@@ -14,7 +14,7 @@ from pigaming_app.ai.brain.kind import Kind
 from pigaming_app.ai.experiments.evaluation import HANDMADE, Exam
 from pigaming_app.ai.experiments.training import GAME
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench
+from pigaming_app.scenes.lab.bench import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
@@ -35,7 +35,7 @@ GLIDE = 8.0  # of the way to its new place that a row goes in a second
 
 
 @dataclass
-class Player:
+class Entrant:
     """One row of the table."""
 
     name: str
@@ -51,18 +51,18 @@ class Player:
         return WIN * self.won + TIE * self.tied
 
 
-class Compare:
+class ComparePage:
     """The league of one training."""
 
-    def __init__(self, lab: Bench) -> None:
+    def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
-        words, workshop = self.context.words, lab.workshop
-        kept = workshop.checkpoints()
-        self.players = [Player(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
-        now = workshop.moment.matches
+        words, trainer = self.context.words, lab.trainer
+        kept = trainer.checkpoints()
+        self.players = [Entrant(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
+        now = trainer.moment.matches
         if now not in kept:
-            self.players.append(Player(words("lab.now", matches=now), workshop.checkpoint("now").kind))
-        self.players.append(Player(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
+            self.players.append(Entrant(words("lab.now", matches=now), trainer.checkpoint("now").kind))
+        self.players.append(Entrant(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
         for i, player in enumerate(self.players):
             player.y = TOP + PITCH * i
         self.pairs = list(combinations(self.players, 2))
@@ -111,7 +111,7 @@ class Compare:
             self._bar(screen)
         self.prompts.draw(screen)
 
-    def order(self) -> list[Player]:
+    def order(self) -> list[Entrant]:
         """The players, the best first; equals as they were."""
         return sorted(self.players, key=lambda player: -player.points)
 
@@ -120,7 +120,7 @@ class Compare:
     def _play(self) -> None:
         one, other = self.pairs[0]
         if self.exam is None:
-            fast, arena = self.lab.workshop.fast, self.lab.workshop.training.arena
+            fast, arena = self.lab.trainer.fast, self.lab.trainer.training.arena
             self.exam = Exam(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
         self.exam.play(TICKS)
         if self.exam.over:

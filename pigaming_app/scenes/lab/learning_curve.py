@@ -45,7 +45,7 @@ def room(matches: float) -> int:
     return most
 
 
-class Curve:
+class LearningCurve:
     """The picture of the measures, painted again only when there is a new one. `ground`: the page, whole."""
 
     def __init__(self, ground: pygame.Surface) -> None:

@@ -3,11 +3,11 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench, behind
-from pigaming_app.scenes.lab.compare_page import Compare
-from pigaming_app.scenes.lab.name_page import Naming
-from pigaming_app.scenes.lab.open_page import Shelf
-from pigaming_app.scenes.play.pause import items, title
+from pigaming_app.scenes.lab.bench import IDLE, LabHost, behind
+from pigaming_app.scenes.lab.compare_page import ComparePage
+from pigaming_app.scenes.lab.name_page import NamePage
+from pigaming_app.scenes.lab.open_page import OpenPage
+from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import word
@@ -21,11 +21,11 @@ ITEMS = ("save", "open", "compare", "anew")
 class LabMenu:
     """The menu over the Lab, which rests."""
 
-    def __init__(self, lab: Bench) -> None:
+    def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
         self.sure = False  # the next press on it forgets everything
         self.picture: pygame.Surface | None = None
-        self.focus = Focus(items(ITEMS))
+        self.focus = Focus(menu_spots(ITEMS))
         self.prompts = self.context.prompts(
             [(Button.FIRE, "pause.hint_ok"), (Button.BACK, "lab.hint_lab")], PROMPTS, W - 80
         )
@@ -66,11 +66,11 @@ class LabMenu:
         self.context.sounds.play("accept")
         match name:
             case "save":
-                return Swap(Naming(self.lab))
+                return Swap(NamePage(self.lab))
             case "open":
-                return Swap(Shelf(self.lab))
+                return Swap(OpenPage(self.lab))
             case "compare":
-                return Swap(Compare(self.lab))
+                return Swap(ComparePage(self.lab))
             case _ if self.sure:
                 self.lab.begin()
                 return Pop()
@@ -80,6 +80,6 @@ class LabMenu:
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        title(layer, None, words("lab.title"), ICE)
+        sheet_title(layer, None, words("lab.title"), ICE)
         for spot in self.focus.spots:
             layer.canvas.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")

@@ -3,8 +3,8 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench
-from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, NotKept, keep, names, proposal
+from pigaming_app.scenes.lab.bench import IDLE, LabHost
+from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, RobotFileError, names, proposal, save_robot
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -29,10 +29,10 @@ W, H, GAP, MIDDLE = 176, 240, 32, 510  # px of a letter's box
 SIZE = 168  # px of a letter
 
 
-class Naming:
+class NamePage:
     """Asks for a name and saves the robot under it."""
 
-    def __init__(self, lab: Bench) -> None:
+    def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
         self.picker = LetterPicker(LETTERS, (lab.name or proposal()).ljust(LENGTH))
         self.age = 0.0
@@ -128,10 +128,10 @@ class Naming:
             return None
         words = self.context.words
         try:
-            self.lab.workshop.hold(lambda training: keep(training, name))
+            self.lab.trainer.hold(lambda training: save_robot(training, name))
             self.lab.name = name
             self.lab.say(words("lab.saved", name=name))
-        except NotKept as trouble:
+        except RobotFileError as trouble:
             self.lab.say(words(str(trouble)), wrong=True)
         return Pop()
 

@@ -5,8 +5,8 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.lab.bench import IDLE, Bench
-from pigaming_app.scenes.lab.saved_robots import NotKept, fetch, file_of, names
+from pigaming_app.scenes.lab.bench import IDLE, LabHost
+from pigaming_app.scenes.lab.saved_robots import RobotFileError, file_of, load_robot, names
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
@@ -20,10 +20,10 @@ TOP, HIGH, PITCH = 236, 140, 164
 DEAF = 0.3  # seconds in which presses are ignored
 
 
-class Shelf:
+class OpenPage:
     """Cards of the robots, the last saved first; those of one page at a time."""
 
-    def __init__(self, lab: Bench) -> None:
+    def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
         self.names = names()
         self.page, self.age = 0, 0.0
@@ -89,12 +89,12 @@ class Shelf:
         return ([(Button.FIRE, "lab.hint_open")] if self.names else []) + more + [(Button.BACK, "lab.hint_lab")]
 
     def _open(self, name: str) -> Turn:
-        words, workshop = self.context.words, self.lab.workshop
+        words, trainer = self.context.words, self.lab.trainer
         try:
-            workshop.take(fetch(name, workshop.fast))
+            trainer.take(load_robot(name, trainer.fast))
             self.lab.name = name
             self.lab.say(words("lab.opened", name=name))
-        except NotKept as trouble:
+        except RobotFileError as trouble:
             self.lab.say(words(str(trouble), name=name), wrong=True)
         return Pop()
 

@@ -24,7 +24,7 @@ PETAL = 1 / 60  # seconds between two directions of the rose
 
 
 @dataclass
-class Moment:
+class TrainingState:
     """How a training stands, made anew whenever something has changed."""
 
     state: Any
@@ -41,7 +41,7 @@ class Progress:
         self.measures: list[Measure] = []
         self.plan: list[Direction | None] = [None] * PETALS
         self.checkpoints: dict[int, Checkpoint] = {}
-        self.moment = Moment(training.look(), 0, training.matches, knowing(training))
+        self.moment = TrainingState(training.look(), 0, training.matches, knowing(training))
         self._exam: Exam | None = None
         self._at = -1.0  # matches at which the last exam began
         self._when = self._seen = self._petal = perf_counter()
@@ -77,7 +77,7 @@ class Progress:
         if now - self._seen >= PICTURE[fast]:
             self._seen = now
             training = self.training
-            self.moment = Moment(training.look(), self.moment.number + 1, training.matches, knowing(training))
+            self.moment = TrainingState(training.look(), self.moment.number + 1, training.matches, knowing(training))
         if now - self._petal >= PETAL:
             self._petal = now
             self.plan[self._sector] = direction(self.training.table, self._sector, self.training.recipe.cold)

@@ -16,7 +16,7 @@ PROPOSALS = ("ROBI", "BIPO", "ZUMI", "TIKO", "LUMO", "PIXI", "VOLT", "MIKO", "NE
 log = logging.getLogger("pigaming")
 
 
-class NotKept(Exception):
+class RobotFileError(Exception):
     """A robot was not saved or cannot be opened; the text is the key of a sentence for people."""
 
 
@@ -53,20 +53,20 @@ def proposal() -> str:
     return next((name for name in PROPOSALS if name not in taken), PROPOSALS[0])
 
 
-def keep(training: Training, name: str) -> None:
-    """Save a robot under a name. Raises NotKept; what stood there before is intact."""
+def save_robot(training: Training, name: str) -> None:
+    """Save a robot under a name. Raises RobotFileError; what stood there before is intact."""
     try:
         training.save(file_of(name), name)
     except OSError as trouble:
         log.warning("%s was not saved: %s", file_of(name), trouble)
         full = trouble.errno in (errno.ENOSPC, errno.EDQUOT)
-        raise NotKept("lab.disk_full" if full else "lab.no_writing") from trouble
+        raise RobotFileError("lab.disk_full" if full else "lab.no_writing") from trouble
 
 
-def fetch(name: str, fast: bool) -> Training:
-    """A robot as it was saved. Raises NotKept."""
+def load_robot(name: str, fast: bool) -> Training:
+    """A robot as it was saved. Raises RobotFileError."""
     try:
         return load(file_of(name), fast)
     except (TableError, ArenaError, OSError) as trouble:
         log.warning("%s", trouble)
-        raise NotKept("lab.broken") from trouble
+        raise RobotFileError("lab.broken") from trouble

@@ -17,8 +17,8 @@ from pigaming_app.scenes.lab.knob import MOST
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
 from pigaming_app.scenes.lab.learning_curve import HANDMADE
 from pigaming_app.scenes.lab.progress import Progress
-from pigaming_app.scenes.lab.trainer import Workshop
-from pigaming_app.scenes.lab.view import SPEEDS, LabPage, Shown, speed_at, warming
+from pigaming_app.scenes.lab.trainer import Trainer
+from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -40,11 +40,11 @@ class Lab:
 
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         self.context = context
-        self.workshop = Workshop(FIRST, new_seed(), fast, context.compiler)
+        self.trainer = Trainer(FIRST, new_seed(), fast, context.compiler)
         self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
         self.cheered: Progress | None = None  # in which that was over
         self.name = ""  # under which it was saved or opened
-        self.shown = Shown()
+        self.shown = LabState()
         self.page: LabPage | None = None
         self.seen = -1  # number of the picture that the page has
         self.held = ""  # the knob in hand
@@ -83,7 +83,7 @@ class Lab:
             case Button.X:
                 return self.play(event.device)
             case Button.Y:
-                self._hurry((self.workshop.speed + 1) % len(SPEEDS))
+                self._hurry((self.trainer.speed + 1) % len(SPEEDS))
             case Button.START:
                 return self._menu()
             case Button.BACK:
@@ -102,11 +102,11 @@ class Lab:
         self.age += seconds
         self.said -= seconds
         self.focus.update(seconds)
-        self.workshop.feed(seconds)
-        self.compiling = self.compiling + seconds if self.workshop.compiling else 0.0
+        self.trainer.feed(seconds)
+        self.compiling = self.compiling + seconds if self.trainer.compiling else 0.0
         self._follow(seconds)
         if self.context.idle > IDLE:
-            self.workshop.recipe, self.workshop.speed = FIRST, 0
+            self.trainer.recipe, self.trainer.speed = FIRST, 0
             self.begin()
             return self.leave(Home())
         return None
@@ -130,7 +130,7 @@ class Lab:
 
     def left(self) -> None:
         """Taken off the stack: the training rests."""
-        self.workshop.close()
+        self.trainer.close()
 
     # ---- what the pages above it may do
 
@@ -141,22 +141,22 @@ class Lab:
 
     def play(self, device: Device) -> Turn:
         """A match against what the robot is now."""
-        from pigaming_app.scenes.lab.challenge import Fight
+        from pigaming_app.scenes.lab.challenge import Challenge
 
         self.context.sounds.play("accept")
         driver = self.context.controls.last if device.kind == "mouse" else device
-        robot = self.workshop.checkpoint(self.name or self.context.words("lab.robot"))
-        self.workshop.close()
-        return Push(Fight(self.context, robot.kind, driver, self.workshop.training.arena))
+        robot = self.trainer.checkpoint(self.name or self.context.words("lab.robot"))
+        self.trainer.close()
+        return Push(Challenge(self.context, robot.kind, driver, self.trainer.training.arena))
 
     def begin(self) -> None:
         """Everything from an empty table."""
-        self.workshop.begin(new_seed())
+        self.trainer.begin(new_seed())
         self.name, self.seen = "", -1
 
     def leave(self, turn: Turn) -> Turn:
         """The training rests."""
-        self.workshop.close()
+        self.trainer.close()
         return turn
 
     # ---- inside
@@ -167,7 +167,7 @@ class Lab:
             return self.play(event.device)
         if chosen == "speed":
             at = event.at
-            here = self.workshop.speed
+            here = self.trainer.speed
             self._hurry(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
         elif chosen and event.at:
             self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
@@ -186,7 +186,7 @@ class Lab:
         return None
 
     def _hurry(self, speed: int) -> None:
-        self.workshop.speed = speed
+        self.trainer.speed = speed
         self.context.sounds.play("move")
 
     def _menu(self) -> Turn:
@@ -196,28 +196,28 @@ class Lab:
         return self.leave(Push(LabMenu(self)))
 
     def _value(self, knob: str) -> int:
-        return max(-MOST, min(MOST, int(getattr(self.workshop.recipe, knob))))
+        return max(-MOST, min(MOST, int(getattr(self.trainer.recipe, knob))))
 
     def _set(self, knob: str, value: int) -> None:
         """Turn a knob as far as it goes."""
         value = max(-MOST, min(MOST, value))
         if value != self._value(knob):
-            self.workshop.recipe = turned(self.workshop.recipe, knob, value)
+            self.trainer.recipe = turned(self.trainer.recipe, knob, value)
             self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
         """Tell the page what is so."""
-        workshop, shown, moment = self.workshop, self.shown, self.workshop.moment
+        trainer, shown, moment = self.trainer, self.shown, self.trainer.moment
         if self.page and moment.number != self.seen:
             self.seen = moment.number
             self.page.watch(moment.state)
         if self.page:
             self.page.update(seconds)
-        shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, workshop.progress.measures
-        self._cheer(workshop.progress)
-        shown.speed, shown.focus, shown.held = workshop.speed, self.focus.name, self.held
+        shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, trainer.progress.measures
+        self._cheer(trainer.progress)
+        shown.speed, shown.focus, shown.held = trainer.speed, self.focus.name, self.held
         shown.values = {name: self._value(name) for name in KNOB_NAMES}
-        plan = workshop.progress.plan
+        plan = trainer.progress.plan
         most = max([LEAST] + [abs(one.worth) for one in plan if one])
         shown.levels = [level(one.worth / most) if one else 0 for one in plan]
         shown.signs = [one.deed if one else SIGNS[-1] for one in plan]

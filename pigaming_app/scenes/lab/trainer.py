@@ -16,7 +16,7 @@ from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.experiments.evaluation import compile_all
 from pigaming_app.ai.experiments.training import Checkpoint, Training
 from pigaming_app.ai.qlearning.rewards import Recipe
-from pigaming_app.scenes.lab.progress import Moment, Progress
+from pigaming_app.scenes.lab.progress import Progress, TrainingState
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui import memory as heap
@@ -33,7 +33,7 @@ SWITCH = 0.001  # seconds for which a thread may keep the interpreter from the o
 log = logging.getLogger("pigaming")
 
 
-class Workshop:
+class Trainer:
     """A robot that learns. `recipe` and `speed` may be set at any time; `moment` is how it stands, for the page."""
 
     def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None, compiler: Compiler | None = None) -> None:
@@ -51,7 +51,7 @@ class Workshop:
         self._owed = 0.0  # ticks
 
     @property
-    def moment(self) -> Moment:
+    def moment(self) -> TrainingState:
         """How it stands."""
         return self.progress.moment
 

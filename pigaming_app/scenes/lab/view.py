@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.scenes.brain.rose import LEVELS, PETALS, draw_petals, draw_signs, tone
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.lab.arena_view import Arena
+from pigaming_app.scenes.lab.arena_view import ArenaView
 from pigaming_app.scenes.lab.knob import dial
 from pigaming_app.scenes.lab.layout import (
     ARENA,
@@ -29,7 +29,7 @@ from pigaming_app.scenes.lab.layout import (
     WORDS_X,
     knob_rect,
 )
-from pigaming_app.scenes.lab.learning_curve import Curve, Measure
+from pigaming_app.scenes.lab.learning_curve import LearningCurve, Measure
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui.draw import (
     BLUE,
@@ -70,7 +70,7 @@ UP = round(HEADINGS * 3 / 4)
 
 
 @dataclass
-class Shown:
+class LabState:
     """What is so, as the page needs to know it."""
 
     matches: int = 0
@@ -90,8 +90,8 @@ class LabPage:
     def __init__(self, context: Context) -> None:
         self.words, self.language = context.words, context.words.language
         self.ground = ground(context.words.language)
-        self.arena = Arena(self.ground)
-        self.curve = Curve(self.ground)
+        self.arena = ArenaView(self.ground)
+        self.curve = LearningCurve(self.ground)
         self.levels = [0] * PETALS  # on their way
 
     def watch(self, state: Any) -> None:
@@ -103,7 +103,7 @@ class LabPage:
         self.arena.update(seconds)
         self.arena.warm(WARM)
 
-    def draw(self, screen: pygame.Surface, now: Shown) -> None:
+    def draw(self, screen: pygame.Surface, now: LabState) -> None:
         """Paint everything but the focus and the hints."""
         screen.blit(self.ground, (0, 0))
         self.arena.draw(screen)
@@ -120,7 +120,7 @@ class LabPage:
 
     # ---- inside
 
-    def _plan(self, screen: pygame.Surface, now: Shown) -> None:
+    def _plan(self, screen: pygame.Surface, now: LabState) -> None:
         """The rose and the bar below it."""
         changes = [k for k in range(PETALS) if self.levels[k] != now.levels[k]]
         for k in changes[:STEPS]:

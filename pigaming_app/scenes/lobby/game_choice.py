@@ -8,7 +8,7 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import kept_goal, tagline
+from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Turn
 from pigaming_app.scenes.views.game_tile import TILE_H, tile, tile_rect
 from pigaming_app.ui.draw.layers import backdrop
@@ -66,7 +66,7 @@ class GameChoice:
         black_out(screen, *(spot.rect for spot in self.focus.spots))
         for spot in self.focus.spots:
             game = spot.name
-            line = tagline(words, game, kept_goal(self.context.settings, game))
+            line = tagline(words, game, last_goal(self.context.settings, game))
             lit = tile(game, words(f"games.{game}"), line, game == self.focus.name)
             lit.draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)

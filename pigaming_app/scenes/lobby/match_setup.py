@@ -14,12 +14,12 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import chosen, load_kept, playable, title
+from pigaming_app.scenes.flow.match_choice import arena_title, last_choice, load_cached, playable_arenas
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, Turn
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, Seats
-from pigaming_app.scenes.results.high_score_tables import contest, table_of, told
+from pigaming_app.scenes.results.high_score_tables import contest, format_score, table_of
 from pigaming_app.scenes.results.scene import After
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.sprites import effects
@@ -47,13 +47,13 @@ GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
 log = logging.getLogger(__name__)
 
 
-class SetupPage:
+class MatchSetupPage:
     """The choice of the match that `seats` are going to play. `game_choice`: see `Results`."""
 
     def __init__(self, context: Context, game: str, seats: Seats, game_choice: After | None = None) -> None:
         self.context, self.game, self.seats, self.game_choice = context, GAMES[game], seats, game_choice
-        self.arenas = playable(game)
-        self.chosen = chosen(context, game)
+        self.arenas = playable_arenas(game)
+        self.chosen = last_choice(context, game)
         self.rows = rows(self.game)
         self.clock, self.slid, self.way = 0.0, SLIDE, 1
         self.access = Access(context, seats.devices)
@@ -108,7 +108,7 @@ class SetupPage:
         for name, box in self.rows.items():
             self._row(name).draw(screen, *box.topleft)
         self._records(screen)
-        choice.as_button(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
+        choice.focus_outline(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
         self.focus.draw(screen)
         self.navigation.prompts.draw(screen)
 
@@ -150,7 +150,7 @@ class SetupPage:
         words, now, game = self.context.words, self.chosen, self.game
         if name == "arena":
             place = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
-            where = title(load_kept(game.name, now.arena), words.language)
+            where = arena_title(load_cached(game.name, now.arena), words.language)
             return choice.row(words(f"setup.arena_{game.name}"), where, place)
         if name == "goal":
             return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, game.goals)), str(now.goal))
@@ -169,9 +169,9 @@ class SetupPage:
             now.arena = self.arenas[(self.arenas.index(now.arena) + by) % len(self.arenas)]
             self.slid, self.way = 0.0, by
         elif name == "goal":
-            now.goal = beside(game.goals, now.goal, by)
+            now.goal = stepped(game.goals, now.goal, by)
         elif name == "minutes":
-            now.minutes = beside(game.minutes, now.minutes, by)
+            now.minutes = stepped(game.minutes, now.minutes, by)
         elif name == "rules":
             now.variant = game.variants[(game.variants.index(now.variant) + by) % len(game.variants)]
         if now != before:
@@ -204,7 +204,7 @@ class SetupPage:
             best = self.context.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.context.words(f"setup.best_{feat.name}")
-                lines.append((name, self.context.words.decimal(told(best[0].score, feat)), best[0].initials))
+                lines.append((name, self.context.words.decimal(format_score(best[0].score, feat)), best[0].initials))
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
@@ -242,7 +242,7 @@ class SetupPage:
 @resumable
 def picture(game: str, name: str) -> Steps[LitImage]:
     """A large picture of an arena, where the page shows it."""
-    image = yield from preview(load_kept(game, name), *PICTURE.size)
+    image = yield from preview(load_cached(game, name), *PICTURE.size)
     return LitImage(image, PICTURE.topleft)
 
 
@@ -251,7 +251,7 @@ def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[t
     """Where the robots of these seats begin, px."""
     rules, state = GAMES[game], GAMES[game].state()
     setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
-    rules.start(state, load_kept(game, name), setup)
+    rules.start(state, load_cached(game, name), setup)
     return [(robot.x, robot.y) for robot in state.robots]
 
 
@@ -266,6 +266,6 @@ def rows(game: Game) -> dict[str, pygame.Rect]:
     return {**boxes, "go": GO}
 
 
-def beside(values: Sequence[int], value: int, by: int) -> int:
+def stepped(values: Sequence[int], value: int, by: int) -> int:
     """The value so many places after another one; the last and the first stop it."""
     return values[max(0, min(len(values) - 1, values.index(value) + by))]

@@ -120,7 +120,7 @@ def mark(seat: int) -> LitImage:
 
 
 @cached
-def as_button(high: int) -> LitImage:
+def focus_outline(high: int) -> LitImage:
     """What a row in focus gets on top of its outline; upper left at (0, 0)."""
     layer = Layer(0, 0, W, high)
     layer.glow.line(cut_box(0, 0, W, high, 16), dim(FOCUS, 0.55), THIN, True)

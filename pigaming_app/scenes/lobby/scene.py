@@ -17,14 +17,14 @@ from pigaming_app.hardware.session.real import unfit
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import chosen, summary
+from pigaming_app.scenes.flow.match_choice import choice_summary, last_choice
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES, Seats
-from pigaming_app.scenes.lobby.view import LobbyPage, Moment, problem, spots
-from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.lobby.view import LobbyPage, LobbyState, problem, spots
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
@@ -47,12 +47,12 @@ class Lobby:
         for seat, driver in enumerate(drivers):
             if driver is not None:
                 self.seats.seat(seat, driver)
-        self.now = Moment()
+        self.now = LobbyState()
         self.access = Access(context, self.seats.devices)
-        self.page = LobbyPage(context, self.seats, self.now, lambda: summary(context, game), self.access)
+        self.page = LobbyPage(context, self.seats, self.now, lambda: choice_summary(context, game), self.access)
         self.focus = Focus(spots(self.seats))
         self.ahead = PrewarmQueue(card.ahead())
-        self.rehearsal: Stage | None = None
+        self.rehearsal: MatchRunner | None = None
 
     def entered(self) -> None:
         """Shown, or come back to from the choice of the arena: everyone says again that they are ready."""
@@ -122,11 +122,11 @@ class Lobby:
         """While people think: first what this page will need, then the sprites of the match."""
         if not self.ahead.work(AHEAD):
             return
-        now = chosen(self.context, self.game)
+        now = last_choice(self.context, self.game)
         if self.rehearsal is None and self.context.preloader.ready(self.game, now.arena):
             one, two, three, four = (Seat("idle", team) for team in GAMES[self.game].teams)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
-            self.rehearsal = Stage(self.context, Match(setup), loud=False)
+            self.rehearsal = MatchRunner(self.context, Match(setup), loud=False)
         elif self.rehearsal:
             self.rehearsal.warm(AHEAD)
 
@@ -174,7 +174,7 @@ class Lobby:
     def _go(self) -> Turn:
         self.now.starting = None
         self.context.sounds.play("accept")
-        return Push(SetupPage(self.context, self.game, self.seats, game_choice))
+        return Push(MatchSetupPage(self.context, self.game, self.seats, game_choice))
 
     def _back(self, device: Device) -> Turn:
         """Not ready after all; then out of the seat; then back to the title."""

@@ -14,7 +14,7 @@ PLACES = 4
 
 
 @dataclass
-class Place:
+class SeatState:
     """One seat. `team` is 0 or 1 and counts only while there are teams; `real`: its robot stands on the mat."""
 
     kind: str = EMPTY
@@ -37,7 +37,7 @@ class Seats:
     sides: str = FREE
     rivals: tuple[str, ...] = STRENGTHS
     mat: bool = False
-    places: list[Place] = field(default_factory=lambda: [Place(team=i % 2) for i in range(PLACES)])
+    places: list[SeatState] = field(default_factory=lambda: [SeatState(team=i % 2) for i in range(PLACES)])
 
     def __post_init__(self) -> None:
         self.teams = self.sides == PAIRS or (self.teams and self.sides == FREE)
@@ -94,24 +94,26 @@ class Seats:
         if seat is None:
             seat = next(iter(reversed(self.like(AI))), None)
         if seat is not None:
-            self.places[seat] = Place(HUMAN, device, team=self._wanted(seat), real=self.places[seat].real)
+            self.places[seat] = SeatState(HUMAN, device, team=self._wanted(seat), real=self.places[seat].real)
         return seat
 
     def seat(self, seat: int, driver: Device | str) -> None:
         """Give an empty seat to a device, or to an AI of that strength, or of the usual one where it is no rival."""
-        place = Place(HUMAN, driver) if isinstance(driver, Device) else Place(AI, strength=self._strength(driver))
+        place = (
+            SeatState(HUMAN, driver) if isinstance(driver, Device) else SeatState(AI, strength=self._strength(driver))
+        )
         self.places[seat] = replace(place, team=self._wanted(seat), real=self.places[seat].real)
 
     def leave(self, seat: int) -> None:
         """Empty a seat."""
-        self.places[seat] = Place(team=self.places[seat].team, real=self.places[seat].real)
+        self.places[seat] = SeatState(team=self.places[seat].team, real=self.places[seat].real)
 
     def add(self, seat: int | None = None) -> int | None:
         """Put an AI on a seat, or on the next empty one; answers which, None: all are taken."""
         seat = next(iter(self.like(EMPTY)), None) if seat is None else seat
         if seat is not None:
             real = self.places[seat].real
-            self.places[seat] = Place(AI, strength=self.strength, team=self._wanted(seat), real=real)
+            self.places[seat] = SeatState(AI, strength=self.strength, team=self._wanted(seat), real=real)
         return seat
 
     def clear(self) -> None:
@@ -165,5 +167,5 @@ class Seats:
     def _strength(self, wished: str) -> str:
         return wished if wished in self.rivals else self.strength
 
-    def _brain(self, place: Place) -> str:
+    def _brain(self, place: SeatState) -> str:
         return {EMPTY: "off", HUMAN: "human"}.get(place.kind, place.strength)

@@ -26,7 +26,7 @@ ROLL_IN = 0.35  # seconds in which a robot comes onto its turntable
 
 
 @dataclass
-class Moment:
+class LobbyState:
     """What moves on the page, in seconds."""
 
     clock: float = 0.0
@@ -49,7 +49,9 @@ class Moment:
 class LobbyPage:
     """The page of these seats; `now` is what moves on it."""
 
-    def __init__(self, context: Context, seats: Seats, now: Moment, fact: Callable[[], str], access: Access) -> None:
+    def __init__(
+        self, context: Context, seats: Seats, now: LobbyState, fact: Callable[[], str], access: Access
+    ) -> None:
         self.context, self.seats, self.now, self.fact, self.access = context, seats, now, fact, access
 
     def draw(self, screen: pygame.Surface) -> None:

@@ -30,7 +30,7 @@ TURN = 3.0  # rad/s
 BUTTONS = (Button.FIRE, Button.BACK, Button.X, Button.Y, Button.START)
 
 
-class PadTest:
+class ControlsTest:
     """The page. `lit`: seconds for which a button of a device still shows that it was pressed."""
 
     def __init__(self, context: Context) -> None:

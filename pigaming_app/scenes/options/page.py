@@ -167,9 +167,9 @@ class OptionsPage:
         if name == "close":
             return Quit()
         if name == "padtest":
-            from pigaming_app.scenes.options.controls_test import PadTest
+            from pigaming_app.scenes.options.controls_test import ControlsTest
 
-            return Push(PadTest(self.context))
+            return Push(ControlsTest(self.context))
         if name == "robots":
             from pigaming_app.scenes.robots.menu import RobotsMenu
 

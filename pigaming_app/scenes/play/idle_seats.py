@@ -11,7 +11,7 @@ REST = 15.0  # seconds with the stick at rest and no button down until the seat 
 ASK = 5.0  # seconds in which it may answer
 
 
-class WalkOff:
+class IdleSeats:
     """How long nothing has moved at each seat, and whose seats AIs hold."""
 
     def __init__(self) -> None:

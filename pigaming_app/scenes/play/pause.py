@@ -11,7 +11,7 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.flow.access import OWNED, Access, Ownership
+from pigaming_app.scenes.flow.access import OWNED, Access, PauseAccess
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, Turn
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -48,7 +48,7 @@ WAITS = 2.0  # seconds for which somebody whose press did not count is told why
 RING = X + W - 112, Y + 116
 
 
-class Held(Protocol):
+class PausedMatch(Protocol):
     """The match below a page."""
 
     context: Context
@@ -87,13 +87,13 @@ class Held(Protocol):
 class Pause:
     """A pause that `device` has asked for."""
 
-    def __init__(self, match: Held, device: Device) -> None:
+    def __init__(self, match: PausedMatch, device: Device) -> None:
         self.match, self.context = match, match.context
         self.player = match.devices.index(device) if device in match.devices else None
-        self.access = Ownership(match.context, lambda: match.devices, device)
+        self.access = PauseAccess(match.context, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
         self.sure = self.waits = 0.0
-        self.focus = Focus(items((ITEMS[0], *match.extras, *ITEMS[1:])))
+        self.focus = Focus(menu_spots((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [
             (Button.FIRE, "pause.hint_ok"),
             (Button.BACK, "pause.hint_continue"),
@@ -197,12 +197,12 @@ class Pause:
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
         text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
-        title(layer, self.player, text, ICE, RING[0] - 80)
+        sheet_title(layer, self.player, text, ICE, RING[0] - 80)
         for spot in self.focus.spots:
             layer.canvas.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
 
 
-def items(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
+def menu_spots(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
     """Where the items of a menu are."""
     pitch = min(PITCH, (FOOT - HEAD - 8) // len(names))
     high = pitch - PITCH + ITEM_H
@@ -227,7 +227,7 @@ def sure(said: str, label: str) -> LitImage:
     return layer.done()
 
 
-def title(layer: Layer, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
+def sheet_title(layer: Layer, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
     """The head of a sheet: a badge, if it is about somebody, and one line that ends before `right`."""
     x = X + 72
     if player is not None:

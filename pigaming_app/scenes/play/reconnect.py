@@ -6,7 +6,7 @@ from typing import Protocol
 import pygame
 
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
-from pigaming_app.scenes.play.pause import Held, Pause, title
+from pigaming_app.scenes.play.pause import Pause, PausedMatch, sheet_title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
 from pigaming_app.ui.draw.layers import Layer, LitImage
@@ -22,7 +22,7 @@ PAD = X + 184, Y + 376
 TEXT_X, TEXT_W = X + 352, W - 352 - 56
 
 
-class Open(Held, Protocol):
+class OpenMatch(PausedMatch, Protocol):
     """A match whose seats can change hands."""
 
     @property
@@ -39,7 +39,7 @@ class Open(Held, Protocol):
 class Reconnect:
     """The device of `seat` is gone: a free one takes over with FIRE, or an AI does when the ring has run out."""
 
-    def __init__(self, match: Open, seat: int) -> None:
+    def __init__(self, match: OpenMatch, seat: int) -> None:
         self.match, self.context, self.seat = match, match.context, seat
         self.age, self.found = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
@@ -97,7 +97,7 @@ class Reconnect:
 
     def _paint(self, layer: Layer) -> None:
         words, ink = self.context.words, layer.glow
-        title(layer, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
+        sheet_title(layer, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
         x, y = PAD
         icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
         ink.line([(x, y - 16), (x, y - 46)], PLAYERS[self.seat], LINE)
@@ -109,7 +109,7 @@ class Reconnect:
 class StillThere:
     """Nobody has touched anything: any press goes on; when the ring has run out, back to the title."""
 
-    def __init__(self, match: Held) -> None:
+    def __init__(self, match: PausedMatch) -> None:
         self.match, self.context = match, match.context
         self.age = 0.0
         self.picture: pygame.Surface | None = None
@@ -143,7 +143,7 @@ class StillThere:
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        title(layer, None, words("pause.still"), ICE)
+        sheet_title(layer, None, words("pause.still"), ICE)
         icon(layer.glow, "clock", PAD[0], PAD[1], 84, MIST, LINE)
         say(layer, words("pause.still_how"), ICE)
         after(layer, words("pause.then_title"))

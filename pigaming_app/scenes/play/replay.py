@@ -5,8 +5,8 @@ import pygame
 from pigaming_app.games.replay import BYTES, Replay, play
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.play.runner import Stage
-from pigaming_app.scenes.play.side_hints import Column, note
+from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.play.side_hints import SideHints, side_note
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -25,7 +25,7 @@ class ReplayScene:
         self.context, self.replay = context, replay
         self.length = len(replay.ticks) // BYTES * DT
         self.speed, self.shown, self.playing = 0, SHOWN, True
-        self.stage, self.warm = Stage(context, play(replay)), False
+        self.runner, self.warm = MatchRunner(context, play(replay)), False
 
     def entered(self) -> None:
         """Nothing to begin."""
@@ -55,19 +55,19 @@ class ReplayScene:
     def update(self, seconds: float) -> Turn:
         """Let the match run as fast as it is wished."""
         self.shown -= seconds
-        self.warm = self.warm or self.stage.warm(4.0)
+        self.warm = self.warm or self.runner.warm(4.0)
         if self.playing and not self.ended:
-            self.stage.advance(seconds, SPEEDS[self.speed])
+            self.runner.advance(seconds, SPEEDS[self.speed])
         else:
-            self.stage.wait(seconds)
+            self.runner.wait(seconds)
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The match; in the margins its time line, how fast it runs, and what can be pressed."""
-        self.stage.draw(screen)
-        words, seconds = self.context.words, self.stage.match.seconds
+        self.runner.draw(screen)
+        words, seconds = self.context.words, self.runner.match.seconds
         if seconds < SHOWN or not self.playing:
-            self.stage.captions(screen, [None] * len(self.replay.setup.seats))
+            self.runner.captions(screen, [None] * len(self.replay.setup.seats))
         x = LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, seconds / max(DT, self.length))
         pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
         pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (x, LINE_Y), 6)
@@ -76,14 +76,14 @@ class ReplayScene:
             caption(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
         elif not self.playing or self.speed or seconds < SHOWN:
             said = words("replay.title") if self.playing else words("replay.hint_pause")
-            note(said, f"{SPEEDS[self.speed]}×").draw(screen)
+            side_note(said, f"{SPEEDS[self.speed]}×").draw(screen)
         if self.shown > 0.0 or not self.playing or self.ended:
             self.hints.draw(screen)
 
     @property
-    def hints(self) -> Column:
+    def hints(self) -> SideHints:
         """The hints, where they hide nothing."""
-        return Column(self.prompts)
+        return SideHints(self.prompts)
 
     @property
     def prompts(self) -> ButtonPrompts:
@@ -97,8 +97,8 @@ class ReplayScene:
     @property
     def ended(self) -> bool:
         """Nothing more was recorded."""
-        match = self.stage.match
+        match = self.runner.match
         return match.over or match.seconds >= self.length
 
     def _begin(self) -> None:
-        self.stage, self.warm, self.playing = Stage(self.context, play(self.replay)), False, True
+        self.runner, self.warm, self.playing = MatchRunner(self.context, play(self.replay)), False, True

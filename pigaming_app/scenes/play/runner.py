@@ -12,7 +12,7 @@ from pigaming_app.ai import RIVALS
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -26,7 +26,7 @@ LAST = 10  # seconds before the end in which each second is heard
 BESIDE = 104  # px from a robot to what is said about it
 
 
-class Stage:
+class MatchRunner:
     """A match and its view. `loud`: its sounds are heard."""
 
     def __init__(self, context: Context, match: Match, loud: bool = True) -> None:
@@ -36,7 +36,7 @@ class Stage:
         with self._making():
             self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
         self.brain = BrainOverlay(match, self.view, context.words)
-        self.pace = Pace()
+        self.timestep = FixedTimestep()
         self.unseen = 0.0  # seconds of real time since the last picture
         self.second = LAST + 1
 
@@ -48,7 +48,7 @@ class Stage:
     def advance(self, seconds: float, speed: float = 1.0) -> None:
         """Let the match run on for `seconds` of real time."""
         self.unseen += seconds
-        for _ in range(self.pace.due(seconds, speed)):
+        for _ in range(self.timestep.due(seconds, speed)):
             if self.match.over:
                 break
             self.match.tick()
@@ -65,7 +65,7 @@ class Stage:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Paint the match, between its last two ticks."""
-        blend = 1.0 if self.match.over else self.pace.blend
+        blend = 1.0 if self.match.over else self.timestep.blend
         unseen, self.unseen = self.unseen, 0.0
         with self._making():
             self.view.draw(screen, self.match.state, blend, unseen)

@@ -21,10 +21,10 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, Swap, Turn
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
-from pigaming_app.scenes.play.idle_seats import WalkOff
+from pigaming_app.scenes.play.idle_seats import IdleSeats
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
-from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import After, Results
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
@@ -64,7 +64,7 @@ class MatchScene:
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = seated(setup, plant)
-        self.stage = Stage(context, self.match)
+        self.runner = MatchRunner(context, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
@@ -74,13 +74,13 @@ class MatchScene:
         self.results: Results | None = None
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE)
-        self.walkoff = WalkOff()
+        self.idle_seats = IdleSeats()
         self.helped: set[int] = set()
         self.open = True
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans:
-            self.stage.view.for_real(folders().data)
+            self.runner.view.for_real(folders().data)
 
     # ---- what happens to it
 
@@ -99,7 +99,7 @@ class MatchScene:
         if self.match.over:
             return None
         if event.button is Button.LOST:
-            self.walkoff.forget(event.device)
+            self.idle_seats.forget(event.device)
         if self.welcome(event):
             return None
         admitted = self.access.admit(event)
@@ -109,7 +109,7 @@ class MatchScene:
             return None
         self.idle = 0.0
         if admitted.device in self.devices:
-            self.walkoff.alive(self.devices.index(admitted.device))
+            self.idle_seats.alive(self.devices.index(admitted.device))
         if event.button is Button.BRAIN:
             self.think_aloud()
         if event.button is Button.START or (event.button is Button.BACK and self._escapes(admitted.device)):
@@ -130,23 +130,23 @@ class MatchScene:
         for event in self.joining.update(seconds):
             self._join(event.device)
         self.signs.work(0.0)
-        self.warm = self.warm or self.stage.warm(WARM if self.count.locked else 2.0)
+        self.warm = self.warm or self.runner.warm(WARM if self.count.locked else 2.0)
         if self.count.shown and (sound := self.count.update(seconds)):
             self.context.sounds.play(sound)
         if self.count.locked:
             self.context.controls.forget_taps()
-            self.stage.wait(seconds)
+            self.runner.wait(seconds)
             return None
         self.idle += seconds
         self._miss(seconds)
-        self.stage.advance(seconds, self.speed)
+        self.runner.advance(seconds, self.speed)
         if self.humans and self.idle > STILL:
             return Push(StillThere(self))
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The arena, and over it what has to be said."""
-        self.stage.draw(screen)
+        self.runner.draw(screen)
         words = self.context.words
         if self.match.over and not self.stopped:
             pop = min(4, int(self.frozen / 0.04))
@@ -156,19 +156,19 @@ class MatchScene:
             if self.match.setup.game == "race" and self.match.seconds < 1.0:
                 self._draw_laps(screen)
             if self.count.locked:
-                self.stage.captions(screen, self.devices)
-                self.spot = clear_of(self.stage.robots())
+                self.runner.captions(screen, self.devices)
+                self.spot = clear_of(self.runner.robots())
             self.count.draw(screen, words("match.go"), self.spot)
-        for seat, left in self.walkoff.asked().items():
+        for seat, left in self.idle_seats.asked().items():
             said = words("match.still", seconds=max(1, math.ceil(left)))
-            self.stage.beside(screen, seat, caption(said, PLAYERS[seat], player=seat))
+            self.runner.beside(screen, seat, caption(said, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
         if self.notice and self.noticed > 0.0:
             self.notice.draw(screen, 960, 206)
 
     def _draw_laps(self, screen: pygame.Surface) -> None:
         """How many laps the race has, in the place of its clock, which stands still."""
-        box = self.stage.view.clock
+        box = self.runner.view.clock
         screen.fill("black", box)
         lines = wrap(tagline(self.context.words, "race", self.match.setup.goal), LABEL, box.w, "head")
         for i, line in enumerate(lines):
@@ -194,29 +194,29 @@ class MatchScene:
     def hand(self, seat: int, device: Device | None) -> None:
         """Give a seat to a device, or to an AI that drives until somebody comes."""
         self._sit(seat, device)
-        self.walkoff.settle(seat, device)
-        name, sign = self.stage.driver(seat, device)
+        self.idle_seats.settle(seat, device)
+        name, sign = self.runner.driver(seat, device)
         name = name if device else self.context.words("match.back_in")
         self.notice, self.noticed = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.context.sounds.play("join", seat)
 
     def welcome(self, event: InputEvent) -> bool:
         """Give its seat back to a device that has walked off and now presses something; true if it did."""
-        if event.device not in self.walkoff.away or event.button in (Button.STOP, Button.BRAIN):
+        if event.device not in self.idle_seats.away or event.button in (Button.STOP, Button.BRAIN):
             return False
         self.idle = 0.0
-        self.hand(self.walkoff.away[event.device], event.device)
+        self.hand(self.idle_seats.away[event.device], event.device)
         return True
 
     def think_aloud(self) -> None:
         """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
-        if not self.stage.brain.seats:
+        if not self.runner.brain.seats:
             self.notice, self.noticed = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
-        self.stage.brain.next()
+        self.runner.brain.next()
 
     def picture(self) -> pygame.Surface:
         """The match as it lies behind a page."""
-        return self.stage.picture()
+        return self.runner.picture()
 
     def stop(self) -> None:
         """End the match now; the results are what they are."""
@@ -228,7 +228,7 @@ class MatchScene:
 
     def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck."""
-        return MatchScene(context, anew(setup, devices), devices, game_choice=self.game_choice)
+        return MatchScene(context, rematch_setup(setup, devices), devices, game_choice=self.game_choice)
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
@@ -263,7 +263,7 @@ class MatchScene:
 
     def _knock(self, event: InputEvent) -> None:
         """FIRE on a free device: a seat that nobody has a claim to is taken at once, any other one after a while."""
-        claimed = self.walkoff.away.values()
+        claimed = self.idle_seats.away.values()
         if vacant := [seat for seat in self.stood_in if seat not in claimed]:
             self.hand(vacant[0], event.device)
         elif self.takeable:
@@ -284,7 +284,7 @@ class MatchScene:
         """A ring that fills beside each robot that is about to be taken."""
         for (device, share), seat in zip(self.joining.shares.items(), self.takeable, strict=False):
             if self.free(device):
-                self.stage.beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
+                self.runner.beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
 
     def _miss(self, seconds: float) -> None:
         """Let an AI drive on for everybody who has walked off."""
@@ -292,10 +292,10 @@ class MatchScene:
         driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
         for seat, device in driven.items():
             if controls.touched(device):
-                self.walkoff.alive(seat)
-        for seat in self.walkoff.update(seconds, driven):
+                self.idle_seats.alive(seat)
+        for seat in self.idle_seats.update(seconds, driven):
             self.hand(seat, None)
-            self.walkoff.leave(driven[seat], seat)
+            self.idle_seats.leave(driven[seat], seat)
 
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
@@ -303,14 +303,14 @@ class MatchScene:
             self.helped.add(seat)
         brain = Hands(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
-        self.stage.players[seat] = "human" if device else STAND_IN
+        self.runner.players[seat] = "human" if device else STAND_IN
 
     def _held(self, seat: int, device: Device) -> StickState:
         """How a device is held on the tick that acts on it."""
         drive = self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
-            self.walkoff.alive(seat)
+            self.idle_seats.alive(seat)
         return drive
 
     def _end(self, seconds: float) -> Turn:
@@ -332,13 +332,13 @@ class MatchScene:
                 self.context.sounds.play("go")
         ready = self.results.warm(WARM)
         self.frozen += seconds
-        self.stage.wait(seconds)
+        self.runner.wait(seconds)
         if ready and (self.stopped or self.frozen >= FREEZE):
             return Swap(self.results)
         return None
 
 
-def anew(setup: Setup, devices: Sequence[Device | None]) -> Setup:
+def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:
     """The same match with other luck, and people on all seats that now have a device."""
     drivers = [*devices, None, None, None, None]
     one, two, three, four = (replace(seat, brain="human") if drivers[i] else seat for i, seat in enumerate(setup.seats))

@@ -20,7 +20,7 @@ LONGEST = 230  # px of a line, before it is shrunk
 LARGEST = 0.8  # of the size that hints have elsewhere
 
 
-class Column:
+class SideHints:
     """The hints of `prompts` in the right margin."""
 
     def __init__(self, prompts: ButtonPrompts) -> None:
@@ -71,7 +71,7 @@ def column(said: tuple[tuple[str, str], ...]) -> LitImage:
 
 
 @cached
-def note(said: str, figure: str) -> LitImage:
+def side_note(said: str, figure: str) -> LitImage:
     """A word over a figure, in the left margin."""
     size = min(BODY, round(BODY * ROOM / text_width(said, BODY)))
     layer = Layer(1920 - X - ROOM / 2, TOP, ROOM, 140)

@@ -34,7 +34,7 @@ class Spark:
         return self.age < self.life
 
 
-class Finale:
+class Celebration:
     """The winner `player` celebrates near (x, y), where its crown is. `sparks`: bursts of light are wanted."""
 
     def __init__(self, player: int, x: float, y: float, sparks: bool) -> None:

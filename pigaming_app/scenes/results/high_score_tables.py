@@ -17,7 +17,7 @@ machine), q1 180 and 8, q2 132 and 35. `classic` wins none, and 1 of 200 against
 
 
 @dataclass(frozen=True)
-class Board:
+class HighScoreTable:
     """A table as it is shown. `heading`: key of its text; `days`: of so many last days; None: of all time."""
 
     heading: str
@@ -47,19 +47,19 @@ def table_of(contest: Table, feat: Feat) -> Table:
     return replace(contest, feat=feat.name, timed=feat.timed)
 
 
-def boards(contest: Table) -> list[Board]:
+def high_score_tables(contest: Table) -> list[HighScoreTable]:
     """The two tables shown side by side: of each feat, or of the only one today's and that of all time."""
     feats = GAMES[contest.game].feats
     tables = [table_of(contest, feat) for feat in feats]
     if len(feats) > 1:
-        return [Board(f"results.best_{table.feat}", table) for table in tables[:2]]
-    return [Board("results.today", tables[0], 1), Board("results.ever", tables[0])]
+        return [HighScoreTable(f"results.best_{table.feat}", table) for table in tables[:2]]
+    return [HighScoreTable("results.today", tables[0], 1), HighScoreTable("results.ever", tables[0])]
 
 
-def older_boards(contest: Table, scores: Scores) -> list[Board]:
+def older_tables(contest: Table, scores: Scores) -> list[HighScoreTable]:
     """The tables of all time that have rows, of a contest of version 1.3.0."""
     tables = [table_of(contest, feat) for feat in GAMES[contest.game].feats]
-    return [Board(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
+    return [HighScoreTable(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
 
 
 def contests(scores: Scores) -> list[Table]:
@@ -69,7 +69,7 @@ def contests(scores: Scores) -> list[Table]:
     return sorted(found, key=lambda one: (games.index(one.game), one.arena != "classic", one.arena, one.older, one))
 
 
-def told(value: int, feat: Feat | Table) -> str:
+def format_score(value: int, feat: Feat | Table) -> str:
     """Points, or milliseconds as minutes and seconds."""
     return clock(value / 1000.0) if feat.timed else str(value).replace("-", "−")
 

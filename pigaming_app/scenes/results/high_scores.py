@@ -9,10 +9,16 @@ import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import load_kept, playable, title
-from pigaming_app.scenes.flow.match_words import measure
+from pigaming_app.scenes.flow.match_choice import arena_title, load_cached, playable_arenas
+from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.results.high_score_tables import Board, boards, contests, older_boards, told
+from pigaming_app.scenes.results.high_score_tables import (
+    HighScoreTable,
+    contests,
+    format_score,
+    high_score_tables,
+    older_tables,
+)
 from pigaming_app.storage.scores import Score, Table
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, GlowCanvas, cut_box, text_width
 from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop, span
@@ -33,12 +39,12 @@ ROOM, WHERE_ROOM = 1360, 800  # px for the conditions, and for game and arena
 STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
 
 
-class Best:
+class HighScores:
     """The tables of a contest; if they are empty, of the first one that has rows. `fresh`: rows shown in yellow."""
 
     def __init__(self, context: Context, contest: Table, fresh: Sequence[Score] = ()) -> None:
         self.context, self.fresh = context, list(fresh)
-        self.shelf = [one for one in contests(context.scores) if one.arena in playable(one.game)]
+        self.shelf = [one for one in contests(context.scores) if one.arena in playable_arenas(one.game)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
         self.prompts = context.prompts([(Button.FIRE, "results.on")])
@@ -86,7 +92,7 @@ class Best:
         heading(words("results.scores")).draw(screen)
         text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
         text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
-        shown = older_boards(contest, self.context.scores) if contest.older else boards(contest)
+        shown = older_tables(contest, self.context.scores) if contest.older else high_score_tables(contest)
         for column, board in zip((0, 6) if len(shown) > 1 else (3,), shown, strict=False):
             self._board(screen, board, *span(column, 6))
 
@@ -125,11 +131,11 @@ class Best:
     def _where(self) -> str:
         """Game and arena."""
         words, contest = self.context.words, self.contest
-        there = contest.arena in playable(contest.game)
-        arena = title(load_kept(contest.game, contest.arena), words.language) if there else contest.arena
+        there = contest.arena in playable_arenas(contest.game)
+        arena = arena_title(load_cached(contest.game, contest.arena), words.language) if there else contest.arena
         return f"{words('games.' + contest.game)}  ·  {arena}"
 
-    def _board(self, screen: pygame.Surface, board: Board, x: int, w: int) -> None:
+    def _board(self, screen: pygame.Surface, board: HighScoreTable, x: int, w: int) -> None:
         """A table under its heading."""
         said = self.context.words(board.heading, goal=f"{board.table.length:g}")
         text(said, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
@@ -144,7 +150,9 @@ class Best:
             if share > 0.0:
                 self._row(screen, row, board, i, x, w, 1 - (1 - min(1.0, share)) ** 2)
 
-    def _row(self, screen: pygame.Surface, row: Score, board: Board, i: int, x: int, w: int, share: float) -> None:
+    def _row(
+        self, screen: pygame.Surface, row: Score, board: HighScoreTable, i: int, x: int, w: int, share: float
+    ) -> None:
         """Place, initials and value, of whose width only `share` is shown."""
         y = TOP + 12 + PITCH * i + PITCH / 2
         color = FOCUS if row in self.fresh else ICE if i == 0 else MIST
@@ -152,7 +160,7 @@ class Best:
         screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
-        value = self.context.words.decimal(told(row.score, board.table))
+        value = self.context.words.decimal(format_score(row.score, board.table))
         text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
         if row in self.fresh:
             sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
@@ -184,7 +192,7 @@ def conditions(words: Words, contest: Table) -> str:
     if len(game.variants) > 1 and contest.rules:
         parts.append(words(f"setup.{contest.rules}"))
     if contest.length:
-        parts.append(measure(words, game, contest.length, round(contest.length)))
+        parts.append(match_length(words, game, contest.length, round(contest.length)))
     if contest.people:
         parts.append(words("best.person") if contest.people == 1 else words("best.people", count=contest.people))
     if contest.side == contest.people and contest.side:

@@ -15,8 +15,8 @@ from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.results import initials_view as page
-from pigaming_app.scenes.results.high_score_tables import contest, counts, table_of, told
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_score_tables import contest, counts, format_score, table_of
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, Table
@@ -180,7 +180,7 @@ class Initials:
         lines = []
         for (table, value), found in zip(claim.feats, claim.places, strict=True):
             shown = found if len(claim.feats) == 1 else found[-1:]
-            lines.append((words(f"setup.best_{table.feat}"), words.decimal(told(value, table))))
+            lines.append((words(f"setup.best_{table.feat}"), words.decimal(format_score(value, table))))
             lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
         return tuple(lines)
 
@@ -193,7 +193,7 @@ class Initials:
             self.context.scores.save(folders().data)
         except NotSaved as reason:
             _log.warning("%s", reason)
-        return Swap(Best(self.context, contest(self.setup, self.claims[0].seat), fresh))
+        return Swap(HighScores(self.context, contest(self.setup, self.claims[0].seat), fresh))
 
     def _entered(self) -> list[Score]:
         return [

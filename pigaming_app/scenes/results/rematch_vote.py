@@ -17,7 +17,7 @@ PITCH = 160
 PATIENCE = 10.0  # seconds from the first vote until it begins without the others
 
 
-class Ballot:
+class RematchVote:
     """The votes of the humans among `seats`; `devices` (of all four seats) may change hands here."""
 
     def __init__(

@@ -14,9 +14,9 @@ from pigaming_app.scenes.flow.access import TAKE, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, Swap, Turn
 from pigaming_app.scenes.results.high_score_tables import contest
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import Initials, claims
-from pigaming_app.scenes.results.rematch_vote import Ballot
+from pigaming_app.scenes.results.rematch_vote import RematchVote
 from pigaming_app.scenes.results.view import ResultsPage
 from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -53,7 +53,7 @@ class Results:
         self.context, self.setup, self.again, self.game_choice = context, setup, again, game_choice
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
-        self.ballot = Ballot(context, seats, humans, devices)
+        self.ballot = RematchVote(context, seats, humans, devices)
         absent = [seat for seat in humans if devices[seat] is None]
         self.page = ResultsPage(context, outcome, setup, finished, absent)
         own = [None if seat in helped else device for seat, device in enumerate(devices)]
@@ -98,7 +98,7 @@ class Results:
                 self.context.sounds.play("accept")
                 return Push(self.game_choice(self.context, self.setup, self.ballot.devices))
             case Button.Y:
-                return Push(Best(self.context, contest(self.setup)))
+                return Push(HighScores(self.context, contest(self.setup)))
             case Button.BACK if admitted.device.kind == "mouse":
                 return self._leave()
             case Button.BACK if self.age >= LATE:

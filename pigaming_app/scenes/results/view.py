@@ -10,10 +10,10 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import measure
-from pigaming_app.scenes.results.celebration import Finale
+from pigaming_app.scenes.flow.match_words import match_length
+from pigaming_app.scenes.results.celebration import Celebration
 from pigaming_app.scenes.results.headline import headline, winning_color
-from pigaming_app.scenes.results.high_score_tables import boards, clock, contest, told
+from pigaming_app.scenes.results.high_score_tables import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.ui.draw import (
     BODY,
@@ -77,7 +77,7 @@ class ResultsPage:
         self.ready_at = self.title_at + 0.4
         self.parts: list[Part] = []
         self.plot: Plot
-        self.finale: Finale | None = None
+        self.finale: Celebration | None = None
         self._making = self._make()
 
     def warm(self, milliseconds: float) -> bool:
@@ -189,13 +189,13 @@ class ResultsPage:
             ink = GlowCanvas(160, 140).to(80, 70)
             icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
             self.crown = LitImage(ink.lit(), (round(at) - 80, 108 - 70))
-            self.finale = Finale(self.winners[0], at, 108, self.context.settings.flashes != "off")
+            self.finale = Celebration(self.winners[0], at, 108, self.context.settings.flashes != "off")
         return layer.done()
 
     def _where(self) -> LitImage:
         """Game, time, arena."""
         words, setup = self.context.words, self.setup
-        minutes = measure(words, GAMES[setup.game], setup.minutes, setup.goal)
+        minutes = match_length(words, GAMES[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
         where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
         size = fit_size(where, BODY, 720, "body")
@@ -263,7 +263,7 @@ class ResultsPage:
     def _records(self) -> LitImage | None:
         """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
         scores, setup, words = self.context.scores, self.setup, self.context.words
-        tables = [(board, scores.best(board.table, board.days)) for board in boards(contest(setup))]
+        tables = [(board, scores.best(board.table, board.days)) for board in high_score_tables(contest(setup))]
         if not any(rows for _, rows in tables):
             return None
         x, w = span(0, 6)
@@ -275,7 +275,7 @@ class ResultsPage:
             layer.canvas.body(heading, left + 64, y - 32, MIST, "l", fit_size(heading, BODY, 330, "body"))
             if rows:
                 layer.canvas.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
-                best = words.decimal(told(rows[0].score, board.table))
+                best = words.decimal(format_score(rows[0].score, board.table))
                 layer.canvas.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
         return layer.done()
 

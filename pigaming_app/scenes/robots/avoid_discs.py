@@ -19,7 +19,7 @@ EVERY = 0.5  # s between two looks at where the discs are
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedBlock:
     """A block of the page: where it is drawn (`home`) and where it is shown."""
 
     home: pygame.Rect
@@ -32,11 +32,11 @@ class Placed:
         return pygame.Rect(*self.at, round(self.home.w * self.scale), round(self.home.h * self.scale))
 
 
-class Aside:
+class BlockLayout:
     """Keeps the blocks of a page off the discs. A block stays where it is until a disc reaches it."""
 
     def __init__(self) -> None:
-        self.placed: list[Placed] = []
+        self.placed: list[PlacedBlock] = []
         self.age = 0.0
 
     def update(self, seconds: float, homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> None:
@@ -66,18 +66,18 @@ class Aside:
         return -1.0, -1.0
 
 
-def arrange(homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> list[Placed]:
+def arrange(homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> list[PlacedBlock]:
     """The blocks off the discs and off each other, as large as possible, near their homes; if nothing fits, there."""
     for scale in SCALES:
-        placed: list[Placed] = []
+        placed: list[PlacedBlock] = []
         for home in homes:
             at = nearest(home, scale, discs, [one.box for one in placed])
             if at is None:
                 break
-            placed.append(Placed(home, at, scale))
+            placed.append(PlacedBlock(home, at, scale))
         if len(placed) == len(homes):
             return placed
-    return [Placed(home, home.topleft, 1.0) for home in homes]
+    return [PlacedBlock(home, home.topleft, 1.0) for home in homes]
 
 
 def nearest(
@@ -105,7 +105,7 @@ def nearest(
     return int(x[best]), int(y[best])
 
 
-def hit(placed: Sequence[Placed], discs: Sequence[Circle]) -> bool:
+def hit(placed: Sequence[PlacedBlock], discs: Sequence[Circle]) -> bool:
     """Whether a disc reaches a block."""
     return any(near(one.box, disc) for one in placed for disc in discs)
 

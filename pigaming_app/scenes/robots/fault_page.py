@@ -9,7 +9,7 @@ from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.real import exact
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Swap, Turn
-from pigaming_app.scenes.play.pause import Pause, title
+from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
@@ -29,7 +29,7 @@ TEXT_X, ROOM = X + 280, W - 280 - 64
 RING = X + 150, FOOT - 96
 
 
-class Trouble:
+class FaultPage:
     """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
 
     def __init__(self, match: InterruptedMatch, stopper: Device | None = None) -> None:
@@ -96,8 +96,8 @@ class Trouble:
         if self.picture is None:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
-            shown = tuple((one.name, one.robot) for one in self.faults)
-            self.picture = overlay(self.match.picture(), color, self._paint, shown)
+            fault_caption = tuple((one.name, one.robot) for one in self.faults)
+            self.picture = overlay(self.match.picture(), color, self._paint, fault_caption)
         screen.blit(self.picture, (0, 0))
         if self.match.plant.safety.stopped:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
@@ -127,30 +127,30 @@ class Trouble:
         """The first fault, what camera or radio say themselves, and how many others there are."""
         words = self.context.words
         if not self.faults:
-            title(layer, None, words("mat.stand"), ICE)
+            sheet_title(layer, None, words("mat.stand"), ICE)
             return
         first = self.faults[0]
         about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
-        title(layer, first.robot, about, ICE)
+        sheet_title(layer, first.robot, about, ICE)
         sign(layer.glow, first.name, *ICON, 76, ALARM)
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
             layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
         fire = words.printed(self.context.controls.label(self.match.access.voice, Button.FIRE))
-        y = write_lines(layer, named(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
+        y = write_lines(layer, fault_sentence(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         detail = exact(self.match.plant.rig, first.name)
         if detail:
             y = write_lines(layer, tell(words, detail), TEXT_X, y + 8, ROOM, MIST)
         others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
         if others and y < FOOT - 130:
-            write_lines(layer, words("mat.also", other=named(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
+            write_lines(layer, words("mat.also", other=fault_sentence(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
 
 
-def named(fault: Fault, words: Words, button: str) -> str:
+def fault_sentence(fault: Fault, words: Words, button: str) -> str:
     """A fault in one plain sentence."""
     return words(f"faults.{fault.name}", robot=1 if fault.robot is None else fault.robot + 1, button=button)
 
 
-def shown(sentence: str, color: Color) -> Caption:
+def fault_caption(sentence: str, color: Color) -> Caption:
     """A sentence on a plate, not wider than the arena."""
     return caption(sentence, color, ICE, fit_size(sentence, BODY, 1480, "body"))

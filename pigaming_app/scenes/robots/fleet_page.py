@@ -12,10 +12,10 @@ from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Turn
-from pigaming_app.scenes.robots.avoid_discs import Aside
-from pigaming_app.scenes.robots.fleet_state import Checkup, worst
-from pigaming_app.scenes.robots.flood_light import Flood
-from pigaming_app.scenes.robots.marker_discs import Discs, tag
+from pigaming_app.scenes.robots.avoid_discs import BlockLayout
+from pigaming_app.scenes.robots.fleet_state import FleetState, worst
+from pigaming_app.scenes.robots.flood_light import FloodLight
+from pigaming_app.scenes.robots.marker_discs import MarkerDiscs, tag
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
@@ -45,19 +45,19 @@ LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: the sentence about a row
 log = logging.getLogger("pigaming")
 
 
-class RobotsPage:
+class FleetPage:
     """The page, where robots may be used."""
 
     def __init__(self, context: Context) -> None:
         assert context.mat is not None
         self.context = context
-        self.check = Checkup(context.mat, context.settings)
-        self.flood = Flood()
+        self.check = FleetState(context.mat, context.settings)
+        self.flood = FloodLight()
         self.flood.level = 0.0
         self.names = ROWS if not context.mat.emulated else ("radio", *EMULATED) if unfit(context.settings) else EMULATED
         self.focus = Focus(dials.spots(self.names), "pair")
         self.anew, self.age = 0.0, EVERY
-        self.aside, self.sheet = Aside(), pygame.Surface((1920, 1080))
+        self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
         hints = [
             (Button.RIGHT, "calibrate.hint_change"),
@@ -131,9 +131,9 @@ class RobotsPage:
     # ---- what is painted
 
     @property
-    def discs(self) -> Discs | None:
+    def discs(self) -> MarkerDiscs | None:
         """The light that robots need, once there is a rig."""
-        return Discs(self.check.rig) if self.check.rig is not None else None
+        return MarkerDiscs(self.check.rig) if self.check.rig is not None else None
 
     def _blocks(self) -> list[pygame.Rect]:
         """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""

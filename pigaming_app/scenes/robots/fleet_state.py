@@ -8,7 +8,7 @@ from pigaming_app.hardware.commissioning.latency import Shake
 from pigaming_app.hardware.commissioning.pairing import Case, Finding, Pairing
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.session.real import Mat, NoMat
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import Settings
 
@@ -18,7 +18,7 @@ RATE = 1.0  # s over which pictures are counted
 
 
 @dataclass(frozen=True)
-class Health:
+class RobotHealth:
     """One robot: V, share of its reports that arrive (0..1), whether it is seen, s of latency if measured."""
 
     battery: float | None
@@ -28,7 +28,7 @@ class Health:
 
 
 @dataclass
-class Checkup:
+class FleetState:
     """A look at the robots. `sentence`: why they cannot be used, or what has come of something."""
 
     mat: Mat
@@ -43,7 +43,7 @@ class Checkup:
     shake: Shake | None = None
 
     def __post_init__(self) -> None:
-        self._pace = Pace()
+        self._pace = FixedTimestep()
         self._todo: list[int] = []  # robots to be shaken
         self._next_job: Callable[[], bool] | None = None  # what begins once all robots are seen
         self._looked = 0.0  # s for which they have been looked for
@@ -122,11 +122,11 @@ class Checkup:
         """Whether a robot has said something lately."""
         return self.link is not None and robot in self.link.telemetry and self.link.quality(robot).share > 0.0
 
-    def health(self, robot: int) -> Health:
+    def health(self, robot: int) -> RobotHealth:
         """How a robot is."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
         share = self.link.quality(robot).share if report else 0.0
-        return Health(report.battery if report else None, share, self._seen(robot), self.late.get(robot))
+        return RobotHealth(report.battery if report else None, share, self._seen(robot), self.late.get(robot))
 
     # ---- inside
 

@@ -18,7 +18,7 @@ FADE = 0.4  # s from grey to the page and back
 TITLE_Y, LINE_Y = 38, 98  # px: above the arena
 
 
-class Flood:
+class FloodLight:
     """How much of the grey light is on. `update` in every frame."""
 
     def __init__(self) -> None:

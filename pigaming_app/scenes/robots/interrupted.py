@@ -9,13 +9,13 @@ from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.session.real import Mat
 from pigaming_app.scenes.calibration.corner_markers import DriftWatch
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.play.pause import Held
+from pigaming_app.scenes.play.pause import PausedMatch
 from pigaming_app.ui.input.events import Device
 
 MatchOf = Callable[[Setup, Sequence[Device | None], Collection[int]], Scene]  # with which devices, which seats real
 
 
-class InterruptedMatch(Held, Protocol):
+class InterruptedMatch(PausedMatch, Protocol):
     """A match with real robots that waits."""
 
     match: Match

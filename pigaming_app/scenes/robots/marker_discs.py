@@ -29,7 +29,7 @@ TAG_OUT = 10  # px that it may be outside of the arena: in the corners of the pi
 KNOWN = 1.0  # s after which nobody knows where an unseen robot is
 
 
-class Discs:
+class MarkerDiscs:
     """The discs of a rig's robots."""
 
     def __init__(self, rig: Rig) -> None:

@@ -15,16 +15,16 @@ from pigaming_app.scenes.calibration.corner_markers import DriftWatch
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, Turn
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
-from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, anew
+from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, rematch_setup
 from pigaming_app.scenes.results.scene import After
-from pigaming_app.scenes.robots.fault_page import Trouble, named
+from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
-from pigaming_app.scenes.robots.marker_discs import Discs
+from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
 from pigaming_app.scenes.robots.swap_page import SwapPage
-from pigaming_app.scenes.robots.take_places import Gathering
+from pigaming_app.scenes.robots.take_places import TakePlaces
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -63,11 +63,11 @@ class RealMatch(MatchScene):
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
         self.plant = plant
-        self.discs = Discs(rig)
+        self.discs = MarkerDiscs(rig)
         self.watch = DriftWatch(rig)
-        self.gathering: Gathering | None = Gathering(context, plant, lambda: self.access.voice)
+        self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.voice)
         self.gone = False  # it has let go of the mat
-        self.waiting = Pace()  # ticks in which all wait
+        self.waiting = FixedTimestep()  # ticks in which all wait
         self.logged: set[tuple[str, int | None]] = set()
         self._dressed()
 
@@ -97,7 +97,7 @@ class RealMatch(MatchScene):
         if event.button is Button.STOP and not self.match.over:
             self.plant.safety.all_stop()
             self.plant.watch()
-            return Push(Trouble(self, event.device))
+            return Push(FaultPage(self, event.device))
         if self.gathering is None:
             return super().on(event)
         admitted = self.access.admit(self.gathering.prompts.as_button(event))
@@ -124,7 +124,7 @@ class RealMatch(MatchScene):
         if self.gathering is not None:
             return self._gather(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
-            return Push(Trouble(self))
+            return Push(FaultPage(self))
         if self.count.locked or self.match.over:
             self._rest(seconds)
         turn = super().update(seconds)
@@ -177,17 +177,17 @@ class RealMatch(MatchScene):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
-            self.gathering = Gathering(self.context, self.plant, lambda: self.access.voice)
+            self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.voice)
         self._dressed()
 
     def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with other luck and the same robots."""
         self.left()
-        return self.match_of(anew(setup, devices), devices, self.real)
+        return self.match_of(rematch_setup(setup, devices), devices, self.real)
 
     # ---- inside
 
-    def _gather(self, gathering: Gathering, seconds: float) -> Turn:
+    def _gather(self, gathering: TakePlaces, seconds: float) -> Turn:
         """Drive the robots to their places."""
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
@@ -196,14 +196,14 @@ class RealMatch(MatchScene):
             return Pop()
         gathering.update(seconds)
         self.signs.work(0.0)
-        self.stage.warm(4.0)
+        self.runner.warm(4.0)
         for _ in range(self.waiting.due(seconds)):
             if self.plant.take_places():
                 self._begin()
                 break
         self._tell()
         if self.plant.safety.stopped or self.plant.safety.lasting:
-            return Push(Trouble(self))
+            return Push(FaultPage(self))
         return Home() if self.context.idle > IDLE else None
 
     def _missing(self) -> list[int]:
@@ -228,7 +228,7 @@ class RealMatch(MatchScene):
 
     def _dressed(self) -> None:
         """The view and the tracker know which robots are real."""
-        self.stage.view.real = frozenset(self.real)
+        self.runner.view.real = frozenset(self.real)
         self.plant.rig.tracker.expected = self.real
 
     def _tell(self) -> None:
@@ -236,9 +236,9 @@ class RealMatch(MatchScene):
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
         for key in now.keys() - self.logged:
             detail = exact(self.plant.rig, now[key].name)
-            log.warning("%s", " ".join(filter(None, (named(now[key], ENGLISH, "FIRE"), detail))))
+            log.warning("%s", " ".join(filter(None, (fault_sentence(now[key], ENGLISH, "FIRE"), detail))))
             if now[key].name in TOLD:
-                said = named(now[key], self.context.words, "")
+                said = fault_sentence(now[key], self.context.words, "")
                 self.notice, self.noticed = caption(said, ALARM, player=now[key].robot), 2 * NOTICE
         self.logged = set(now)
 

@@ -71,22 +71,22 @@ class RobotsMenu:
         self.navigation.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:
-        from pigaming_app.scenes.calibration.corner_pin_page import PinPage
-        from pigaming_app.scenes.calibration.drift_page import CheckPage
+        from pigaming_app.scenes.calibration.corner_pin_page import CornerPinPage
+        from pigaming_app.scenes.calibration.drift_page import DriftPage
         from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 
         self.context.sounds.play("accept")
         match name:
             case "robots":
-                from pigaming_app.scenes.robots.fleet_page import RobotsPage
+                from pigaming_app.scenes.robots.fleet_page import FleetPage
 
-                return Push(RobotsPage(self.context))
+                return Push(FleetPage(self.context))
             case "calibrate":
                 return Push(CalibrationPage(self.context))
             case "check":
-                return Push(CheckPage(self.context))
+                return Push(DriftPage(self.context))
             case "pin":
-                return Push(PinPage(self.context))
+                return Push(CornerPinPage(self.context))
         self._write()
         return None
 

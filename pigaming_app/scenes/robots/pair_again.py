@@ -8,9 +8,9 @@ import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Case, Pairing
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.flow.timestep import Pace
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.robots.fleet_state import worst
-from pigaming_app.scenes.robots.flood_light import UNSEEN, Flood, looking
+from pigaming_app.scenes.robots.flood_light import UNSEEN, FloodLight, looking
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, ICE
@@ -27,7 +27,7 @@ class PairAgain:
 
     def __init__(self, match: InterruptedMatch) -> None:
         self.match, self.context = match, match.context
-        self.flood, self.pace = Flood(), Pace()
+        self.flood, self.timestep = FloodLight(), FixedTimestep()
         self.pairing: Pairing | None = None
         self.sentence = ""  # what is wrong, once all have spun
         self.clock = 0.0
@@ -57,7 +57,7 @@ class PairAgain:
         seconds = self.match.mat.advance(seconds)
         self.clock += seconds
         self.flood.update(seconds, bool(self.missing) and not self.sentence)
-        for _ in range(self.pace.due(seconds)):
+        for _ in range(self.timestep.due(seconds)):
             if self.pairing is None:
                 self.match.plant.watch()
             elif not self.sentence and self.pairing.tick():

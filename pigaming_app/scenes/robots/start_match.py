@@ -28,10 +28,10 @@ def match_of(
     if not real or context.mat is None:
         return MatchScene(context, setup, devices, speed, game_choice=game_choice)
     from pigaming_app.scenes.robots.match_scene import RealMatch
-    from pigaming_app.scenes.robots.unavailable import Refused
+    from pigaming_app.scenes.robots.unavailable import UnavailablePage
 
     again = partial(match_of, context, game_choice=game_choice)
     try:
         return RealMatch(context, setup, devices, real, context.mat, again, game_choice)
     except NoMat as trouble:
-        return Refused(context, setup, devices, real, trouble.args[0], again)
+        return UnavailablePage(context, setup, devices, real, trouble.args[0], again)

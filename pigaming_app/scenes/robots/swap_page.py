@@ -4,7 +4,7 @@ import pygame
 
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Pop, Turn
-from pigaming_app.scenes.play.pause import items, title
+from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
@@ -21,7 +21,7 @@ class SwapPage:
         self.match, self.context, self.access = match, match.context, access
         self.seats = [i for i, robot in enumerate(match.match.state.robots) if robot.present]
         self.wanted = {seat: seat in match.real for seat in self.seats}
-        self.focus = Focus(items([str(seat) for seat in self.seats]))
+        self.focus = Focus(menu_spots([str(seat) for seat in self.seats]))
         self.picture: pygame.Surface | None = None
         hints = [(Button.FIRE, "mat.hint_change"), (Button.BACK, "mat.hint_done")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
@@ -70,7 +70,7 @@ class SwapPage:
         self.match.shine(screen)
 
     def _paint(self, layer: Layer) -> None:
-        title(layer, None, self.context.words("mat.which"), ICE)
+        sheet_title(layer, None, self.context.words("mat.which"), ICE)
         for spot in self.focus.spots:
             seat = int(spot.name)
             badge(layer.glow, seat, spot.rect.left + 60, spot.rect.centery - (4 if seat == 1 else 0), 26)

@@ -14,9 +14,9 @@ from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.real import exact
 from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.robots.fault_page import named, shown
+from pigaming_app.scenes.robots.fault_page import fault_caption, fault_sentence
 from pigaming_app.scenes.robots.flood_light import UNSEEN as UNSEEN_AFTER
-from pigaming_app.scenes.robots.flood_light import Flood, looking
+from pigaming_app.scenes.robots.flood_light import FloodLight, looking
 from pigaming_app.scenes.robots.marker_discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -51,7 +51,7 @@ CARRIED = ("lost", "held", "outside")  # what happens to robots that are carried
 MISSING = 1.5  # s until it is said that a robot is not seen
 
 
-class Gathering:
+class TakePlaces:
     """What is shown while the robots of a plant take their places."""
 
     DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
@@ -59,7 +59,7 @@ class Gathering:
     def __init__(self, context: Context, plant: MixedPlant, voice: Callable[[], Device]) -> None:
         self.context, self.plant = context, plant
         self.clock = 0.0
-        self.flood = Flood()
+        self.flood = FloodLight()
         self.prompts = context.prompts(
             [(Button.START, "mat.hint_begin"), (Button.X, "mat.hint_missing"), (Button.BACK, "mat.hint_leave")],
             HINTS_Y, 1560, voice=voice,
@@ -81,7 +81,7 @@ class Gathering:
         words, places = self.context.words, self.plant.places
         if self.flood.whole:
             hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
-            faults = [named(fault, words, "") for fault in self._faults()]
+            faults = [fault_sentence(fault, words, "") for fault in self._faults()]
             self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
             return
         screen.fill((0, 0, 0))
@@ -102,8 +102,8 @@ class Gathering:
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         for i, fault in enumerate(self._faults()[:2]):
             detail = exact(self.plant.rig, fault.name)
-            sentence = tell(words, detail) if detail else named(fault, words, "")
-            shown(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
+            sentence = tell(words, detail) if detail else fault_sentence(fault, words, "")
+            fault_caption(sentence, ALARM).draw(screen, 960, 540 + 90 * i)
         self.flood.draw(screen, "")
 
     def _faults(self) -> list[Fault]:

@@ -9,7 +9,7 @@ from pigaming_app.scenes.calibration.messages import tell
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
-from pigaming_app.scenes.play.pause import title
+from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
 from pigaming_app.scenes.robots.interrupted import MatchOf
@@ -23,7 +23,7 @@ UNCALIBRATED = ("none", "damaged", "version", "other_display")  # sentences afte
 IDLE = 90.0  # seconds without a press until the title
 
 
-class Refused:
+class UnavailablePage:
     """The page. `sentence`: why; `match_of`: makes a match with these real seats."""
 
     def __init__(
@@ -78,7 +78,7 @@ class Refused:
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        title(layer, None, words("mat.refused"), ICE)
+        sheet_title(layer, None, words("mat.refused"), ICE)
         sign(layer.glow, "robot", *ICON, 76, ALARM)
         y = write_lines(layer, tell(words, self.sentence), TEXT_X, HEAD + 56, ROOM, ICE)
         lost = getattr(self.sentence, "key", "") in UNCALIBRATED

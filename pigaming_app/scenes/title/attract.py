@@ -14,10 +14,10 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, Turn
-from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
@@ -50,8 +50,8 @@ class Attract:
 
     def on(self, event: InputEvent) -> Turn:
         """Whatever is pressed, back to the title, where it counts for nothing; F4 shows what the AIs think."""
-        if event.button is Button.BRAIN and isinstance(self.show, Demonstration):
-            self.show.stage.brain.next()
+        if event.button is Button.BRAIN and isinstance(self.show, DemoMatch):
+            self.show.runner.brain.next()
             return None
         return None if event.button is Button.LOST else Home()
 
@@ -69,7 +69,7 @@ class Attract:
         level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
         color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
         text = self.context.words("attract.press")
-        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, Demonstration) else (BODY, PAGE_PROMPT_Y)
+        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, DemoMatch) else (BODY, PAGE_PROMPT_Y)
         caption(text, color, color, size, face="head").draw(screen, 960, y)
 
     def _next(self) -> None:
@@ -77,24 +77,24 @@ class Attract:
         self.show.entered()
 
     def _match(self, game: str) -> Scene:
-        return Demonstration(self.context, game)
+        return DemoMatch(self.context, game)
 
     def _howto(self, game: str) -> Scene:
         from pigaming_app.scenes.howto.scene import HowTo
 
         page = HowTo(self.context, game)
-        return Page(page, page.draw)
+        return TimedPage(page, page.draw)
 
     def _best(self, game: str) -> Scene | None:
         """Tables of the game in which somebody has scored."""
         there = [one for one in contests(self.context.scores) if one.game == game]
         if not there:
             return None
-        best = Best(self.context, secrets.choice(there))
-        return Page(best, best.paint)
+        best = HighScores(self.context, secrets.choice(there))
+        return TimedPage(best, best.paint)
 
 
-class Demonstration:
+class DemoMatch:
     """AIs play for a minute."""
 
     def __init__(self, context: Context, game: str) -> None:
@@ -103,7 +103,7 @@ class Demonstration:
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.variants[0], rules.default_goal)
-        self.stage = Stage(context, seated(setup), loud=False)
+        self.runner = MatchRunner(context, seated(setup), loud=False)
         self.warm = False
         self.over = 0.0
 
@@ -115,17 +115,17 @@ class Demonstration:
 
     def update(self, seconds: float) -> Turn:
         """Play; then stand for a moment."""
-        self.warm = self.warm or self.stage.warm(3.0)
-        self.stage.advance(seconds)
-        self.over += seconds * self.stage.match.over
+        self.warm = self.warm or self.runner.warm(3.0)
+        self.runner.advance(seconds)
+        self.over += seconds * self.runner.match.over
         return Home() if self.over > AFTER else None
 
     def draw(self, screen: pygame.Surface) -> None:
         """The match."""
-        self.stage.draw(screen)
+        self.runner.draw(screen)
 
 
-class Page:
+class TimedPage:
     """A page that is only looked at."""
 
     def __init__(self, page: Scene, paint: Callable[[pygame.Surface], None]) -> None:

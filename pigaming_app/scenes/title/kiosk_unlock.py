@@ -12,7 +12,7 @@ HOLD = 5.0  # seconds
 AHEAD = 0.9
 
 
-class Combination:
+class KioskUnlock:
     """Watches every device; outside a kiosk it never opens anything."""
 
     def __init__(self, context: Context) -> None:

@@ -7,9 +7,9 @@ import pygame
 
 from pigaming_app.games import GAMES
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import kept_goal, tagline
+from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, Turn
-from pigaming_app.scenes.title.kiosk_unlock import Combination
+from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
 from pigaming_app.scenes.views.game_tile import tile, tile_rect
@@ -47,7 +47,7 @@ class Title:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.clock = 0.0
-        self.combination = Combination(context)
+        self.combination = KioskUnlock(context)
         self.focus = Focus(self._spots())
         self.game = next(iter(GAMES))  # whose tile had the focus last
         self.lab: Scene | None = None
@@ -91,7 +91,7 @@ class Title:
         parade(screen, self.clock)
         blit_sprite(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
         for i, game in enumerate(GAMES):
-            line = tagline(words, game, kept_goal(self.context.settings, game))
+            line = tagline(words, game, last_goal(self.context.settings, game))
             lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
             lit.draw(screen, *tile_rect(i).topleft)
         self._prompt(screen)

@@ -15,7 +15,7 @@ HUD_HEIGHT = 136
 Bit = tuple[pygame.Surface, tuple[int, int], tuple[int, int, int, int] | None]
 
 
-class Ground:
+class Background:
     """The ground of one match. `paint` makes the whole canvas without what changes, as soon as it is needed."""
 
     def __init__(self, paint: Callable[[], pygame.Surface]) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, ICE, TITLE, Color
 from pigaming_app.ui.draw.text import glyph, number_width
@@ -20,8 +20,8 @@ CLOCK = pygame.Rect(820, 0, 280, HUD_HEIGHT)
 class HudParts:
     """The parts of a HUD on a background; a part is baked when its content changes."""
 
-    def __init__(self, ground: Ground) -> None:
-        self.ground = ground
+    def __init__(self, background: Background) -> None:
+        self.background = background
         self.shown: dict[Hashable, object] = {}
 
     def changed(self, part: Hashable, content: object) -> bool:
@@ -34,7 +34,7 @@ class HudParts:
     def show(self, part: Hashable, content: object, x: int, w: int, bits: Callable[[], Iterable[Bit]]) -> None:
         """Bake the pieces of a part over the whole height of the HUD, from x on, w px wide, if its content changed."""
         if self.changed(part, content):
-            self.ground.bake(pygame.Rect(x, 0, w, HUD_HEIGHT), [*bits()])
+            self.background.bake(pygame.Rect(x, 0, w, HUD_HEIGHT), [*bits()])
 
     def countdown(self, state: Any, y: float) -> None:
         """The time that is left of a match, its digits round y px."""

@@ -53,7 +53,7 @@ class Bloom(NamedTuple):
     frames: tuple[Sprite, ...]
 
 
-class Score(NamedTuple):
+class ScorePopup(NamedTuple):
     """A number that rises."""
 
     born: float
@@ -63,7 +63,7 @@ class Score(NamedTuple):
     player: int
 
 
-class Moments:
+class Particles:
     """All of them, in canvas px and seconds."""
 
     def __init__(self) -> None:
@@ -71,7 +71,7 @@ class Moments:
         self.random = random.Random(7)
         self.particles: list[Particle] = []
         self.blooms: list[Bloom] = []
-        self.scores: list[Score] = []
+        self.scores: list[ScorePopup] = []
         self.shaken = -1.0
 
     def burst(self, x: float, y: float, color: Color, count: int, start: float, reach: float, cone: Cone = ALL) -> None:
@@ -108,7 +108,7 @@ class Moments:
         """A number over a robot, inside the arena; it takes the place of one like it."""
         x, y = min(max(x, LEFT + 60), LEFT + WIDTH - 60), max(y, TOP + 48 + RISE)
         self.scores = [one for one in self.scores if (one.player, one.text[0]) != (player, text[0])]
-        self.scores.append(Score(self.clock, x, y, text, player))
+        self.scores.append(ScorePopup(self.clock, x, y, text, player))
 
     def shake(self) -> None:
         """Shake the picture a little."""

@@ -15,7 +15,7 @@ from pigaming_app.ui.png import png_of
 SIZE = (1920, 1080)
 
 
-class Still:
+class Screenshot:
     """A camera on a match: it watches some ticks, so that shots and treads are there, and takes one picture."""
 
     def __init__(self, match: Match) -> None:

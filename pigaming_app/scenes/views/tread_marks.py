@@ -12,7 +12,7 @@ LASTS = 3.0  # seconds
 MOST = 30  # marks of each robot
 
 
-class Treads:
+class TreadMarks:
     """The marks of one robot, in canvas px."""
 
     def __init__(self, player: int) -> None:

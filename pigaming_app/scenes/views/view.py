@@ -10,11 +10,11 @@ from typing import Any, Protocol
 
 import pygame
 
-from pigaming_app.scenes.views.background import HUD_HEIGHT, LEFT, TOP, Ground
-from pigaming_app.scenes.views.particles import Moments
+from pigaming_app.scenes.views.background import HUD_HEIGHT, LEFT, TOP, Background
+from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.prewarm import driving
 from pigaming_app.scenes.views.sprites import effects
-from pigaming_app.scenes.views.tread_marks import Treads
+from pigaming_app.scenes.views.tread_marks import TreadMarks
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PRE
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
@@ -36,14 +36,14 @@ class Words(Protocol):
         """A number as this language writes it."""
 
 
-class Taste(Protocol):
+class ViewOptions(Protocol):
     """What of the settings a view wants to know."""
 
     flashes: str  # off, soft (no shake, no light on the ground), full
     shake: bool
 
 
-class Picture:
+class MatchView:
     """The view of one match. `players`: for each seat "human" or the name of the AI that drives; may be changed.
 
     A game's view is made of arena, state, players, taste and words; it fills `watch` and `draw`. `clock`: the part of
@@ -52,14 +52,16 @@ class Picture:
 
     clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
 
-    def __init__(self, state: Any, players: list[str], taste: Taste, words: Words | None, ground: Ground) -> None:
-        self.players, self.taste, self.words, self.ground = players, taste, words, ground
+    def __init__(
+        self, state: Any, players: list[str], options: ViewOptions, words: Words | None, background: Background
+    ) -> None:
+        self.players, self.options, self.words, self.background = players, options, words, background
         self.real: frozenset[int] = frozenset()  # seats whose robots are real: they are lit, not drawn
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        self.moments = Moments()
-        self.treads = [Treads(i) for i in range(len(state.robots))]
+        self.particles = Particles()
+        self.treads = [TreadMarks(i) for i in range(len(state.robots))]
         self.before = self.now = _poses(state)
-        self.jobs = PrewarmQueue([lambda: ground.surface])
+        self.jobs = PrewarmQueue([lambda: background.surface])
         self.jobs.then(driving(self.seats))
 
     def for_real(self, folder: Path) -> None:
@@ -103,7 +105,7 @@ class Picture:
     def light_up(self, under: Batch, seat: int, pose: Pose, fast: bool) -> None:
         """Treads, headlights and, if it is `fast`, the flame of a robot."""
         x, y, heading = pose
-        now, marks = self.moments.clock, self.treads[seat]
+        now, marks = self.particles.clock, self.treads[seat]
         marks.roll(x, y, heading, now)
         marks.draw(under, now)
         put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
@@ -112,12 +114,12 @@ class Picture:
 
     def paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
         """The ground and the batches: light below robots (within the arena), what hides, light, what hides all."""
-        shaken = self.moments.offset
+        shaken = self.particles.offset
         if shaken == (0, 0):
-            screen.blit(self.ground.surface, (0, 0))
+            screen.blit(self.background.surface, (0, 0))
         else:
             screen.fill((0, 0, 0))
-            screen.blit(self.ground.surface, shaken)
+            screen.blit(self.background.surface, shaken)
         screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
         screen.fblits(under, ADD)
         screen.set_clip(None)

@@ -6,7 +6,7 @@ from typing import Any, Protocol
 from pigaming_app.games import GAMES
 from pigaming_app.scenes.flow.stack import Push
 from pigaming_app.scenes.results.high_score_tables import contest
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.i18n import LANGUAGES
 
@@ -14,7 +14,7 @@ MENU = 3  # spots of the title before those of its foot
 BRAINS = 5  # presses of F4 that go round all AIs of a match
 
 
-class Visitor(Protocol):
+class TourWalker(Protocol):
     """Who walks; see walker.py."""
 
     app: Any
@@ -34,7 +34,7 @@ class Visitor(Protocol):
     def press(self, *keys: str, pause: float = 0.1) -> None: ...
 
 
-def tour(walker: Visitor) -> None:
+def tour(walker: TourWalker) -> None:
     """All of it. The second language sees the first arena of each game only."""
     for language in LANGUAGES:
         lessons(walker)
@@ -47,7 +47,7 @@ def tour(walker: Visitor) -> None:
     attract(walker)
 
 
-def home(walker: Visitor) -> None:
+def home(walker: TourWalker) -> None:
     """Back to the title."""
     for _ in range(12):
         if walker.on("Title"):
@@ -58,7 +58,7 @@ def home(walker: Visitor) -> None:
     walker.wait(0.5)
 
 
-def choose(walker: Visitor, name: str) -> None:
+def choose(walker: TourWalker, name: str) -> None:
     """Put the focus of the title on something and open it."""
     focus = walker.top.focus
     for _ in range(20):
@@ -73,7 +73,7 @@ def choose(walker: Visitor, name: str) -> None:
     walker.press("space")
 
 
-def lessons(walker: Visitor) -> None:
+def lessons(walker: TourWalker) -> None:
     """How to play each game."""
     walker.at("how to play")
     choose(walker, "howto")
@@ -83,7 +83,7 @@ def lessons(walker: Visitor) -> None:
     home(walker)
 
 
-def options(walker: Visitor) -> None:
+def options(walker: TourWalker) -> None:
     """The options, each row, and the pages below them."""
     walker.at("options")
     choose(walker, "options")
@@ -102,7 +102,7 @@ def options(walker: Visitor) -> None:
     home(walker)
 
 
-def robots(walker: Visitor) -> None:
+def robots(walker: TourWalker) -> None:
     """The pages of real robots, as far as they go without any."""
     for spot in [*walker.top.focus.spots]:
         walker.at(f"robots: {spot.name}")
@@ -116,7 +116,7 @@ def robots(walker: Visitor) -> None:
         walker.press("s")
 
 
-def play(walker: Visitor, game: str, every_arena: bool) -> None:
+def play(walker: TourWalker, game: str, every_arena: bool) -> None:
     """From the lobby to the rematch; then a moment in each of the other arenas."""
     lobby(walker, game)
     setup(walker, game)
@@ -133,7 +133,7 @@ def play(walker: Visitor, game: str, every_arena: bool) -> None:
     home(walker)
 
 
-def join(walker: Visitor, game: str) -> None:
+def join(walker: TourWalker, game: str) -> None:
     """Take a seat in the lobby of a game."""
     walker.at(f"{game}: lobby")
     walker.until(lambda: walker.on("Title"))
@@ -144,7 +144,7 @@ def join(walker: Visitor, game: str) -> None:
     walker.press("space")
 
 
-def lobby(walker: Visitor, game: str) -> None:
+def lobby(walker: TourWalker, game: str) -> None:
     """A person joins, AIs come and go, teams are formed; then the person is ready."""
     join(walker, game)
     walker.press(*["tab"] * 6, "x", "d", "a", "x")
@@ -154,10 +154,10 @@ def lobby(walker: Visitor, game: str) -> None:
     walker.press("space")
 
 
-def setup(walker: Visitor, game: str) -> None:
+def setup(walker: TourWalker, game: str) -> None:
     """Every arena, some of the other choices, and back to the first arena."""
     walker.at(f"{game}: setup")
-    walker.until(lambda: walker.on("SetupPage"))
+    walker.until(lambda: walker.on("MatchSetupPage"))
     walker.wait(0.3)
     for _ in walker.top.arenas:
         walker.press("d", pause=0.4)
@@ -165,14 +165,14 @@ def setup(walker: Visitor, game: str) -> None:
     walker.press(*["a"] * len(walker.top.arenas), pause=0.0)
 
 
-def begin(walker: Visitor, game: str) -> None:
+def begin(walker: TourWalker, game: str) -> None:
     """Begin the match that was chosen."""
     walker.at(f"{game}: match")
     walker.press("return")
     walker.until(lambda: walker.on("MatchScene"))
 
 
-def match(walker: Visitor, game: str) -> None:
+def match(walker: TourWalker, game: str) -> None:
     """A match with its overlay and its pause, to the end of its time, which is brought near."""
     begin(walker, game)
     walker.wait(6.0)
@@ -193,7 +193,7 @@ def match(walker: Visitor, game: str) -> None:
     walker.until(lambda: walker.on("Results") or walker.on("Initials"))
 
 
-def results(walker: Visitor, game: str) -> None:
+def results(walker: TourWalker, game: str) -> None:
     """The results, initials where they are asked for, the tables, a rematch that is ended at once."""
     walker.at(f"{game}: results")
     walker.wait(4.0)
@@ -201,10 +201,10 @@ def results(walker: Visitor, game: str) -> None:
         walker.at(f"{game}: initials")
         walker.press("w", "space", "s", "space", "space", "return", pause=0.3)
         walker.wait(2.0)
-        if walker.on("Best"):
+        if walker.on("HighScores"):
             walker.press("escape", pause=0.5)
     walker.at(f"{game}: best scores")
-    walker.app.stack.turn(Push(Best(walker.context, contest(walker.top.setup))))
+    walker.app.stack.turn(Push(HighScores(walker.context, contest(walker.top.setup))))
     walker.wait(3.0)
     walker.press("d", "s", "escape", pause=0.5)
     walker.at(f"{game}: rematch")
@@ -216,7 +216,7 @@ def results(walker: Visitor, game: str) -> None:
     leave(walker, game)
 
 
-def leave(walker: Visitor, game: str) -> None:
+def leave(walker: TourWalker, game: str) -> None:
     """End a match by hand, choose the same game again and go on to its setup."""
     walker.at(f"{game}: pause")
     walker.press("return", pause=0.5)
@@ -237,10 +237,10 @@ def leave(walker: Visitor, game: str) -> None:
     walker.until(lambda: walker.on("Lobby"))
     walker.press("space")
     walker.at(f"{game}: setup")
-    walker.until(lambda: walker.on("SetupPage"))
+    walker.until(lambda: walker.on("MatchSetupPage"))
 
 
-def lab(walker: Visitor) -> None:
+def lab(walker: TourWalker) -> None:
     """The Lab, its menu and the pages of that, a match against the robot."""
     walker.at("Lab")
     choose(walker, "lab")
@@ -261,11 +261,11 @@ def lab(walker: Visitor) -> None:
         walker.wait(0.5)
     walker.at("Lab: match")
     walker.press("x")
-    walker.until(lambda: walker.on("Fight"))
+    walker.until(lambda: walker.on("Challenge"))
     walker.wait(5.0)
     state = walker.top.inner.match.state
     state.rules.ticks = state.tick + HZ
-    walker.until(lambda: walker.on("Verdict"))
+    walker.until(lambda: walker.on("ChallengeResult"))
     walker.wait(2.0)
     walker.press("escape", pause=1.0)
     walker.at("Lab")
@@ -274,7 +274,7 @@ def lab(walker: Visitor) -> None:
     home(walker)
 
 
-def attract(walker: Visitor) -> None:
+def attract(walker: TourWalker) -> None:
     """A round of shows for every game."""
     walker.context.settings.attract_seconds = 5.0
     walker.at("attract mode")
@@ -282,13 +282,13 @@ def attract(walker: Visitor) -> None:
     for _ in range(3 * len(GAMES)):
         show = walker.top.show
         walker.wait(4.0)
-        if hasattr(show, "stage"):
-            state = show.stage.match.state
+        if hasattr(show, "runner"):
+            state = show.runner.match.state
             state.rules.ticks = min(state.rules.ticks, state.tick + HZ)
         walker.until(partial(other_show, walker, show))
     home(walker)
 
 
-def other_show(walker: Visitor, show: object) -> bool:
+def other_show(walker: TourWalker, show: object) -> bool:
     """Whether attract mode has come to another show."""
     return walker.top.show is not show

@@ -21,7 +21,7 @@ PATIENCE = 60.0  # s to wait for a screen
 WARM = 2.0  # s on the title before anything is pressed
 
 
-class Lost(Exception):
+class ScreenMissing(Exception):
     """A screen did not come."""
 
 
@@ -66,7 +66,7 @@ class Walker:
             if true():
                 return
             self.frame()
-        raise Lost(f"{self.screen}: {type(self.top).__name__} is still shown")
+        raise ScreenMissing(f"{self.screen}: {type(self.top).__name__} is still shown")
 
     def press(self, *keys: str, pause: float = 0.1) -> None:
         """Tap keys one after the other."""

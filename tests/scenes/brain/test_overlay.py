@@ -12,9 +12,9 @@ from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.stack import Home
 from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.play.runner import Stage
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.title.attract import Attract, Demonstration
+from pigaming_app.scenes.title.attract import Attract, DemoMatch
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
@@ -41,10 +41,10 @@ def f4(arcade: Arcade) -> None:
     arcade.frame(draw=True)
 
 
-def stage_of(arcade: Arcade, game: str, seed: int = 1) -> Stage:
+def stage_of(arcade: Arcade, game: str, seed: int = 1) -> MatchRunner:
     brains = SEATS[game]
     wish = choose(game, brains, None, 1.0, seed, None, None, brains)
-    return Stage(arcade.context, seated(wish), loud=False)
+    return MatchRunner(arcade.context, seated(wish), loud=False)
 
 
 def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
@@ -53,7 +53,7 @@ def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
     shown = []
     for _ in range(4):
         f4(arcade)
-        shown.append(match.stage.brain.seat)
+        shown.append(match.runner.brain.seat)
     assert shown == [1, 3, None, 1]
     assert arcade.stack.top is match, "no pause, and the match went on to its countdown"
     assert arcade.context.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
@@ -63,7 +63,7 @@ def test_where_nobody_is_an_ai_that_is_said(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS[:2])
     arcade.open(match)
     f4(arcade)
-    assert match.stage.brain.seat is None
+    assert match.runner.brain.seat is None
     assert match.notice is not None
     assert match.noticed > 0.0
 
@@ -77,12 +77,12 @@ def test_somebody_who_takes_the_seat_is_not_looked_into(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human easy off off", 1.0), [None])
     arcade.open(match)
     f4(arcade)
-    assert match.stage.brain.seat == 0, "an AI drives for somebody"
+    assert match.runner.brain.seat == 0, "an AI drives for somebody"
     match.hand(0, KEYS[0])
     arcade.frame(draw=True)
-    assert match.stage.brain.seat is None
+    assert match.runner.brain.seat is None
     f4(arcade)
-    assert match.stage.brain.seat == 1
+    assert match.runner.brain.seat == 1
 
 
 def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
@@ -94,7 +94,7 @@ def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
     assert any("F4" in label for label, _ in page.prompts.said)
     f4(arcade)
     assert arcade.shown(MatchScene) is match
-    assert match.stage.brain.seat == 1
+    assert match.runner.brain.seat == 1
 
 
 @pytest.mark.parametrize(
@@ -120,16 +120,16 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
         pad.tap("y" if not plain else 3)
         arcade.wait(0.2)
         assert arcade.shown(MatchScene) is match
-        assert match.stage.brain.seat == 1
+        assert match.runner.brain.seat == 1
 
 
 def test_in_the_show_it_is_no_reason_to_leave(arcade: Arcade) -> None:
     show = Attract(arcade.context)
-    assert isinstance(show.show, Demonstration)
+    assert isinstance(show.show, DemoMatch)
     arcade.open(show)
     for seat in (0, 1):
         f4(arcade)
-        assert show.show.stage.brain.seat == seat
+        assert show.show.runner.brain.seat == seat
         assert arcade.stack.top is show
     show._next()
     assert isinstance(show.on(press(Button.BRAIN)), Home), "over a page it counts like any other key"
@@ -209,7 +209,7 @@ def test_the_petals_of_a_rose_turn_with_the_robot() -> None:
     pygame.display.set_mode((1920, 1080))
     ahead = [1.0] + [0.0] * 15
     for heading, (dx, dy) in ((0.0, (1, 0)), (1.5708, (0, 1)), (3.1416, (-1, 0))):
-        drawn = marks.Marks((960.0, 540.0, heading), [], (60, 160, 255), 0.0)
+        drawn = marks.FloorMarks((960.0, 540.0, heading), [], (60, 160, 255), 0.0)
         drawn.rose(ahead, [])
         screen = pygame.Surface((1920, 1080))
         screen.fblits(drawn.light, pygame.BLEND_RGB_ADD)

@@ -19,10 +19,10 @@ from pigaming_app.hardware.emulator.site import EmulatedSite
 from pigaming_app.hardware.messages import Said, said
 from pigaming_app.hardware.session import store as kept
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
-from pigaming_app.scenes.calibration.drift_page import CheckPage
-from pigaming_app.scenes.calibration.height_page import OutlinesPage
+from pigaming_app.scenes.calibration.drift_page import DriftPage
+from pigaming_app.scenes.calibration.height_page import HeightPage
 from pigaming_app.scenes.calibration.messages import tell
-from pigaming_app.scenes.calibration.result_page import Finding, ResultPage
+from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw.pixels import pixels_of
@@ -79,8 +79,8 @@ def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operate
     arcade.press(Button.RIGHT)
     assert "height" not in [spot.name for spot in arcade.shown(CalibrationPage).focus.spots]
     arcade.begin()
-    arcade.pictures(OutlinesPage)
-    arcade.shown(OutlinesPage)
+    arcade.pictures(HeightPage)
+    arcade.shown(HeightPage)
     result = arcade.pictures(ResultPage)
     assert result.finding.good
     assert result.finding.ground.height == pytest.approx(arcade.site.arena.optics.lens.eye[2], rel=0.05)
@@ -175,8 +175,8 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated) -> N
     arcade.pictures(ResultPage)
     arcade.press(Button.FIRE)
     arcade.press(Button.BACK)
-    arcade.open(CheckPage(arcade.context, arcade.site))
-    checking = arcade.shown(CheckPage).work
+    arcade.open(DriftPage(arcade.context, arcade.site))
+    checking = arcade.shown(DriftPage).work
     for _ in range(24):
         arcade.picture()
     assert checking.mm is not None
@@ -236,7 +236,7 @@ def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
 
 def test_a_calibration_of_another_display_camera_or_hand_is_refused(arcade: Operated, tmp_path: Path) -> None:
     arcade.begin()
-    finding: Finding = arcade.pictures(ResultPage).finding
+    finding: CalibrationResult = arcade.pictures(ResultPage).finding
     assert finding.ground is not None
     kept.save(finding.ground, arcade.site)
     here = arcade.context.canvas.projection

@@ -10,7 +10,7 @@ pytest.importorskip("cv2")
 from pigaming_app.hardware.vision import markers
 from pigaming_app.hardware.vision.markers import NoVision
 from pigaming_app.scenes.app import App, Options
-from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, PinPage, handle
+from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, CornerPinPage, handle
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import FOCUS
@@ -27,7 +27,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    arcade.open(PinPage(arcade.context))
+    arcade.open(CornerPinPage(arcade.context))
     return arcade
 
 
@@ -52,7 +52,7 @@ def test_a_corner_moves_by_ten_or_by_one_and_the_picture_with_it(arcade: Arcade)
     assert window.get_at((24, 15))[:3] == (255, 255, 255)
     assert window.get_at((1919, 0))[:3] == (255, 255, 255)
     assert canvas.at((20, 11)) == pytest.approx((0.0, 0.0), abs=0.01)
-    arcade.shown(PinPage)
+    arcade.shown(CornerPinPage)
 
 
 @pytest.mark.parametrize("corner", range(4))
@@ -70,7 +70,7 @@ def test_the_arrow_points_at_the_chosen_corner_of_the_picture(corner: int) -> No
 
 
 def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) -> None:
-    page = arcade.shown(PinPage)
+    page = arcade.shown(CornerPinPage)
     for corner in (1, 2, 3, 0):
         arcade.press(Button.FIRE)
         assert page.chosen == corner
@@ -95,7 +95,7 @@ def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None
 def test_who_leaves_without_saving_leaves_it_as_it_was(arcade: Arcade) -> None:
     arcade.press(Button.BACK)
     arcade.context.canvas.pin(ASKEW)
-    arcade.open(PinPage(arcade.context))
+    arcade.open(CornerPinPage(arcade.context))
     for button in (Button.RIGHT, Button.DOWN, Button.Y, Button.BACK):
         arcade.press(button)
     assert arcade.context.canvas.corners == tuple(ASKEW)
@@ -111,13 +111,13 @@ def test_reset_is_straight_and_costs_nothing(arcade: Arcade, tmp_path: Path) -> 
 
 
 def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
-    page = arcade.shown(PinPage)
+    page = arcade.shown(CornerPinPage)
     for _ in range(300):
         arcade.press(Button.RIGHT)
         arcade.press(Button.DOWN)
     assert page.corners[0] <= FARTHEST
     assert page.said > 0.0 or page.corners[0] == FARTHEST
-    arcade.shown(PinPage)
+    arcade.shown(CornerPinPage)
     arcade.context.canvas.flip()
 
 
@@ -128,7 +128,7 @@ def test_a_full_disk_is_said_and_the_page_stays(arcade: Arcade, monkeypatch: pyt
     monkeypatch.setattr(Settings, "save", full)
     arcade.press(Button.RIGHT)
     arcade.press(Button.START)
-    assert arcade.shown(PinPage).sentence == arcade.context.words("app.unsaved")
+    assert arcade.shown(CornerPinPage).sentence == arcade.context.words("app.unsaved")
 
 
 def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
@@ -140,7 +140,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_shows_its_picture(
     monkeypatch.setattr("pigaming_app.hardware.calibration.corner_pin.opencv", none)
     assert markers.opencv is not none
     arcade.press(Button.RIGHT)
-    page = arcade.shown(PinPage)
+    page = arcade.shown(CornerPinPage)
     assert page.sentence == "OpenCV is not installed."
     assert page.corners == [0, 0, 1920, 0, 1920, 1080, 0, 1080]
     with pytest.raises(NoPin):

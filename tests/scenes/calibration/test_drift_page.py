@@ -10,7 +10,7 @@ pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration.camera_task import SPOT
 from pigaming_app.hardware.emulator.site import EmulatedSite
-from pigaming_app.scenes.calibration.drift_page import CheckPage
+from pigaming_app.scenes.calibration.drift_page import DriftPage
 from pigaming_app.scenes.calibration.height_page import DISC
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
@@ -40,7 +40,7 @@ def test_no_sentence_runs_into_the_spot(
     arcade = Operated(controls, EmulatedSite(2))
     arcade.context.words = Words(language)
     with measuring(monkeypatch) as screen:
-        page = CheckPage(arcade.context, arcade.site)
+        page = DriftPage(arcade.context, arcade.site)
         for name, value in STATES[state].items():
             setattr(page.work, name, LONGEST[language] if value == "longest" else value)
         page.draw(screen)

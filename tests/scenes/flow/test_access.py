@@ -12,7 +12,7 @@ from pigaming_app.ai.brain.kind import Hands, Thinker
 from pigaming_app.scenes.flow.access import ESCAPE, OWNED, TAKE
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.game_choice import GameChoice
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import HUMAN
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -128,7 +128,7 @@ def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(ar
     arcade.press(Button.Y, KEYS[2])
     arcade.press(Button.Y, KEYS[3])
     arcade.press(Button.START, KEYS[1])
-    arcade.shown(SetupPage)
+    arcade.shown(MatchSetupPage)
     arcade.press(Button.BACK, KEYS[3])
     arcade.shown(Lobby)
     arcade.press(Button.BACK, KEYS[0])
@@ -176,13 +176,13 @@ def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
     page = Lobby(arcade.context, "pitanks")
     page.seats.join(KEYS[0])
     page.seats.add()
-    scene = SetupPage(arcade.context, "pitanks", page.seats)
+    scene = MatchSetupPage(arcade.context, "pitanks", page.seats)
     arcade.open(scene)
     arcade.wait(1.0)
     before = (scene.chosen, scene.focus.name)
     for act in (Button.FIRE, *EVERY):
         arcade.press(act, KEYS[1])
-        assert arcade.shown(SetupPage) is scene
+        assert arcade.shown(MatchSetupPage) is scene
         assert (scene.chosen, scene.focus.name) == before
     arcade.press(Button.FIRE, KEYS[0])
     arcade.shown(MatchScene)
@@ -259,7 +259,7 @@ def test_f4_of_the_keyboard_shows_thoughts_in_any_match_but_ends_no_pause_of_som
     pad, first = plug(arcade, pads)
     match = running(arcade, "human easy off off", [first])
     key(arcade, pygame.KSCAN_F4)
-    assert match.stage.brain.seats == [1]
+    assert match.runner.brain.seats == [1]
     tap(arcade, pad, "start")
     page = arcade.shown(Pause)
     key(arcade, pygame.KSCAN_F4)
@@ -366,12 +366,12 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
     arcade.wait(REST - 1.0, fps=20)
-    assert not match.walkoff.asked()
-    arcade.until(lambda: bool(match.walkoff.asked()))
-    assert list(match.walkoff.asked()) == [1]
+    assert not match.idle_seats.asked()
+    arcade.until(lambda: bool(match.idle_seats.asked()))
+    assert list(match.idle_seats.asked()) == [1]
     arcade.stack.top.draw(arcade.screen)
     tap(arcade, two, "x")
-    assert not match.walkoff.asked(), "any button answers"
+    assert not match.idle_seats.asked(), "any button answers"
     arcade.wait(REST + 1.0, fps=20)
     before = match.match.state.tick
     arcade.until(lambda: isinstance(match.match.brains[1], Thinker))
@@ -553,4 +553,4 @@ def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> No
                 top.stop()
         if i % 4 == 0:
             arcade.stack.turn(arcade.stack.top.update(chance.choice((0.02, 0.05, 0.4))))
-    assert {"Lobby", "SetupPage", "MatchScene", "Pause"} <= seen
+    assert {"Lobby", "MatchSetupPage", "MatchScene", "Pause"} <= seen

@@ -12,7 +12,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import Options, opened
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
 from pigaming_app.scenes.flow.preload import Preloader
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.sim.kernel import can_compile
@@ -67,7 +67,7 @@ def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, ho
     seats = Seats("normal")
     seats.join(KEYS[0])
     seats.fill()
-    page = SetupPage(arcade.context, "pitanks", seats)
+    page = MatchSetupPage(arcade.context, "pitanks", seats)
     arcade.open(page)
     arcade.wait(1.0)
 
@@ -115,10 +115,10 @@ def test_the_compiler_runs_once_from_the_title_on_and_ends_with_the_arcade(
 
 @pytest.mark.parametrize("simulated", [True, False], ids=["in simulated time", "with a match on top"])
 def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool) -> None:
-    def first(context: object) -> SetupPage:
+    def first(context: object) -> MatchSetupPage:
         seats = Seats("normal")
         seats.join(KEYS[0])
-        return SetupPage(context, "pitanks", seats)  # type: ignore[arg-type]
+        return MatchSetupPage(context, "pitanks", seats)  # type: ignore[arg-type]
 
     options = Options(headless=True, step=1 / 60) if simulated else Options(headless=True, first=first)
     with opened(options) as app:

@@ -2,34 +2,34 @@
 
 import pytest
 
-from pigaming_app.scenes.flow.timestep import MOST, Pace
+from pigaming_app.scenes.flow.timestep import MOST, FixedTimestep
 from pigaming_app.sim.world import DT
 
 
 @pytest.mark.parametrize("fps", [24, 30, 50, 60, 75, 144, 240])
 def test_ten_seconds_are_five_hundred_ticks_at_any_frame_rate(fps: int) -> None:
-    pace = Pace()
+    pace = FixedTimestep()
     assert sum(pace.due(1 / fps) for _ in range(10 * fps)) == pytest.approx(500, abs=1)
 
 
 def test_a_second_asleep_is_not_caught_up() -> None:
-    pace = Pace()
+    pace = FixedTimestep()
     assert pace.due(1.0) == MOST
     assert pace.blend == 0.0
     assert sum(pace.due(1 / 50) for _ in range(50)) == 50
 
 
 def test_a_machine_of_five_frames_a_second_plays_slowly() -> None:
-    pace = Pace()
+    pace = FixedTimestep()
     assert sum(pace.due(1 / 5) for _ in range(10)) == 10 * MOST
 
 
 def test_four_times_the_speed_is_four_times_the_ticks() -> None:
-    pace = Pace()
+    pace = FixedTimestep()
     assert sum(pace.due(1 / 60, 4.0) for _ in range(120)) == pytest.approx(400, abs=1)
 
 
 def test_the_picture_lies_between_two_ticks() -> None:
-    pace = Pace()
+    pace = FixedTimestep()
     pace.due(1.5 * DT)
     assert pace.blend == pytest.approx(0.5)

@@ -10,10 +10,10 @@ from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.scenes.lab import progress, scene
-from pigaming_app.scenes.lab import trainer as workshop
+from pigaming_app.scenes.lab import trainer as trainer
 from pigaming_app.scenes.lab import view as page
-from pigaming_app.scenes.lab.challenge import ROBOT, Fight, Verdict
-from pigaming_app.scenes.lab.compare_page import Compare
+from pigaming_app.scenes.lab.challenge import ROBOT, Challenge, ChallengeResult
+from pigaming_app.scenes.lab.compare_page import ComparePage
 from pigaming_app.scenes.lab.layout import CURVE, KNOB_NAMES, MATCH, PLOT, SPEED
 from pigaming_app.scenes.lab.learning_curve import Measure, room, smoothed
 from pigaming_app.scenes.lab.menu import LabMenu
@@ -48,14 +48,14 @@ def lab(arcade: Arcade) -> Lab:
 
 def learn(arcade: Arcade, matches: int) -> None:
     """Let it play some matches, as fast as it can."""
-    training = lab(arcade).workshop.training
+    training = lab(arcade).trainer.training
     arcade.until(lambda: training.matches >= matches, 600.0)
 
 
 def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     """It has half a second of every frame."""
-    monkeypatch.setattr(workshop, "SLICE", 0.5)
-    lab(arcade).workshop.speed = workshop.FASTEST
+    monkeypatch.setattr(trainer, "SLICE", 0.5)
+    lab(arcade).trainer.speed = trainer.FASTEST
 
 
 def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcade: Arcade) -> None:
@@ -68,8 +68,8 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
         assert lab(arcade) is title.lab
         arcade.wait(0.5)
         arcade.press(Button.BACK)
-    assert lab_of(arcade).workshop.training.match.tick > 0
-    assert lab_of(arcade).workshop.join()
+    assert lab_of(arcade).trainer.training.match.tick > 0
+    assert lab_of(arcade).trainer.join()
 
 
 def lab_of(arcade: Arcade) -> Lab:
@@ -80,8 +80,8 @@ def lab_of(arcade: Arcade) -> Lab:
 
 def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, home: Path) -> None:
     fresh = Lab(Arcade(controls).context, fast=False)
-    assert fresh.workshop.training.experiences == 0
-    assert fresh.workshop.moment.knowing == 0.0
+    assert fresh.trainer.training.experiences == 0
+    assert fresh.trainer.moment.knowing == 0.0
     fresh.entered()
     fresh.update(0.0)
     assert list(fresh.shown.signs) == ["unknown"] * PETALS
@@ -89,7 +89,7 @@ def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, hom
 
 
 def test_while_it_is_watched_it_plays_in_real_time_and_ten_times_as_fast(arcade: Arcade) -> None:
-    match = lab(arcade).workshop.training.match
+    match = lab(arcade).trainer.training.match
     before = match.tick
     arcade.wait(1.0)
     assert match.tick - before == pytest.approx(50, abs=2)
@@ -104,18 +104,18 @@ def test_as_fast_as_it_can_it_learns_is_examined_and_has_a_plan(
 ) -> None:
     at_full_speed(arcade, monkeypatch)
     learn(arcade, 2)
-    arcade.until(lambda: len(lab(arcade).workshop.progress.measures) >= 2, 600.0)
+    arcade.until(lambda: len(lab(arcade).trainer.progress.measures) >= 2, 600.0)
     arcade.wait(1.0)
     shown = lab(arcade).shown
     assert all(0.0 <= one.share <= 1.0 for one in shown.measures)
     assert [one.matches for one in shown.measures] == sorted(one.matches for one in shown.measures)
     assert shown.knowing > 0.0
     assert any(shown.levels)
-    assert sum(one.seen for one in lab(arcade).workshop.progress.plan if one) > 1000
+    assert sum(one.seen for one in lab(arcade).trainer.progress.plan if one) > 1000
 
 
 def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
-    table, match = lab(arcade).workshop.training.table, lab(arcade).workshop.training.match
+    table, match = lab(arcade).trainer.training.table, lab(arcade).trainer.training.match
     before = digest(table), digest(match)
     for _ in range(5):
         lab(arcade)
@@ -129,22 +129,22 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     for _ in range(3):
         arcade.press(Button.LEFT)
     arcade.press(Button.UP)
-    assert here.workshop.recipe.still == -2.0
+    assert here.trainer.recipe.still == -2.0
     assert lab(arcade).held == "still"
     arcade.press(Button.BACK)
     assert lab(arcade).held == "", "BACK lets go of the knob and does not leave"
     arcade.press(Button.LEFT)
-    assert here.workshop.recipe.still == -2.0
+    assert here.trainer.recipe.still == -2.0
     arcade.frame()
-    assert here.workshop.training.recipe.still == -2.0
-    assert here.workshop.training.table.knobs.still == -2.0
+    assert here.trainer.training.recipe.still == -2.0
+    assert here.trainer.training.table.knobs.still == -2.0
 
 
 def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
     lab(arcade).focus.go("hit")
     arcade.press(Button.FIRE)
     arcade.press(Button.X)
-    arcade.shown(Fight)
+    arcade.shown(Challenge)
 
 
 @pytest.mark.parametrize(("act", "end"), [(Button.RIGHT, 10.0), (Button.LEFT, -10.0)])
@@ -153,14 +153,14 @@ def test_a_knob_stops_at_its_ends(arcade: Arcade, button: Button, end: float) ->
     arcade.press(Button.FIRE)
     for _ in range(25):
         arcade.press(button)
-    assert lab(arcade).workshop.recipe.miss == end
+    assert lab(arcade).trainer.recipe.miss == end
 
 
 def test_what_it_has_learned_stays_when_a_knob_is_turned(arcade: Arcade) -> None:
-    before = lab(arcade).workshop.training.experiences
-    lab(arcade).workshop.recipe = RECIPES[2]
+    before = lab(arcade).trainer.training.experiences
+    lab(arcade).trainer.recipe = RECIPES[2]
     arcade.wait(0.5)
-    assert lab(arcade).workshop.training.experiences > before > 0
+    assert lab(arcade).trainer.training.experiences > before > 0
 
 
 def test_a_pad_reaches_everything(arcade: Arcade) -> None:
@@ -177,22 +177,22 @@ def test_a_mouse_chooses_a_speed_and_turns_a_knob(arcade: Arcade) -> None:
     for i in (2, 0, 1):
         left, wide = page.speed_part(i)
         arcade.click(SPEED.left + left + wide / 2, SPEED.centery)
-        assert here.workshop.speed == i
+        assert here.trainer.speed == i
     knob = here.focus.rect("hit")
     arcade.click(knob.left + 20, knob.centery)
     arcade.click(knob.left + 20, knob.centery)
     arcade.click(knob.right - 20, knob.centery)
-    assert here.workshop.recipe.hit == 9.0
+    assert here.trainer.recipe.hit == 9.0
 
 
 def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     here = lab(arcade)
     here.name = "ZUMI"
-    experiences = here.workshop.training.experiences
+    experiences = here.trainer.training.experiences
     arcade.press(Button.X, KEYS[1])
-    fight = arcade.shown(Fight)
+    fight = arcade.shown(Challenge)
     assert fight.inner.devices[0] == KEYS[1]
-    assert fight.inner.stage.driver(ROBOT, None) == ("ZUMI", "ai")
+    assert fight.inner.runner.driver(ROBOT, None) == ("ZUMI", "ai")
     arcade.until(lambda: fight.inner.match.state.tick > 200)
     robot = fight.inner.match.state.robots[ROBOT]
     start = fight.inner.match.arena.starts[ROBOT]
@@ -200,39 +200,39 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     while not fight.inner.match.over:
         fight.inner.match.tick()
     arcade.wait(3.0)
-    arcade.shown(Verdict)
-    assert here.workshop.training.experiences == experiences, "it rests meanwhile"
-    assert here.workshop.join()
+    arcade.shown(ChallengeResult)
+    assert here.trainer.training.experiences == experiences, "it rests meanwhile"
+    assert here.trainer.join()
     for kind, seconds in ((pygame.KEYDOWN, 0.2), (pygame.KEYUP, 5.0), (pygame.KEYDOWN, 0.8), (pygame.KEYUP, 0.1)):
         pygame.event.post(pygame.Event(kind, key=0, scancode=pygame.KSCAN_ESCAPE, mod=0))
         arcade.wait(seconds)
     assert lab(arcade) is here
     arcade.wait(0.5)
-    assert here.workshop.training.experiences > experiences
+    assert here.trainer.training.experiences > experiences
 
 
 def test_one_can_look_into_the_brain_that_one_plays_against(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     at_full_speed(arcade, monkeypatch)
     arcade.wait(0.2)
     arcade.press(Button.X)
-    fight = arcade.shown(Fight)
+    fight = arcade.shown(Challenge)
     arcade.until(lambda: fight.inner.match.state.tick > 20)
     before = digest(fight.inner.match.state)
     arcade.press(Button.BRAIN)
-    arcade.shown(Fight)
-    assert fight.inner.stage.brain.seats == [ROBOT]
+    arcade.shown(Challenge)
+    assert fight.inner.runner.brain.seats == [ROBOT]
     assert digest(fight.inner.match.state) == before
 
 
 def test_once_more_and_an_early_end(arcade: Arcade) -> None:
     arcade.press(Button.X)
-    first = arcade.shown(Fight)
+    first = arcade.shown(Challenge)
     while not first.inner.match.over:
         first.inner.match.tick()
     arcade.wait(3.0)
-    arcade.shown(Verdict)
+    arcade.shown(ChallengeResult)
     arcade.press(Button.FIRE)
-    second = arcade.shown(Fight)
+    second = arcade.shown(Challenge)
     assert second is not first
     arcade.wait(0.2)
     arcade.press(Button.START)
@@ -240,7 +240,7 @@ def test_once_more_and_an_early_end(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE)
     arcade.wait(0.1)
-    third = arcade.shown(Fight)
+    third = arcade.shown(Challenge)
     assert third is not second
     arcade.press(Button.START)
     arcade.shown(Pause).focus.go("end")
@@ -256,9 +256,9 @@ def test_forgetting_everything_takes_two_presses(arcade: Arcade) -> None:
     arcade.shown(LabMenu).focus.go("anew")
     arcade.press(Button.FIRE)
     arcade.shown(LabMenu)
-    assert here.workshop.training.experiences > 0
+    assert here.trainer.training.experiences > 0
     arcade.press(Button.FIRE)
-    assert here.workshop.training.experiences == 0
+    assert here.trainer.training.experiences == 0
     assert lab(arcade) is here
 
 
@@ -271,10 +271,10 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
     arcade.press(Button.START)
     arcade.shown(LabMenu).focus.go("compare")
     arcade.press(Button.FIRE)
-    table = arcade.shown(Compare)
+    table = arcade.shown(ComparePage)
     assert [player.own for player in table.players] == [True, True, False]
     arcade.until(lambda: not table.pairs, 600.0)
-    arcade.shown(Compare)
+    arcade.shown(ComparePage)
     assert sum(player.won for player in table.players) == sum(player.lost for player in table.players)
     assert {player.won + player.tied + player.lost for player in table.players} == {4}
     points = [player.points for player in table.order()]
@@ -284,27 +284,27 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
 
 
 def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
-    kept = lab(arcade).workshop.checkpoints()
+    kept = lab(arcade).trainer.checkpoints()
     assert set(kept) == {0}
     assert (kept[0].matches, kept[0].experiences) == (0, 0)
 
 
 def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:
     here = lab(arcade)
-    here.workshop.recipe = RECIPES[2]
+    here.trainer.recipe = RECIPES[2]
     arcade.context.idle = scene.IDLE + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
-    assert here.workshop.training.experiences == 0
-    assert here.workshop.recipe == scene.FIRST
-    assert here.workshop.join()
+    assert here.trainer.training.experiences == 0
+    assert here.trainer.recipe == scene.FIRST
+    assert here.trainer.join()
 
 
 def test_the_moment_in_which_it_beats_the_hand_made_robot_is_cheered_once(arcade: Arcade) -> None:
     here = lab(arcade)
     for share in (1.0, 0.0, 0.2, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0):
-        measures = here.workshop.progress.measures
-        here.workshop.progress.measures = [*measures, Measure(len(measures), share)]
+        measures = here.trainer.progress.measures
+        here.trainer.progress.measures = [*measures, Measure(len(measures), share)]
         lab(arcade)
         arcade.frame()
     assert arcade.sounds.heard.count("win") == 1

@@ -7,8 +7,8 @@ import pytest
 
 from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.menu import LabMenu
-from pigaming_app.scenes.lab.name_page import Naming, middle
-from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, Shelf
+from pigaming_app.scenes.lab.name_page import NamePage, middle
+from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.controls import Controls
@@ -39,12 +39,12 @@ def menu(arcade: Arcade, item: str) -> None:
 def save(arcade: Arcade, name: str) -> None:
     """Save the robot under a name, letter by letter."""
     menu(arcade, "save")
-    page = arcade.shown(Naming)
+    page = arcade.shown(NamePage)
     spell(page, name)
     arcade.press(Button.START)
 
 
-def spell(page: Naming, name: str) -> None:
+def spell(page: NamePage, name: str) -> None:
     page.picker.letters = [robots.LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
 
 
@@ -56,7 +56,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
         arcade.shown(LabMenu)
         pad.tap("a")
         arcade.wait(0.5)
-        page = arcade.shown(Naming)
+        page = arcade.shown(NamePage)
         spell(page, "A")
         pad.tap("down")
         arcade.wait(0.1)
@@ -71,16 +71,16 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
     assert here.name == "B9"
     assert here.sentence == arcade.context.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
-    kept = robots.fetch("B9", fast=False)
+    kept = robots.load_robot("B9", fast=False)
     assert kept.experiences > 0
     here.begin()
     menu(arcade, "open")
-    arcade.shown(Shelf)
+    arcade.shown(OpenPage)
     arcade.press(Button.FIRE)
     assert lab(arcade) is here
-    assert (here.name, here.workshop.training.experiences) == ("B9", kept.experiences)
-    assert digest(here.workshop.training.table) == digest(kept.table)
-    assert here.workshop.recipe == kept.recipe
+    assert (here.name, here.trainer.training.experiences) == ("B9", kept.experiences)
+    assert digest(here.trainer.training.table) == digest(kept.table)
+    assert here.trainer.recipe == kept.recipe
 
 
 def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> None:
@@ -89,7 +89,7 @@ def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> N
     lab(arcade).begin()
     arcade.wait(0.5)
     save(arcade, "VOLT")
-    page = arcade.shown(Naming)
+    page = arcade.shown(NamePage)
     assert page.taken
     assert robots.file_of("VOLT").read_bytes() == before
     arcade.press(Button.START)
@@ -100,14 +100,14 @@ def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> N
 def test_saving_again_under_the_same_name_needs_no_question(arcade: Arcade) -> None:
     save(arcade, "NEON")
     menu(arcade, "save")
-    assert arcade.shown(Naming).name == "NEON"
+    assert arcade.shown(NamePage).name == "NEON"
     arcade.press(Button.START)
     assert lab(arcade).name == "NEON"
 
 
 def test_no_name_is_no_name(arcade: Arcade) -> None:
     save(arcade, " ")
-    arcade.shown(Naming)
+    arcade.shown(NamePage)
     assert robots.names() == []
     arcade.press(Button.BACK)
     lab(arcade)
@@ -115,7 +115,7 @@ def test_no_name_is_no_name(arcade: Arcade) -> None:
 
 def test_a_mouse_spells_too(arcade: Arcade) -> None:
     menu(arcade, "save")
-    page = arcade.shown(Naming)
+    page = arcade.shown(NamePage)
     spell(page, "AB")
     arcade.click(middle(1), 510 + 160)
     assert (page.picker.slot, page.name) == (1, "AC")
@@ -136,11 +136,11 @@ def test_a_disk_that_takes_nothing_is_one_sentence_and_the_robot_lives_on(
 
     arcade.context.words.switch(language)
     monkeypatch.setattr("pigaming_app.ai.qlearning.table_files.save", fail)
-    experiences = lab(arcade).workshop.training.experiences
+    experiences = lab(arcade).trainer.training.experiences
     save(arcade, "ROBI")
     here = lab(arcade)
     assert (here.wrong, here.sentence) == (True, arcade.context.words(key))
-    assert here.workshop.training.experiences >= experiences > 0
+    assert here.trainer.training.experiences >= experiences > 0
     assert here.name == ""
 
 
@@ -156,17 +156,17 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     save(arcade, "PIXI")
     path = robots.file_of("PIXI")
     path.write_bytes(path.read_bytes()[:200])
-    before = lab(arcade).workshop.training
+    before = lab(arcade).trainer.training
     menu(arcade, "open")
     arcade.press(Button.FIRE)
     here = lab(arcade)
     assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.broken"))
-    assert here.workshop.training is before
+    assert here.trainer.training is before
 
 
 def test_an_empty_shelf_leads_back(arcade: Arcade) -> None:
     menu(arcade, "open")
-    arcade.shown(Shelf)
+    arcade.shown(OpenPage)
     arcade.press(Button.FIRE)
     lab(arcade)
 
@@ -177,10 +177,10 @@ def test_many_robots_fill_more_than_one_page(arcade: Arcade) -> None:
         robots.file_of(f"R{i}").write_bytes(b"")
     (robots.folder() / "not a name.npz").write_bytes(b"")
     menu(arcade, "open")
-    page = arcade.shown(Shelf)
+    page = arcade.shown(OpenPage)
     assert (len(page.names), page.pages) == (COLUMNS * ROWS + 2, 2)
     arcade.press(Button.Y)
-    assert len(arcade.shown(Shelf).focus.spots) == 2
+    assert len(arcade.shown(OpenPage).focus.spots) == 2
     arcade.press(Button.BACK)
     lab(arcade)
 

@@ -13,25 +13,25 @@ import pytest
 
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.qlearning.rewards import RECIPES
-from pigaming_app.scenes.lab import trainer as workshop
-from pigaming_app.scenes.lab.trainer import FASTEST, Workshop
+from pigaming_app.scenes.lab import trainer as trainer
+from pigaming_app.scenes.lab.trainer import FASTEST, Trainer
 from pigaming_app.sim.kernel import can_compile
 
 needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not installed")
 
 
 @pytest.fixture
-def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Workshop]:
+def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Trainer]:
     monkeypatch.setattr("pigaming_app.ai.experiments.compiler.PATIENCE", 0)  # other tests keep all cores busy
     compiler = Compiler()
-    shop = Workshop(RECIPES[1], 5, compiler=compiler)
+    shop = Trainer(RECIPES[1], 5, compiler=compiler)
     yield shop
     shop.close()
     assert shop.join(10.0)
     compiler.end()
 
 
-def feed(shop: Workshop, so: Callable[[], bool], most: float = 300.0) -> None:
+def feed(shop: Trainer, so: Callable[[], bool], most: float = 300.0) -> None:
     """Frame after frame until something is so."""
     end = time.monotonic() + most
     while not so():
@@ -45,14 +45,14 @@ def threads() -> list[str]:
 
 
 def test_without_numba_there_is_no_thread_and_it_learns_in_slices() -> None:
-    shop = Workshop(RECIPES[1], 5, fast=False)
+    shop = Trainer(RECIPES[1], 5, fast=False)
     feed(shop, lambda: shop.training.experiences > 0)
     assert threads() == []
     assert not shop.fast
 
 
 def test_a_slice_ends_in_time_whatever_is_going_on() -> None:
-    shop = Workshop(RECIPES[1], 5, fast=False)
+    shop = Trainer(RECIPES[1], 5, fast=False)
     shop.speed = FASTEST
     ticks = []
     for _ in range(30):
@@ -63,7 +63,7 @@ def test_a_slice_ends_in_time_whatever_is_going_on() -> None:
 
 
 @needs_numba
-def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(shop: Workshop) -> None:
+def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(shop: Trainer) -> None:
     shop.speed = FASTEST
     feed(shop, lambda: shop.training.experiences > 10)
     assert not shop.fast
@@ -96,7 +96,7 @@ def endless() -> Iterator[Compiler]:
 @needs_numba
 @pytest.mark.parametrize("closed", [True, False], ids=["closed", "forgotten"])
 def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(endless: Compiler, closed: bool) -> None:
-    shop = Workshop(RECIPES[1], 5, fast=True, compiler=endless)
+    shop = Trainer(RECIPES[1], 5, fast=True, compiler=endless)
     feed(shop, lambda: bool(threads()))
     feed(shop, lambda: shop.compiling)
     if closed:
@@ -111,9 +111,9 @@ def test_where_compiling_fails_plain_training_goes_on(monkeypatch: pytest.Monkey
     def broken() -> None:
         raise ImportError("no LLVM")
 
-    monkeypatch.setattr(workshop, "compile_all", broken)
+    monkeypatch.setattr(trainer, "compile_all", broken)
     compiler = Compiler((sys.executable, "-c", f"exit({code})"))
-    shop = Workshop(RECIPES[1], 5, fast=True, compiler=compiler)
+    shop = Trainer(RECIPES[1], 5, fast=True, compiler=compiler)
     feed(shop, lambda: not shop.may_compile)
     before = shop.training.experiences
     feed(shop, lambda: shop.training.experiences > before)
@@ -125,14 +125,14 @@ def test_where_compiling_fails_plain_training_goes_on(monkeypatch: pytest.Monkey
 
 @needs_numba
 def test_where_compiled_training_breaks_plain_training_goes_on_with_the_same_table(
-    shop: Workshop, monkeypatch: pytest.MonkeyPatch
+    shop: Trainer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(self: Workshop) -> None:
+    def broken(self: Trainer) -> None:
         raise MemoryError("no more")
 
     shop._hand_over(fast=True)
     table = shop.training.experiences
-    monkeypatch.setattr(Workshop, "_run", broken)
+    monkeypatch.setattr(Trainer, "_run", broken)
     shop.may_compile = True
     feed(shop, lambda: not shop.may_compile)
     assert shop.join(10.0)
@@ -142,7 +142,7 @@ def test_where_compiled_training_breaks_plain_training_goes_on_with_the_same_tab
 
 @needs_numba
 def test_leaving_and_returning_waits_for_the_same_process(endless: Compiler) -> None:
-    shop = Workshop(RECIPES[1], 5, compiler=endless)
+    shop = Trainer(RECIPES[1], 5, compiler=endless)
     feed(shop, lambda: shop.compiling)
     process = endless._process
     assert process
@@ -157,10 +157,10 @@ def test_leaving_and_returning_waits_for_the_same_process(endless: Compiler) -> 
 
 
 @needs_numba
-def test_a_second_training_in_the_same_arcade_is_compiled_at_once(shop: Workshop) -> None:
+def test_a_second_training_in_the_same_arcade_is_compiled_at_once(shop: Trainer) -> None:
     feed(shop, lambda: shop.fast)
     process = shop._compiler._process
-    again = Workshop(RECIPES[1], 6, compiler=shop._compiler)
+    again = Trainer(RECIPES[1], 6, compiler=shop._compiler)
     feed(again, lambda: again.fast, 10.0)
     assert again.training.loop is shop.training.loop
     assert again._compiler._process is process

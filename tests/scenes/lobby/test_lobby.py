@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.scenes.lobby import scene as lobby
-from pigaming_app.scenes.lobby.match_setup import SetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seat_card import TEAM_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN
@@ -78,7 +78,7 @@ def test_one_person_alone_who_is_ready_gets_an_ai_and_a_moment_in_which_others_m
     assert kinds(arcade) == "HAH."
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(lobby.ALL + 0.2)
-    arcade.shown(SetupPage)
+    arcade.shown(MatchSetupPage)
 
 
 def test_start_begins_at_once_and_the_unready_count_as_ready(arcade: Arcade) -> None:
@@ -86,7 +86,7 @@ def test_start_begins_at_once_and_the_unready_count_as_ready(arcade: Arcade) -> 
     assert kinds(arcade) == "H..."
     arcade.press(Button.FIRE, KEYS[1])
     arcade.press(Button.START)
-    page = arcade.shown(SetupPage)
+    page = arcade.shown(MatchSetupPage)
     assert [seat.brain for seat in page.seats.seats()] == ["human", "human", "off", "off"]
 
 
@@ -115,7 +115,7 @@ def test_beyond_the_strongest_ai_come_those_that_taught_themselves_and_they_play
     assert arcade.context.settings.strength == "hard"
     arcade.press(Button.START)
     arcade.press(Button.START)
-    assert [seat.brain for seat in arcade.shown(SetupPage).seats.seats()] == ["human", "q2", "off", "off"]
+    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["human", "q2", "off", "off"]
 
 
 def test_with_teams_left_and_right_choose_ones_own_and_nobody_plays_against_nobody(arcade: Arcade) -> None:
@@ -130,7 +130,7 @@ def test_with_teams_left_and_right_choose_ones_own_and_nobody_plays_against_nobo
     assert arcade.shown(Lobby).now.message == arcade.context.words("lobby.teams_need")
     arcade.press(Button.RIGHT, KEYS[1])
     arcade.press(Button.START)
-    assert [seat.team for seat in arcade.shown(SetupPage).seats.seats()][:2] == [0, 1]
+    assert [seat.team for seat in arcade.shown(MatchSetupPage).seats.seats()][:2] == [0, 1]
 
 
 def test_a_pad_that_is_pulled_out_leaves_its_seat_with_a_word(arcade: Arcade) -> None:
@@ -165,7 +165,7 @@ def test_a_mouse_alone_can_have_ais_play(arcade: Arcade) -> None:
     assert kinds(arcade) == "A..."
     arcade.click(*card_rect(2).center)
     arcade.stack.turn(arcade.stack.top.on(InputEvent(Button.START, Device("mouse"))))
-    assert [seat.brain for seat in arcade.shown(SetupPage).seats.seats()] == ["hard", "off", "hard", "off"]
+    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["hard", "off", "hard", "off"]
 
 
 def test_when_nobody_is_there_the_title_comes_back(arcade: Arcade) -> None:

@@ -9,9 +9,9 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.games import GAMES
 from pigaming_app.games.arenas import arenas
-from pigaming_app.scenes.flow.match_choice import playable
+from pigaming_app.scenes.flow.match_choice import playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
-from pigaming_app.scenes.lobby.match_setup import SetupPage, rows
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, rows
 from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
@@ -29,12 +29,12 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     seats = Seats()
     seats.join(KEYS[0])
     seats.add()
-    arcade.open(SetupPage(arcade.context, "pitanks", seats))
+    arcade.open(MatchSetupPage(arcade.context, "pitanks", seats))
     return arcade
 
 
-def page(arcade: Arcade) -> SetupPage:
-    return arcade.shown(SetupPage)
+def page(arcade: Arcade) -> MatchSetupPage:
+    return arcade.shown(MatchSetupPage)
 
 
 def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
@@ -100,7 +100,7 @@ def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
 
 def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
     arcade.context.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
-    fresh = SetupPage(arcade.context, "pitanks", Seats())
+    fresh = MatchSetupPage(arcade.context, "pitanks", Seats())
     rules = GAMES["pitanks"]
     assert fresh.chosen == Choice("classic", rules.default_minutes, rules.variants[0], 0)
 
@@ -114,7 +114,7 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
     setup.playable.cache_clear()
     setup.load_kept.cache_clear()
     try:
-        assert playable("pitanks") == ("classic",)
+        assert playable_arenas("pitanks") == ("classic",)
     finally:
         setup.playable.cache_clear()
         setup.load_kept.cache_clear()
@@ -126,7 +126,7 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
     seats = Seats(sides=rules.sides)
     seats.join(KEYS[0])
     seats.fill()
-    arcade.open(SetupPage(arcade.context, game, seats))
+    arcade.open(MatchSetupPage(arcade.context, game, seats))
     arcade.press(Button.DOWN)
     for button, last in ((Button.RIGHT, max(rules.goals)), (Button.LEFT, min(rules.goals))):
         for _ in rules.goals:

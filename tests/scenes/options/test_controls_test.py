@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.options import controls_test as padtest
-from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import Arcade
@@ -17,7 +17,7 @@ from tests.ui.input.virtual_pad import VirtualPad
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    arcade.open(PadTest(arcade.context))
+    arcade.open(ControlsTest(arcade.context))
     return arcade
 
 
@@ -57,7 +57,7 @@ def test_a_short_b_is_only_shown_and_a_long_one_leaves(arcade: Arcade) -> None:
         arcade.wait(0.1)
         pad.tap("b")
         arcade.wait(1.5)
-        arcade.shown(PadTest)
+        arcade.shown(ControlsTest)
         pad.press("b")
         arcade.wait(padtest.HOLD + 0.2)
         assert arcade.stack.top is arcade.setup
@@ -66,14 +66,14 @@ def test_a_short_b_is_only_shown_and_a_long_one_leaves(arcade: Arcade) -> None:
 def test_escape_and_a_click_on_the_hint_leave(arcade: Arcade) -> None:
     arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
-    arcade.open(PadTest(arcade.context))
+    arcade.open(ControlsTest(arcade.context))
     arcade.click(960, 980)
     assert arcade.stack.top is arcade.setup
 
 
 def test_a_keyboard_robot_turns_with_its_keys(arcade: Arcade) -> None:
-    before = arcade.shown(PadTest).headings[0]
+    before = arcade.shown(ControlsTest).headings[0]
     pygame.event.post(pygame.Event(pygame.KEYDOWN, scancode=pygame.KSCAN_D, key=0, mod=0))
     arcade.wait(0.5)
-    assert arcade.shown(PadTest).headings[0] == pytest.approx(before + padtest.TURN * 0.5, abs=0.15)
+    assert arcade.shown(ControlsTest).headings[0] == pytest.approx(before + padtest.TURN * 0.5, abs=0.15)
     assert Device("keys", 0) not in arcade.context.controls.pads()

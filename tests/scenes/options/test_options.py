@@ -7,7 +7,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.options.controls_test import PadTest
+from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import CLEAR, OptionsPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, Table
@@ -177,6 +177,6 @@ def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arc
 def test_the_test_of_the_controls_is_one_press_away(arcade: Arcade) -> None:
     go(arcade, "padtest")
     arcade.press(Button.FIRE)
-    arcade.shown(PadTest)
+    arcade.shown(ControlsTest)
     arcade.press(Button.BACK)
     assert arcade.shown(OptionsPage).focus.name == "padtest"

@@ -66,7 +66,7 @@ def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade, pads: Exi
     match, one, _ = two_pads(arcade, pads)
     one.stick(0.0, -1.0)
     pygame.event.pump()
-    match.stage.advance(0.021)
+    match.runner.advance(0.021)
     assert match.match.state.actions[0].linear == 1.0
 
 
@@ -190,7 +190,7 @@ def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade, pads: Exi
 
 def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade: Arcade, pads: ExitStack) -> None:
     match, _, two = two_pads(arcade, pads)
-    assert match.stage.view.players[:2] == ["human", "human"]
+    assert match.runner.view.players[:2] == ["human", "human"]
     two.unplug()
     arcade.until(lambda: isinstance(arcade.stack.top, Reconnect))
     waited = arcade.until(lambda: arcade.stack.top is match)
@@ -199,13 +199,13 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     assert isinstance(match.match.brains[1], Thinker)
     back, device = plug(arcade, pads)
     assert match.devices[1] is None
-    assert match.stage.view.players[:2] == ["human", "normal"], "the view marks the AI"
+    assert match.runner.view.players[:2] == ["human", "normal"], "the view marks the AI"
     back.tap("a")
     arcade.frame(draw=True)
     assert arcade.shown(MatchScene) is match, "no pause"
     assert match.devices[1] == device
     assert isinstance(match.match.brains[1], Hands)
-    assert match.stage.view.players[:2] == ["human", "human"], "and the mark goes"
+    assert match.runner.view.players[:2] == ["human", "human"], "and the mark goes"
 
 
 def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: ExitStack) -> None:

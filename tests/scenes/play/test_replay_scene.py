@@ -10,7 +10,7 @@ from pigaming_app.games import GAMES
 from pigaming_app.games.replay import load, save
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
-from pigaming_app.scenes.title.attract import PAGE, Attract, Demonstration, Page
+from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -29,16 +29,16 @@ def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) 
         scores_of(arcade.context, game)
     attract = Attract(arcade.context)
     arcade.open(attract)
-    assert isinstance(attract.show, Demonstration)
-    assert attract.show.stage.match.setup.minutes <= 2.0
-    arcade.until(lambda: not isinstance(attract.show, Demonstration), 125.0)
+    assert isinstance(attract.show, DemoMatch)
+    assert attract.show.runner.match.setup.minutes <= 2.0
+    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 125.0)
     first = attract.show
-    assert isinstance(first, Page)
+    assert isinstance(first, TimedPage)
     arcade.wait(0.5, draw=True)
     arcade.until(lambda: attract.show is not first, PAGE + 1)
-    assert isinstance(attract.show, Page)
+    assert isinstance(attract.show, TimedPage)
     arcade.wait(0.5, draw=True)
-    arcade.until(lambda: isinstance(attract.show, Demonstration), PAGE + 1)
+    arcade.until(lambda: isinstance(attract.show, DemoMatch), PAGE + 1)
     assert arcade.sounds.heard == [], "nobody is listening"
 
 
@@ -66,7 +66,7 @@ def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Pat
     arcade.open(scene)
     taken = arcade.until(lambda: scene.ended)
     assert taken == pytest.approx(6.0, abs=0.1)
-    assert digest(scene.stage.match.state) == recorded[1]
+    assert digest(scene.runner.match.state) == recorded[1]
     arcade.shown(ReplayScene)
 
 
@@ -75,15 +75,15 @@ def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple
     arcade.open(scene)
     arcade.wait(1.0, draw=True)
     arcade.press(Button.FIRE)
-    before = scene.stage.match.state.tick
+    before = scene.runner.match.state.tick
     arcade.wait(1.0, draw=True)
-    assert scene.stage.match.state.tick == before
+    assert scene.runner.match.state.tick == before
     for button in (Button.FIRE, Button.RIGHT, Button.RIGHT, Button.RIGHT):
         arcade.press(button)
     arcade.wait(1.0, draw=True)
-    assert scene.stage.match.state.tick - before == pytest.approx(200, abs=5)
+    assert scene.runner.match.state.tick - before == pytest.approx(200, abs=5)
     arcade.press(Button.X)
-    assert scene.stage.match.state.tick == 0
+    assert scene.runner.match.state.tick == 0
     arcade.press(Button.LEFT)
     arcade.until(lambda: scene.ended)
     arcade.press(Button.FIRE)
@@ -103,8 +103,8 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
     with measuring(monkeypatch) as screen:
         if paused:
             scene.on(InputEvent(Button.FIRE, Device("keys")))
-        monkeypatch.setattr(scene.stage, "draw", lambda canvas: canvas.fill("black"))
-        monkeypatch.setattr(scene.stage, "captions", lambda *_: None)
+        monkeypatch.setattr(scene.runner, "draw", lambda canvas: canvas.fill("black"))
+        monkeypatch.setattr(scene.runner, "captions", lambda *_: None)
         scene.draw(screen)
         assert len(screen.texts) >= 8, "it is measured"
         assert faults(screen, pygame.Rect(4, 16, 1912, 1048)) == []

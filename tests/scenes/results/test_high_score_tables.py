@@ -7,7 +7,15 @@ import pytest
 from pigaming_app.ai import BRAINS
 from pigaming_app.games import GAMES
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.scenes.results.high_score_tables import STRONG, boards, contest, contests, counts, older_boards, told
+from pigaming_app.scenes.results.high_score_tables import (
+    STRONG,
+    contest,
+    contests,
+    counts,
+    format_score,
+    high_score_tables,
+    older_tables,
+)
 from pigaming_app.storage.scores import Scores, Table
 
 FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
@@ -79,12 +87,12 @@ def test_minutes_count_where_a_match_is_played_for_time_and_the_goal_where_it_is
 
 
 def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
-    first, second = boards(contest(match("human normal off off", game="race", goal=3)))
+    first, second = high_score_tables(contest(match("human normal off off", game="race", goal=3)))
     assert [(one.table.feat, one.table.timed, one.days) for one in (first, second)] == [
         ("lap", True, None),
         ("race", True, None),
     ]
-    assert told(61_230, first.table) == "1:01.23"
+    assert format_score(61_230, first.table) == "1:01.23"
 
 
 def test_what_a_file_holds_of_games_and_rules_that_are_not_there_is_not_shown():
@@ -111,4 +119,4 @@ def test_older_tables_come_last_and_show_only_what_they_have():
     new, old = contests(scores)
     assert not new.older
     assert old.older
-    assert [board.table for board in older_boards(old, scores)] == [older]
+    assert [board.table for board in older_tables(old, scores)] == [older]

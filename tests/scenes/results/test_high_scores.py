@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.results.high_score_tables import contests
-from pigaming_app.scenes.results.high_scores import DEAF, STAY, Best, conditions
+from pigaming_app.scenes.results.high_scores import DEAF, STAY, HighScores, conditions
 from pigaming_app.storage.scores import Table
 from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import Words
@@ -28,16 +28,16 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     return Arcade(controls)
 
 
-def opened(arcade: Arcade, at: Table, *filled: Table) -> Best:
+def opened(arcade: Arcade, at: Table, *filled: Table) -> HighScores:
     for table in filled:
         arcade.context.scores.add(table, "ABC", 9_000)
-    best = Best(arcade.context, replace(at, feat="", timed=False))
+    best = HighScores(arcade.context, replace(at, feat="", timed=False))
     arcade.open(best)
     arcade.wait(DEAF + 0.1, draw=True)
     return best
 
 
-def shown(best: Best, *tables: Table) -> bool:
+def shown(best: HighScores, *tables: Table) -> bool:
     return best.contest in {replace(table, feat="", timed=False) for table in tables}
 
 

@@ -11,7 +11,7 @@ from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.scene import game_choice
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.results.high_scores import Best
+from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import SECONDS, Initials
 from pigaming_app.scenes.results.plot import Curve, LapPlot, moments, scale, spread, team_curve
 from pigaming_app.scenes.results.rematch_vote import PATIENCE
@@ -151,7 +151,7 @@ def test_other_ways_on(arcade: Arcade) -> None:
     arcade.wait(LONG)
     arcade.press(Button.Y)
     arcade.wait(1.0, draw=True)
-    arcade.shown(Best)
+    arcade.shown(HighScores)
     arcade.press(Button.FIRE)
     arcade.shown(Results)
     arcade.press(Button.X)
@@ -189,7 +189,7 @@ def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) 
     assert arcade.shown(Initials) is page, "START of one player does not accept the letters of another"
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(2.0, draw=True)
-    assert [row.initials for row in arcade.shown(Best).fresh] == ["BAA", "ZCA"]
+    assert [row.initials for row in arcade.shown(HighScores).fresh] == ["BAA", "ZCA"]
     arcade.press(Button.FIRE)
     assert arcade.shown(Results) is results
     kept, said = Scores.load(folders().data)
@@ -206,9 +206,9 @@ def test_after_ten_seconds_letters_are_taken_as_they_are_but_not_those_of_somebo
     arcade.press(Button.UP, KEYS[0])
     for _ in range(30):
         arcade.press(Button.FIRE, KEYS[1])
-    waited = 1.0 + arcade.until(lambda: isinstance(arcade.stack.top, Best))
+    waited = 1.0 + arcade.until(lambda: isinstance(arcade.stack.top, HighScores))
     assert waited == pytest.approx(SECONDS, abs=0.2)
-    assert [row.initials for row in arcade.shown(Best).fresh] == ["ZAA"]
+    assert [row.initials for row in arcade.shown(HighScores).fresh] == ["ZAA"]
 
 
 def test_rude_words_and_their_look_alikes_are_refused(arcade: Arcade) -> None:
@@ -227,8 +227,8 @@ def test_rude_words_and_their_look_alikes_are_refused(arcade: Arcade) -> None:
     assert not page.spellings[KEYS[0]].done
     arcade.press(Button.UP, KEYS[0])
     arcade.press(Button.FIRE, KEYS[0])
-    arcade.until(lambda: isinstance(arcade.stack.top, Best))
-    assert [row.initials for row in arcade.shown(Best).fresh] == ["ASR", HARMLESS]
+    arcade.until(lambda: isinstance(arcade.stack.top, HighScores))
+    assert [row.initials for row in arcade.shown(HighScores).fresh] == ["ASR", HARMLESS]
 
 
 def test_only_the_top_eight_of_today_or_ever_are_asked_the_match_itself_included(arcade: Arcade) -> None:
@@ -352,7 +352,7 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
     arcade.wait(1.0)
     arcade.press(Button.START, KEYS[0])
     arcade.wait(2.0, draw=True)
-    arcade.shown(Best)
+    arcade.shown(HighScores)
     kept, said = Scores.load(folders().data)
     assert not said
     assert [row.score for row in kept.best(LAP)] == [9_870]

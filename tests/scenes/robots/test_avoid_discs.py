@@ -6,7 +6,7 @@ import random
 import pygame
 import pytest
 
-from pigaming_app.scenes.robots.avoid_discs import ROOM, Aside, Circle, arrange, hit, near
+from pigaming_app.scenes.robots.avoid_discs import ROOM, BlockLayout, Circle, arrange, hit, near
 
 ROWS = pygame.Rect(72, 192, 1180, 628)  # seven rows
 ROBOTS = pygame.Rect(1256, 202, 576, 502)
@@ -42,7 +42,7 @@ def test_wherever_robots_stand_no_block_is_hidden_nor_over_another_one(seed: int
 
 
 def test_a_block_stays_until_a_robot_reaches_it_and_comes_home_when_all_have_gone() -> None:
-    aside, page = Aside(), PAGE[:4]
+    aside, page = BlockLayout(), PAGE[:4]
     aside.update(0.1, page, [(600.0, 400.0, 95.0)])
     first = aside.placed
     assert not hit(first, [(600.0, 400.0, 95.0)])
@@ -53,7 +53,7 @@ def test_a_block_stays_until_a_robot_reaches_it_and_comes_home_when_all_have_gon
 
 
 def test_a_click_means_what_is_shown_there() -> None:
-    aside = Aside()
+    aside = BlockLayout()
     aside.update(0.1, PAGE, standing(random.Random(3)))
     for one in aside.placed:
         x, y = aside.back(one.box.center)

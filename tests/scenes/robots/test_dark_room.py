@@ -10,7 +10,7 @@ from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.scenes.robots.flood_light import FADE, LIGHT, UNSEEN
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
-from pigaming_app.scenes.robots.take_places import Gathering
+from pigaming_app.scenes.robots.take_places import TakePlaces
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import arcade, kept, mat, match_for, play
 
@@ -25,7 +25,7 @@ def _as_it_was(mat: EmulatedMat) -> Iterator[None]:
     mat.arena.camera.painter.ambient = 1.0
 
 
-def gathering(arcade: Arcade) -> tuple[RealMatch, Gathering]:
+def gathering(arcade: Arcade) -> tuple[RealMatch, TakePlaces]:
     match = match_of(arcade.context, match_for("pitanks", "easy easy easy easy", 0.1), [], ALL)
     assert isinstance(match, RealMatch)
     assert match.gathering is not None

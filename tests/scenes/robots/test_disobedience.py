@@ -6,7 +6,7 @@ from math import hypot
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedMat
-from pigaming_app.scenes.robots.fault_page import Trouble
+from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.start_match import match_of
@@ -26,7 +26,7 @@ def _as_it_was(mat: EmulatedMat) -> Iterator[None]:
 
 
 def named(arcade: Arcade) -> list[tuple[str, int | None]]:
-    return [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
+    return [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults]
 
 
 def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
@@ -43,7 +43,7 @@ def test_a_fault_present_from_the_start_is_named_within_three_seconds(
 ) -> None:
     mat.arena.faults.switch(fault, True, 0)
     gathering(arcade)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
     names = named(arcade)
     assert names
@@ -58,7 +58,7 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
 ) -> None:
     match = begun(arcade)
     mat.arena.faults.switch(fault, True, 0)
-    until(arcade, Trouble, 6.0)
+    until(arcade, FaultPage, 6.0)
     play(arcade, 0.1)
     assert {name for name, _ in named(arcade)} == {"disobeys"}
     mat.arena.faults.switch(fault, False, 0)
@@ -73,7 +73,7 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
 def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(arcade: Arcade, mat: EmulatedMat) -> None:
     match = gathering(arcade)
     mat.arena.faults.switch("lids_swapped", True, 0)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
     arcade.press(Button.FIRE)
     arcade.shown(PairAgain)
@@ -85,7 +85,7 @@ def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(arcad
 def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcade, mat: EmulatedMat) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
     arcade.press(Button.FIRE)
     page = arcade.shown(PairAgain)
@@ -104,7 +104,7 @@ def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcad
 def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedMat) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
     arcade.press(Button.FIRE)
     play(arcade, 2.0)
@@ -117,7 +117,7 @@ def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedMat
 def test_a_single_reversed_motor_drives_off_only_a_hand_wide_while_pairing(arcade: Arcade, mat: EmulatedMat) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motor_reversed", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.5)
     x, y, _ = mat.arena.poses()[1]
     arcade.press(Button.FIRE)

@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.hardware.session.emulated import EmulatedMat
 from pigaming_app.hardware.session.real import RealMat
 from pigaming_app.scenes.robots.avoid_discs import hit
-from pigaming_app.scenes.robots.fleet_page import RobotsPage
+from pigaming_app.scenes.robots.fleet_page import FleetPage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -30,13 +30,13 @@ def mat() -> Iterator[EmulatedMat]:
 def arcade(controls: Controls, home: Path, mat: EmulatedMat) -> Iterator[Arcade]:
     arcade = Arcade(controls)
     arcade.context.mat = mat
-    arcade.open(RobotsPage(arcade.context))
+    arcade.open(FleetPage(arcade.context))
     arcade.wait(2.0, fps=50)
     yield arcade
     mat.close()
 
 
-def idle(arcade: Arcade, page: RobotsPage) -> None:
+def idle(arcade: Arcade, page: FleetPage) -> None:
     """Wait until nothing moves any more."""
     for _ in range(60):
         arcade.wait(0.5, fps=50)
@@ -47,7 +47,7 @@ def idle(arcade: Arcade, page: RobotsPage) -> None:
 
 def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedMat) -> None:
     arcade.context.settings.radio = "stock"
-    page = RobotsPage(arcade.context)
+    page = FleetPage(arcade.context)
     arcade.open(page)
     arcade.press(Button.UP)
     assert page.focus.name == "radio"
@@ -60,7 +60,7 @@ def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) ->
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
     arcade.wait(4.0, fps=50)
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     heard, _, seen, _ = page.lines[0]
     assert heard.startswith("5.")
     assert "V" in heard
@@ -72,7 +72,7 @@ def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedMat) ->
 
 
 def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedMat) -> None:
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     arcade.wait(1.0, fps=20, draw=True)
     assert page.discs is not None
     discs = page.discs.circles({0, 1, 2, 3})
@@ -88,7 +88,7 @@ def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedMat) -
 
 
 def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedMat) -> None:
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     rig = page.check.rig
     assert rig is not None
     one, two = mat.arena.poses()[:2]
@@ -109,19 +109,19 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedM
 
 
 def test_any_press_stops_what_moves(arcade: Arcade, mat: EmulatedMat) -> None:
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     arcade.press(Button.FIRE)
     arcade.wait(1.2, fps=50)
     assert any(robot.left for robot in mat.arena.robots)
     arcade.press(Button.BACK)
-    assert arcade.shown(RobotsPage) is page
+    assert arcade.shown(FleetPage) is page
     arcade.wait(0.3, fps=50)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)
     assert not page.check.busy
 
 
 def test_the_delay_of_the_whole_loop_is_measured(arcade: Arcade) -> None:
-    page = arcade.shown(RobotsPage)
+    page = arcade.shown(FleetPage)
     page.check.begin()
     page.check._todo = [0]
     assert page.check._next()
@@ -141,9 +141,9 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
     settings = arcade.context.settings
     settings.port = "/dev/nowhere"
     arcade.context.mat = mat = RealMat(settings, cast(Canvas, Window()))
-    arcade.open(RobotsPage(arcade.context))
+    arcade.open(FleetPage(arcade.context))
     try:
-        page = arcade.shown(RobotsPage)
+        page = arcade.shown(FleetPage)
         assert "calibra" in page._state()
         arcade.wait(0.5)
         arcade.until(lambda: mat.trouble is not None, 5.0)

@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.scenes.robots.marker_discs import DISC, RING, Discs
+from pigaming_app.scenes.robots.marker_discs import DISC, RING, MarkerDiscs
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.input.controls import Controls
@@ -29,7 +29,7 @@ class Seen:
 
 def lit(screen: pygame.Surface, seen: Seen, robots: set[int]) -> None:
     screen.fill((200, 255, 90))
-    Discs(cast(Rig, seen)).draw(screen, robots)
+    MarkerDiscs(cast(Rig, seen)).draw(screen, robots)
 
 
 @pytest.mark.parametrize("gap", [2 * LID, 100, 150, 400])

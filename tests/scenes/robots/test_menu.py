@@ -8,8 +8,8 @@ pytest.importorskip("cv2")
 
 from pigaming_app.hardware.messages import Said
 from pigaming_app.hardware.vision.markers import NoVision
-from pigaming_app.scenes.calibration.corner_pin_page import PinPage
-from pigaming_app.scenes.calibration.drift_page import CheckPage
+from pigaming_app.scenes.calibration.corner_pin_page import CornerPinPage
+from pigaming_app.scenes.calibration.drift_page import DriftPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.robots.menu import SHEET, RobotsMenu
@@ -38,8 +38,10 @@ def go(arcade: Arcade, kind: type[OptionsPage] | type[RobotsMenu], name: str) ->
         arcade.press(Button.DOWN)
 
 
-@pytest.mark.parametrize(("name", "kind"), [("calibrate", CalibrationPage), ("check", CheckPage), ("pin", PinPage)])
-def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, kind: type[PinPage]) -> None:
+@pytest.mark.parametrize(
+    ("name", "kind"), [("calibrate", CalibrationPage), ("check", DriftPage), ("pin", CornerPinPage)]
+)
+def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, kind: type[CornerPinPage]) -> None:
     go(arcade, RobotsMenu, name)
     arcade.press(Button.FIRE)
     arcade.shown(kind)

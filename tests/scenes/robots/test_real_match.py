@@ -15,11 +15,11 @@ from pigaming_app.hardware.session.real import NoMat
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
-from pigaming_app.scenes.robots.fault_page import Trouble
+from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
-from pigaming_app.scenes.robots.unavailable import Refused
+from pigaming_app.scenes.robots.unavailable import UnavailablePage
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
@@ -143,9 +143,9 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
 ) -> None:
     match = begun(arcade)
     mat.arena.faults.switch(fault, True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
-    page = arcade.shown(Trouble)
+    page = arcade.shown(FaultPage)
     assert page.faults[0].name == says
     assert page.faults[0].robot in (1, None)
     before = match.match.state.tick
@@ -161,11 +161,11 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
 def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
     arcade.press(Button.STOP)
-    arcade.shown(Trouble)
+    arcade.shown(FaultPage)
     pressed = mat.arena.clock()
     play(arcade, 3.0)
     assert max(mat.arena.ran) - pressed < 0.3
-    assert arcade.shown(Trouble).faults[0].name == "stopped"
+    assert arcade.shown(FaultPage).faults[0].name == "stopped"
     before = match.match.state.tick
     for kind in (pygame.KEYDOWN, pygame.KEYUP):
         pygame.event.post(pygame.Event(kind, key=pygame.K_SPACE, scancode=pygame.KSCAN_SPACE, mod=0))
@@ -189,7 +189,7 @@ def test_both_shoulders_of_a_pad_are_the_all_stop(controls: Controls) -> None:
 def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade: Arcade, mat: EmulatedMat) -> None:
     match = begun(arcade)
     mat.arena.faults.switch("robot_off", True, 1)
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     play(arcade, 0.1)
     arcade.press(Button.X)
     until(arcade, RealMatch)
@@ -239,10 +239,10 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
     begun(arcade)
     body = mat.arena.robots[1]
     before, body.battery = body.battery, 3.95
-    until(arcade, Trouble, 3.0)
+    until(arcade, FaultPage, 3.0)
     body.battery = 4.2  # cells recover at rest; the robot still refuses its motors
     play(arcade, 3.0)
-    assert [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults] == [("empty", 1)]
+    assert [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults] == [("empty", 1)]
     body.battery = 4.45
     until(arcade, RealMatch, 2.0)
     body.battery = before
@@ -257,9 +257,9 @@ def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     monkeypatch.setattr(mat.arena.firmwares[1], "_obey", lambda packet, now: None)
     play(arcade, 0.6)
     assert match.notice is not None
-    until(arcade, Trouble, 2.0)
+    until(arcade, FaultPage, 2.0)
     play(arcade, 1.0)
-    assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(Trouble).faults]
+    assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults]
     assert caplog.text.count("Robot 2 has stopped by itself") == 1
     monkeypatch.undo()
     until(arcade, RealMatch, 2.0)
@@ -319,11 +319,11 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedMat
     else:
         arcade.context.settings.radio = "stock"
         arcade.open(match_of(arcade.context, match_for("race", "normal easy off off", 0.1), [], (0,)))
-    page = arcade.shown(Refused)
+    page = arcade.shown(UnavailablePage)
     assert "no deadman" in page.sentence
     arcade.frame(draw=True)
     arcade.press(Button.X)
-    assert "no deadman" in arcade.shown(Refused).sentence
+    assert "no deadman" in arcade.shown(UnavailablePage).sentence
     assert mat._rig is None
     mat.arena.advance(0.3)
     assert mat.arena.clock() - max(mat.arena.ran) > 0.2
@@ -337,8 +337,8 @@ def test_what_cannot_be_used_is_said_and_simulated_robots_play(
 
     monkeypatch.setattr(mat, "open", missing)
     page = match_of(arcade.context, match_for("pitanks", "normal easy off off", 0.1), [], (0,))
-    assert isinstance(page, Refused)
+    assert isinstance(page, UnavailablePage)
     arcade.open(page)
-    assert arcade.shown(Refused).sentence == "There is no camera 3: plug one in."
+    assert arcade.shown(UnavailablePage).sentence == "There is no camera 3: plug one in."
     arcade.press(Button.FIRE)
     assert type(arcade.shown(MatchScene)) is MatchScene

@@ -10,9 +10,9 @@ from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.scenes.howto.scene import HowTo
-from pigaming_app.scenes.results.high_score_tables import boards
-from pigaming_app.scenes.results.high_scores import Best
-from pigaming_app.scenes.title.attract import Attract, Demonstration, Page
+from pigaming_app.scenes.results.high_score_tables import high_score_tables
+from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.title.attract import Attract, DemoMatch, TimedPage
 from pigaming_app.storage.scores import Table
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
@@ -60,7 +60,7 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
     )
     assert run(options) == 0
     assert "a scene failed" not in (home / "data" / "pigaming.log").read_text()
-    assert shown[:3] == [(kind, shown[0][1]) for kind in ("Demonstration", "HowTo", "Best")]
+    assert shown[:3] == [(kind, shown[0][1]) for kind in ("DemoMatch", "HowTo", "HighScores")]
     assert {game for _, game in shown} == set(GAMES)
     assert len(set(shown)) == whole - 1
     assert shown[-1] == shown[0], "and round again"
@@ -68,16 +68,16 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
 
 def named(show: object) -> tuple[str, str]:
     """What is shown, and of which game."""
-    if isinstance(show, Page):
-        assert isinstance(show.page, HowTo | Best)
+    if isinstance(show, TimedPage):
+        assert isinstance(show.page, HowTo | HighScores)
         return type(show.page).__name__, show.page.game
-    assert isinstance(show, Demonstration)
-    return "Demonstration", show.stage.match.setup.game
+    assert isinstance(show, DemoMatch)
+    return "DemoMatch", show.runner.match.setup.game
 
 
 def scores_of(context: Context, game: str) -> None:
     """Somebody has scored in a game's first arena."""
     rules = GAMES[game]
     contest = Table(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
-    for board in boards(contest):
+    for board in high_score_tables(contest):
         context.scores.add(board.table, "ABC", 9)

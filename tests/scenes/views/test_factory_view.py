@@ -31,8 +31,8 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.views.benchmark.pitanks import Full
-from pigaming_app.scenes.views.factory.next_step import advised
+from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.views.factory.next_step import next_slot
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 
@@ -55,7 +55,7 @@ def begun(floor="hall", goal=4, brains=("human",) * 4, teams=(ICE, FIRE, ICE, FI
 
 
 def seen(match, players=HUMANS, taste=None):
-    return VIEWS["factory"](match.arena, match.state, list(players), taste or Full())
+    return VIEWS["factory"](match.arena, match.state, list(players), taste or AllEffects())
 
 
 def sounds(view, state):
@@ -64,7 +64,7 @@ def sounds(view, state):
 
 def picture(screen, view, state, x, y, half=60):
     """What is seen round a place of the arena, once all that flies has gone out."""
-    view.moments.advance(9.0)
+    view.particles.advance(9.0)
     view.draw(screen, state, 1.0, 0.0)
     box = pygame.Rect(160 + int(x) - half, 140 + int(y) - half, 2 * half, 2 * half).clip(screen.get_rect())
     return pygame.image.tobytes(screen.subsurface(box), "RGB")
@@ -109,10 +109,10 @@ def test_a_pallet_that_was_just_moved_is_larger_for_a_moment(screen):
     feed(state, 0, INPUT_A)
     feed(state, 0, 0, ON_ROBOT)
     view.watch(state)
-    assert view.popping.tenths(0, view.moments.clock) > 10
-    assert view.popping.tenths(1, view.moments.clock) == 10
-    view.moments.advance(1.0)
-    assert view.popping.tenths(0, view.moments.clock) == 10
+    assert view.popping.tenths(0, view.particles.clock) > 10
+    assert view.popping.tenths(1, view.particles.clock) == 10
+    view.particles.advance(1.0)
+    assert view.popping.tenths(0, view.particles.clock) == 10
 
 
 def test_what_is_carried_lies_on_the_fork(screen):
@@ -197,8 +197,8 @@ def test_a_delivery_is_heard_once_sparks_and_counts(screen):
     state.pallets[0].state, state.delivered[ICE] = DELIVERED, 1
     state.robots[0].score = state.loads[0].delivered = 1
     assert view.watch(state) == [("delivered", 0, state.slots[EXIT_ICE].x)]
-    assert view.moments.particles
-    assert [(one.text, one.player) for one in view.moments.scores] == [("+1", 0)]
+    assert view.particles.particles
+    assert [(one.text, one.player) for one in view.particles.scores] == [("+1", 0)]
     panel = pygame.Rect(160, 0, 652, 136)
     old = pygame.image.tobytes(screen.subsurface(panel), "RGB")
     view.draw(screen, state, 1.0, 9.0)
@@ -293,14 +293,14 @@ def test_what_waits_and_what_drove_off_is_counted_beside_the_warehouses(screen):
 def test_people_are_shown_the_next_step_and_drivers_their_aim(screen):
     match = begun()
     state = match.state
-    assert state.slots[advised(state, 0, -1)].kind == ENTRY
+    assert state.slots[next_slot(state, 0, -1)].kind == ENTRY
     feed(state, 0, 0, ON_ROBOT)
     for form, kind in ((RAW, A), (HALF, B)):
         state.pallets[0].state = form
-        slot = state.slots[advised(state, 0, -1)]
+        slot = state.slots[next_slot(state, 0, -1)]
         assert (slot.kind, state.machines[slot.machine].kind) == (INPUT, kind)
     state.pallets[0].state = DONE
-    assert advised(state, 0, -1) in range(EXIT_ICE, EXIT_ICE + SHELVES)
+    assert next_slot(state, 0, -1) in range(EXIT_ICE, EXIT_ICE + SHELVES)
 
     view, mates = seen(match, ["human", "hard", "hard", "hard"]), state.loads[3]
     mates.aim = 1 + INPUT_A
@@ -344,7 +344,7 @@ def test_the_clock_says_when_time_runs_out(screen):
 
 
 def test_without_flashes_a_delivery_makes_no_wave(screen):
-    taste = Full()
+    taste = AllEffects()
     taste.flashes = "off"
     match = begun()
     view, state = seen(match, taste=taste), match.state
@@ -354,4 +354,4 @@ def test_without_flashes_a_delivery_makes_no_wave(screen):
     state.pallets[0].state, state.delivered[ICE] = DELIVERED, 1
     assert sounds(view, state) == ["delivered"]
     view.draw(screen, state, 1.0, 0.01)
-    assert view.moments.blooms == []
+    assert view.particles.blooms == []

@@ -9,8 +9,8 @@ import pytest
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.race.course import Place, locate
 from pigaming_app.games.race.state import LINES
-from pigaming_app.scenes.views.benchmark.pitanks import Full
-from pigaming_app.scenes.views.benchmark.race import Busy
+from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.views.benchmark.race import BusyRace
 from pigaming_app.scenes.views.particles import MOST
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.race import ghost_files as ghosts
@@ -19,7 +19,7 @@ from pigaming_app.scenes.views.race.events import SETTLE, SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import figure
 from pigaming_app.scenes.views.race.ghost_files import Ghost, call, file_of, ghost_of
 from pigaming_app.scenes.views.race.hud import signed
-from pigaming_app.scenes.views.race.hud_cards import Card, card_bits
+from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
 from pigaming_app.scenes.views.race.track import edges, sign_post
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
@@ -41,7 +41,7 @@ def screen() -> pygame.Surface:
 
 
 def seen(scene, players=HUMANS, taste=None, language="en"):
-    return VIEWS["race"](scene.arena, scene.state, list(players), taste or Full(), Words(language))
+    return VIEWS["race"](scene.arena, scene.state, list(players), taste or AllEffects(), Words(language))
 
 
 def sounds(view, state):
@@ -73,7 +73,7 @@ def put(state, seat, x, y):
 @pytest.mark.parametrize("seats", [2, 3, 4])
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, seats, language):
-    scene = Busy(seats, laps=1)
+    scene = BusyRace(seats, laps=1)
     view = seen(scene, ["human", "easy", "hard", "normal"], language=language)
     for tick in range(600):
         scene.tick()
@@ -82,7 +82,7 @@ def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, sea
         if tick % 10 == 0:
             view.draw(screen, scene.state, 0.5, 0.2)
         assert digest(scene.state) == before
-        assert len(view.moments.particles) <= MOST
+        assert len(view.particles.particles) <= MOST
 
 
 @pytest.mark.parametrize("track", arenas("race"))
@@ -98,8 +98,8 @@ def test_every_track_has_its_badges_in_the_mud_beside_it_and_its_edges_in_the_ar
 
 
 def test_the_road_is_black_and_beside_it_lies_mud(screen):
-    scene = Busy(2)
-    picture = seen(scene).ground.bare
+    scene = BusyRace(2)
+    picture = seen(scene).background.bare
     assert picture.get_at((160 + 450, 140 + 80))[:3] == (0, 0, 0)
     red, green, blue, _ = pygame.transform.average_color(picture.subsurface((700, 500, 400, 100)))
     assert red > 1.3 * green > 1.3 * blue
@@ -118,7 +118,7 @@ def test_a_preview_shows_the_track_at_any_size(screen, track):
 
 
 def test_a_race_is_heard_from_the_first_line_to_the_last():
-    scene = Busy(2, laps=2)
+    scene = BusyRace(2, laps=2)
     view, racer, robot = seen(scene), scene.state.racers[0], scene.state.robots[0]
     racer.passed = 1
     assert sounds(view, scene.state) == []
@@ -136,7 +136,7 @@ def test_a_race_is_heard_from_the_first_line_to_the_last():
 
 
 def test_a_lap_and_a_better_one_sound_different():
-    scene = Busy(2, laps=5)
+    scene = BusyRace(2, laps=5)
     view, racer, robot = seen(scene), scene.state.racers[1], scene.state.robots[1]
     for passed, lap, best, said in ((5, 520.0, 520.0, "lap"), (9, 500.0, 500.0, "best_lap"), (13, 510.0, 500.0, "lap")):
         racer.passed, racer.last_lap, racer.best_lap, robot.score = passed, lap, best, passed // LINES
@@ -144,23 +144,23 @@ def test_a_lap_and_a_better_one_sound_different():
 
 
 def test_mud_is_heard_on_the_way_in_and_flies_while_one_drives():
-    scene = Busy(2)
+    scene = BusyRace(2)
     view, state = seen(scene), scene.state
     view.watch(state)
     put(state, 0, 800.0, 450.0)
     assert sounds(view, state) == ["mud"]
     assert sounds(view, state) == []
     state.robots[0].linear = 100.0
-    before = len(view.moments.particles)
+    before = len(view.particles.particles)
     assert sounds(view, state) == []
-    assert len(view.moments.particles) > before
+    assert len(view.particles.particles) > before
 
 
 # ---- signs
 
 
 def test_the_wrong_way_is_said_after_half_a_second_and_no_longer_than_it_lasts(screen):
-    scene = Busy(2)
+    scene = BusyRace(2)
     view, state = seen(scene), scene.state
     put(state, 0, 1484.0, 560.0)
     sounds(view, state)
@@ -177,7 +177,7 @@ def test_the_wrong_way_is_said_after_half_a_second_and_no_longer_than_it_lasts(s
 
 
 def test_a_missed_line_is_on_the_card_over_the_robot_and_where_it_must_be_entered(screen):
-    scene = Busy(4)
+    scene = BusyRace(4)
     view, state = seen(scene), scene.state
     put(state, 0, 1484.0, 560.0)
     view.watch(state)
@@ -187,7 +187,7 @@ def test_a_missed_line_is_on_the_card_over_the_robot_and_where_it_must_be_entere
     state.racers[0].missed = 3
     view.watch(state)
     view.draw(screen, state, 1.0, 5.0)
-    view.moments.particles.clear()
+    view.particles.particles.clear()
     assert all(shown(screen, view, state, box) != old for box, old in zip(boxes, calm, strict=True))
     third = shown(screen, view, state, over(state, 0))
     state.racers[0].missed = 4
@@ -201,7 +201,7 @@ def test_a_missed_line_is_on_the_card_over_the_robot_and_where_it_must_be_entere
 
 
 def test_a_lap_that_did_not_count_says_so_for_a_while_and_then_only_what_was_missed(screen):
-    scene = Busy(2)
+    scene = BusyRace(2)
     view, state = seen(scene), scene.state
     put(state, 0, 800.0, 560.0)
     state.racers[0].missed = 2
@@ -219,7 +219,7 @@ def test_a_lap_that_did_not_count_says_so_for_a_while_and_then_only_what_was_mis
 
 @pytest.mark.parametrize("y", [80.0, 560.0])
 def test_signs_stay_in_the_picture(screen, y):
-    scene = Busy(2)
+    scene = BusyRace(2)
     view, state = seen(scene), scene.state
     put(state, 0, 40.0, y)
     state.racers[0].missed, state.racers[0].void = 2, 1
@@ -231,7 +231,7 @@ def test_signs_stay_in_the_picture(screen, y):
 
 
 def test_a_place_is_shown_where_one_finished_for_a_while_and_again_in_the_end(screen):
-    scene = Busy(2)
+    scene = BusyRace(2)
     view, state = seen(scene), scene.state
     put(state, 0, 800.0, 560.0)
     racer = state.racers[0]
@@ -249,7 +249,7 @@ def test_a_place_is_shown_where_one_finished_for_a_while_and_again_in_the_end(sc
 
 
 def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
-    scene = Busy(4)
+    scene = BusyRace(4)
     view, state = seen(scene), scene.state
     assert view.watcher.order == [0, 1, 2, 3]
     for tick in range(3 * SETTLE):  # two side by side
@@ -267,7 +267,7 @@ def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
 
 
 def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
-    scene = Busy(2)
+    scene = BusyRace(2)
     view, state = seen(scene), scene.state
     leader, other = state.racers[:2]
     for _ in range(300):  # 100 px/s, the other one 250 px behind
@@ -288,7 +288,7 @@ def test_a_gap_is_no_longer_than_four_characters():
 
 @pytest.mark.parametrize(("language", "gap"), [("en", "+2.5"), ("pt", "+2,5")])
 def test_cards_show_place_lap_and_gap(screen, language, gap):
-    scene = Busy(3, laps=5)
+    scene = BusyRace(3, laps=5)
     view, state = seen(scene, language=language), scene.state
     state.robots[1].score = 3
     for _ in range(300):
@@ -309,7 +309,7 @@ def test_the_figures_of_a_card_stand_apart_and_read_at_three_metres(screen, lang
     words = Words(language)
     for place in range(1, 5):
         ending = words(f"race.place_{place}")
-        card = Card(0, True, place, ending, 9, words.decimal(gap), 64, 0, 9, "", 0, 1, False)
+        card = RaceCard(0, True, place, ending, 9, words.decimal(gap), 64, 0, 9, "", 0, 1, False)
         picture = pygame.Surface((race_cards.W, 136))
         for image, at, area in card_bits(card, 0)[1:]:
             picture.blit(image, at, area, special_flags=pygame.BLEND_RGB_ADD)
@@ -337,7 +337,7 @@ def columns(picture):
 
 
 def test_the_clock_counts_up_and_then_down_for_those_who_still_race(screen):
-    scene = Busy(3)
+    scene = BusyRace(3)
     view, state = seen(scene), scene.state
     box = pygame.Rect(820, 0, 280, 136)
     state.tick = 500
@@ -354,15 +354,15 @@ def test_the_clock_counts_up_and_then_down_for_those_who_still_race(screen):
 
 @pytest.mark.parametrize("flashes", ["off", "soft", "full"])
 def test_without_flashes_nothing_lights_up(flashes):
-    scene = Busy(2)
-    view, state = seen(scene, taste=Full(flashes, False)), scene.state
+    scene = BusyRace(2)
+    view, state = seen(scene, taste=AllEffects(flashes, False)), scene.state
     state.racers[0].finished, state.racers[0].passed = 1, 13
     view.watch(state)
-    assert len(view.moments.blooms) == {"off": 0, "soft": 1, "full": 2}[flashes]
+    assert len(view.particles.blooms) == {"off": 0, "soft": 1, "full": 2}[flashes]
 
 
 def test_sprites_are_made_in_slices(screen):
-    view = seen(Busy(2))
+    view = seen(BusyRace(2))
     slices = 1
     while not view.warm(30.0):
         slices += 1
@@ -420,7 +420,7 @@ def test_a_ghost_turns_the_short_way():
 
 
 def test_a_kept_ghost_comes_back_and_another_track_of_that_name_has_none(tmp_path):
-    arena = Busy(2).arena
+    arena = BusyRace(2).arena
     assert call(tmp_path, arena) == (None, "")
     ghosts.write(tmp_path, arena, a_ghost()).join()
     assert call(tmp_path, arena) == (a_ghost(), "")
@@ -430,7 +430,7 @@ def test_a_kept_ghost_comes_back_and_another_track_of_that_name_has_none(tmp_pat
 
 
 def test_ghosts_are_cleared_with_the_scores(tmp_path):
-    arena = Busy(2).arena
+    arena = BusyRace(2).arena
     for seconds in (12.0, 10.0):  # the second leaves a .bak
         ghosts.write(tmp_path, arena, a_ghost(seconds)).join()
     ghosts.forget(tmp_path)
@@ -440,7 +440,7 @@ def test_ghosts_are_cleared_with_the_scores(tmp_path):
 
 
 def test_a_ghost_of_another_engine_is_dropped_with_a_word(screen, tmp_path):
-    scene = Busy(2)
+    scene = BusyRace(2)
     ghosts.write(tmp_path, scene.arena, a_ghost()).join()
     path = file_of(tmp_path, scene.arena)
     keep(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
@@ -455,7 +455,7 @@ def test_a_ghost_of_another_engine_is_dropped_with_a_word(screen, tmp_path):
 
 @pytest.mark.parametrize("text", ["", "no ghost", "[1]", '{"engine": "x"}', "{}", '{"engine":1e999}'])
 def test_a_damaged_ghost_is_put_aside_with_a_word(tmp_path, text, caplog):
-    arena = Busy(2).arena
+    arena = BusyRace(2).arena
     path = file_of(tmp_path, arena)
     path.parent.mkdir()
     path.write_text(text)
@@ -479,7 +479,7 @@ def test_a_damaged_ghost_is_put_aside_with_a_word(tmp_path, text, caplog):
     ],
 )
 def test_a_ghost_that_is_not_whole_is_none(tmp_path, harm):
-    arena = Busy(2).arena
+    arena = BusyRace(2).arena
     ghosts.write(tmp_path, arena, a_ghost()).join()
     path = file_of(tmp_path, arena)
     path.write_text(json.dumps({**json.loads(path.read_text()), **harm}))
@@ -487,7 +487,7 @@ def test_a_ghost_that_is_not_whole_is_none(tmp_path, harm):
 
 
 def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp_path):
-    scene = Busy(2, laps=5)
+    scene = BusyRace(2, laps=5)
     view = seen(scene)
     view.for_real(tmp_path)
     drive_laps(scene, view, 0, [600, 500, 550])
@@ -504,9 +504,9 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
 
 
 def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_path):
-    scene = Busy(2, laps=5)
+    scene = BusyRace(2, laps=5)
     players = ["hard", "human", "off", "off"]
-    view = VIEWS["race"](scene.arena, scene.state, players, Full(), Words("en"))
+    view = VIEWS["race"](scene.arena, scene.state, players, AllEffects(), Words("en"))
     view.for_real(tmp_path)
     drive_laps(scene, view, 0, [600, 500])
     view.watch(scene.state)
@@ -522,7 +522,7 @@ def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_pat
 
 
 def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_own(screen, tmp_path):
-    scene = Busy(2, laps=5)
+    scene = BusyRace(2, laps=5)
     ghosts.write(tmp_path, scene.arena, a_ghost()).join()
     view = seen(scene, ["hard", "human", "off", "off"])
     view.for_real(tmp_path)
@@ -538,7 +538,7 @@ def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_o
 
 
 def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, tmp_path):
-    scene = Busy(2, laps=5)
+    scene = BusyRace(2, laps=5)
     ghosts.write(tmp_path, scene.arena, a_ghost()).join()
     view = seen(scene)
     view.for_real(tmp_path)
@@ -553,7 +553,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
 
 
 def test_without_a_person_there_is_no_ghost_and_no_file(tmp_path):
-    scene = Busy(2)
+    scene = BusyRace(2)
     view = seen(scene, ["hard", "easy", "off", "off"])
     assert view.haunt is None
     for _ in range(50):

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
-from pigaming_app.scenes.views.benchmark.pitanks import Busy, Full
+from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
 from pigaming_app.scenes.views.particles import MOST
 from pigaming_app.scenes.views.pitanks.hud import layout
 from pigaming_app.scenes.views.preview import preview
@@ -27,7 +27,7 @@ def screen():
 
 
 def seen(scene, players=HUMANS, taste=None):
-    return VIEWS["pitanks"](scene.arena, scene.state, list(players), taste or Full())
+    return VIEWS["pitanks"](scene.arena, scene.state, list(players), taste or AllEffects())
 
 
 def sounds(view, state):
@@ -36,7 +36,7 @@ def sounds(view, state):
 
 @pytest.mark.parametrize("teams", [FREE, (0, 1, -1, -1), (0, -1, 2, 3), (0, 1, 0, 1), (0, 1, 1, 1)])
 def test_a_second_of_any_company_draws_and_leaves_the_match_alone(screen, teams):
-    scene = Busy(teams)
+    scene = BusyPiTanks(teams)
     view = seen(scene, ["human", "easy", "hard", "fsm"])
     for _ in range(50):
         scene.tick()
@@ -44,12 +44,12 @@ def test_a_second_of_any_company_draws_and_leaves_the_match_alone(screen, teams)
         view.watch(scene.state)
         view.draw(screen, scene.state, 0.5, 0.02)
         assert digest(scene.state) == before
-    assert len(view.moments.particles) <= MOST
+    assert len(view.particles.particles) <= MOST
 
 
 @pytest.mark.parametrize("power", range(len(POWERS)), ids=POWERS)
 def test_every_power_is_seen_on_the_robot_and_in_its_panel(screen, power):
-    scene = Busy()
+    scene = BusyPiTanks()
     view = seen(scene)
     view.draw(screen, scene.state, 1.0, 0.0)
     robot, slot = scene.state.robots[0], view.hud.slots[0]
@@ -70,20 +70,20 @@ def test_every_power_is_seen_on_the_robot_and_in_its_panel(screen, power):
 
 
 def test_a_hit_is_heard_once_and_scores_rise_over_both(screen):
-    scene = Busy()
+    scene = BusyPiTanks()
     view, state = seen(scene), scene.state
     state.tanks[0].hits = state.tanks[2].taken = 1
     state.robots[0].score, state.robots[2].score = 1, -1
 
     assert view.watch(state) == [("hit", 2, state.robots[2].x)]
-    assert {(one.text, one.player) for one in view.moments.scores} == {("+1", 0), ("−1", 2)}
+    assert {(one.text, one.player) for one in view.particles.scores} == {("+1", 0), ("−1", 2)}
     assert view.watch(state) == []
     view.draw(screen, state, 1.0, 1.0)
-    assert view.moments.scores == []
+    assert view.particles.scores == []
 
 
 def test_a_shield_that_takes_a_hit_shatters_and_one_that_runs_out_ends():
-    scene = Busy()
+    scene = BusyPiTanks()
     view, tank = seen(scene), scene.state.tanks[1]
     tank.powers[SHIELD] = 100
     view.watch(scene.state)
@@ -92,7 +92,7 @@ def test_a_shield_that_takes_a_hit_shatters_and_one_that_runs_out_ends():
 
 
 def test_a_bullet_flashes_flies_between_ticks_and_ends_in_sparks(screen):
-    scene = Busy()
+    scene = BusyPiTanks()
     view, state = seen(scene), scene.state
     bullet, robot = state.bullets[OWN_BULLETS], state.robots[1]
     bullet.alive, bullet.x, bullet.y, bullet.vx = 1, robot.x + 64, robot.y, 560.0
@@ -106,11 +106,11 @@ def test_a_bullet_flashes_flies_between_ticks_and_ends_in_sparks(screen):
 
     bullet.alive, bullet.x = 0, bullet.x + 5
     assert view.watch(state) == [("wall", 1, bullet.x)]
-    assert len(view.moments.particles) == 7
+    assert len(view.particles.particles) == 7
 
 
 def test_a_shot_that_ends_in_the_tick_in_which_it_is_fired_is_not_lost():
-    scene = Busy()
+    scene = BusyPiTanks()
     view, state = seen(scene), scene.state
     state.tanks[0].shots = 1
     state.bullets[0].x, state.bullets[0].y, state.bullets[0].vx = 700.0, 20.0, 560.0
@@ -118,7 +118,7 @@ def test_a_shot_that_ends_in_the_tick_in_which_it_is_fired_is_not_lost():
 
 
 def test_a_wall_cracks_in_silence_and_falls_with_a_sound(screen):
-    scene = Busy()
+    scene = BusyPiTanks()
     view, state = seen(scene), scene.state
     view.draw(screen, state, 1.0, 0.0)
     pictures = set()
@@ -127,14 +127,14 @@ def test_a_wall_cracks_in_silence_and_falls_with_a_sound(screen):
     for health in (4, 3, 2, 1, 0):
         wall.health = health
         assert sounds(view, state) == (["crumble"] if health == 0 else [])
-        view.moments.advance(9.0)
+        view.particles.advance(9.0)
         view.draw(screen, state, 1.0, 0.0)
         pictures.add(pygame.image.tobytes(screen.subsurface(box), "RGB"))
     assert len(pictures) == 5
 
 
 def test_a_mine_is_heard_when_it_goes_off_not_when_it_rots():
-    scene = Busy()
+    scene = BusyPiTanks()
     view, state = seen(scene), scene.state
     mine = state.mines[0]
     mine.alive, mine.x, mine.y = 1500, 300.0, 300.0
@@ -149,7 +149,7 @@ def test_a_mine_is_heard_when_it_goes_off_not_when_it_rots():
 
 
 def test_a_robot_turns_the_short_way_between_ticks(screen):
-    scene = Busy()
+    scene = BusyPiTanks()
     view, robot = seen(scene), scene.state.robots[0]
     robot.heading = 6.2
     view.watch(scene.state)
@@ -161,7 +161,7 @@ def test_a_robot_turns_the_short_way_between_ticks(screen):
 
 
 def test_marks_are_stamped_by_the_way_and_fade(screen):
-    scene = Busy()
+    scene = BusyPiTanks()
     view, robot = seen(scene), scene.state.robots[0]
     for _ in range(20):
         robot.x += 6.5
@@ -174,22 +174,22 @@ def test_marks_are_stamped_by_the_way_and_fade(screen):
 
 @pytest.mark.parametrize(("flashes", "shake"), [*itertools.product(("off", "soft", "full"), (False, True))])
 def test_only_full_flashes_shake_the_picture(flashes, shake):
-    scene = Busy()
-    view = seen(scene, taste=Full(flashes, shake))
+    scene = BusyPiTanks()
+    view = seen(scene, taste=AllEffects(flashes, shake))
     scene.state.tanks[0].taken = 1
     view.watch(scene.state)
-    view.moments.advance(0.02)
+    view.particles.advance(0.02)
 
-    assert (view.moments.offset != (0, 0)) == (flashes == "full" and shake)
-    assert len(view.moments.blooms) == {"off": 0, "soft": 1, "full": 2}[flashes]
+    assert (view.particles.offset != (0, 0)) == (flashes == "full" and shake)
+    assert len(view.particles.blooms) == {"off": 0, "soft": 1, "full": 2}[flashes]
 
 
 def test_absent_seats_have_no_panel_and_two_teams_stand_on_their_sides():
-    slots, sums = layout(Busy((0, 1, -1, -1)).state.robots)
+    slots, sums = layout(BusyPiTanks((0, 1, -1, -1)).state.robots)
     assert [(slot.seat, slot.x) for slot in slots] == [(0, 492), (1, 1112)]
     assert sums == []
 
-    slots, sums = layout(Busy((0, 1, 0, 1)).state.robots)
+    slots, sums = layout(BusyPiTanks((0, 1, 0, 1)).state.robots)
     assert [slot.seat for slot in slots] == [0, 2, 1, 3]
     assert [one.team for one in sums] == [0, 1]
     assert slots[0].x == 160
@@ -198,7 +198,7 @@ def test_absent_seats_have_no_panel_and_two_teams_stand_on_their_sides():
 
 
 def test_the_clock_turns_alarm_in_the_last_ten_seconds(screen):
-    scene = Busy()
+    scene = BusyPiTanks()
     view, state = seen(scene), scene.state
     state.tick = state.rules.ticks - 501
     view.draw(screen, state, 1.0, 0.0)
@@ -211,7 +211,7 @@ def test_the_clock_turns_alarm_in_the_last_ten_seconds(screen):
 
 
 def test_sprites_are_made_in_slices(screen):
-    view = seen(Busy((0, 1, -1, -1)))
+    view = seen(BusyPiTanks((0, 1, -1, -1)))
     slices = 1
     while not view.warm(30.0):
         slices += 1
@@ -220,7 +220,7 @@ def test_sprites_are_made_in_slices(screen):
 
 
 def test_a_preview_shows_every_wall_and_start_at_any_size():
-    arena = Busy().arena
+    arena = BusyPiTanks().arena
     for w, h in ((320, 200), (800, 450), (200, 300)):
         image = run_to_end(preview(arena, w, h))
         assert image.get_size() == (w, h)

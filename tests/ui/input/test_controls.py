@@ -255,7 +255,7 @@ pygame.display.init()
 with VirtualPad(plain=True) as pad:
     controls = Controls()
     pad.press(3, 11)
-    print(*sorted(press.act.name for press in controls.presses(pygame.event.get())), controls.name(controls.last))
+    print(*sorted(press.button.name for press in controls.presses(pygame.event.get())), controls.name(controls.last))
 """
     there = {**os.environ, "SDL_GAMECONTROLLERCONFIG_FILE": str(file)}  # SDL reads it once, so ask a fresh process
     root = Path(__file__).parents[3]

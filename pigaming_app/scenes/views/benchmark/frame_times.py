@@ -25,7 +25,7 @@ FPS = 60
 FIRST = 60  # frames that are not counted
 
 
-class Scene(Protocol):
+class BenchmarkMatch(Protocol):
     """A match, or what looks like one."""
 
     arena: Arena
@@ -35,7 +35,7 @@ class Scene(Protocol):
         """Advance by 1/50 s."""
 
 
-class Works:
+class BusyFactory:
     """A factory with eight pallets a team and drivers in a hurry; somebody is always frozen."""
 
     def __init__(self) -> None:
@@ -52,10 +52,10 @@ class Works:
         frozen.frozen = frozen.frozen or self.state.rules.freeze
 
 
-BUSY: dict[str, Callable[[], Scene]] = {
-    "pitanks": busy.Busy,
-    "factory": Works,
-    "race": lambda: race_busy.Busy(laps=max(GAMES["race"].goals)),
+BUSY: dict[str, Callable[[], BenchmarkMatch]] = {
+    "pitanks": busy.BusyPiTanks,
+    "factory": BusyFactory,
+    "race": lambda: race_busy.BusyRace(laps=max(GAMES["race"].goals)),
 }
 
 
@@ -65,7 +65,7 @@ def frame_times(game: str, frames: int) -> list[float]:
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
     scene = BUSY[game]()
-    view = VIEWS[game](scene.arena, scene.state, ["human", "human", "easy", "hard"], busy.Full(), Words("en"))
+    view = VIEWS[game](scene.arena, scene.state, ["human", "human", "easy", "hard"], busy.AllEffects(), Words("en"))
     while not view.warm(1000.0):
         pass
     times, owed = [], 0.0
@@ -75,9 +75,9 @@ def frame_times(game: str, frames: int) -> list[float]:
             scene.tick()
             view.watch(scene.state)
             owed -= DT
-        missing = PARTICLES - len(view.moments.particles)
+        missing = PARTICLES - len(view.particles.particles)
         if missing > 0:
-            view.moments.burst(960, 540, (60, 160, 255), missing, 40, 300)
+            view.particles.burst(960, 540, (60, 160, 255), missing, 40, 300)
         began = perf_counter()
         view.draw(screen, scene.state, owed / DT, 1 / FPS)
         if frame >= FIRST:

@@ -16,14 +16,14 @@ BULLETS = 30
 
 
 @dataclass
-class Full:
+class AllEffects:
     """A taste that wants everything."""
 
     flashes: str = "full"
     shake: bool = True
 
 
-class Busy:
+class BusyPiTanks:
     """A match without an engine. `teams`: the team of each seat, -1 where nobody sits."""
 
     def __init__(self, teams: tuple[int, ...] = (0, 1, 2, 3), arena: Arena | None = None) -> None:

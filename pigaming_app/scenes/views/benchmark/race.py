@@ -18,7 +18,7 @@ PACES = (1.0, 0.95, 0.9, 0.85)  # of the robots
 SWAY = (40.0, 150.0, 60.0, 90.0)  # px to either side of the middle; one of them cuts through mud
 
 
-class Busy:
+class BusyRace:
     """A race without an engine. `seats`: how many drive."""
 
     def __init__(self, seats: int = ROBOTS, arena: Arena | None = None, laps: int = 3) -> None:

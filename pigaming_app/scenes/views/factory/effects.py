@@ -13,17 +13,17 @@ from pigaming_app.scenes.views.factory.events import (
     SPOILED,
     STARTED,
     THAWED,
-    Happening,
+    Event,
 )
-from pigaming_app.scenes.views.particles import Moments
+from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
-from pigaming_app.scenes.views.view import Heard, Taste
+from pigaming_app.scenes.views.view import Heard, ViewOptions
 from pigaming_app.ui.draw import ALARM
 
 POP = 0.12  # seconds in which a crate that was moved snaps to its size
 
 
-class Popping:
+class CratePops:
     """Crates that have just been lifted or set down are a little larger for a moment."""
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class Popping:
 
 
 def react(
-    happenings: Iterable[Happening], state: Factory, moments: Moments, popping: Popping, taste: Taste
+    happenings: Iterable[Event], state: Factory, moments: Particles, popping: CratePops, options: ViewOptions
 ) -> list[Heard]:
     """Put what happened into the air; answers what is heard of it."""
     heard: list[Heard] = []
@@ -52,15 +52,15 @@ def react(
             case "delivered":
                 color = TEAMS[state.pallets[one.what].team]
                 moments.burst(x, y, color, 30, 30, 120)
-                if taste.flashes != "off":
+                if options.flashes != "off":
                     moments.shock(x, y, color)
-                if taste.flashes == "full":
+                if options.flashes == "full":
                     moments.glow(x, y, color)
                 if one.player is not None:
                     moments.score(x, y - 70, "+1", one.player)
             case "spoiled":
                 moments.burst(x, y, ALARM, 24, 26, 100)
-                if taste.flashes == "full" and taste.shake:
+                if options.flashes == "full" and options.shake:
                     moments.shake()
             case "machine_done":
                 moments.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)

@@ -8,7 +8,7 @@ LIFTED, SET_DOWN, REFUSED, SPOILED, DELIVERY = "lift", "set_down", "refused", "s
 STARTED, DONE, FROZEN, THAWED, RENEWED = "machine_start", "machine_done", "freeze", "thaw", "arrived"
 
 
-class Happening(NamedTuple):
+class Event(NamedTuple):
     """One thing that happened at (x, y), px; `player`: who did it, or None; `what`: pallet or machine, -1: neither."""
 
     kind: str
@@ -18,13 +18,13 @@ class Happening(NamedTuple):
     what: int = -1
 
 
-class Watcher:
+class EventDetector:
     """Remembers one match from tick to tick."""
 
     def __init__(self, state: Factory) -> None:
         self._remember(state)
 
-    def look(self, state: Factory) -> list[Happening]:
+    def look(self, state: Factory) -> list[Event]:
         """What has happened since the last look."""
         found = [*self._robots(state), *self._pallets(state)]
         self._remember(state)
@@ -34,19 +34,19 @@ class Watcher:
         self.loads = [(load.pallet, load.refused, load.frozen) for load in state.loads]
         self.pallets = [(one.state, one.place, one.at) for one in state.pallets]
 
-    def _robots(self, state: Factory) -> list[Happening]:
+    def _robots(self, state: Factory) -> list[Event]:
         found = []
         for k, (load, robot) in enumerate(zip(state.loads, state.robots, strict=True)):
             _, refused, frozen = self.loads[k]
             if load.refused == 1 and refused != 1:
-                found.append(Happening(REFUSED, k, robot.x, robot.y))
+                found.append(Event(REFUSED, k, robot.x, robot.y))
             if load.frozen > frozen:
-                found.append(Happening(FROZEN, k, robot.x, robot.y))
+                found.append(Event(FROZEN, k, robot.x, robot.y))
             elif frozen and not load.frozen:
-                found.append(Happening(THAWED, k, robot.x, robot.y))
+                found.append(Event(THAWED, k, robot.x, robot.y))
         return found
 
-    def _pallets(self, state: Factory) -> list[Happening]:
+    def _pallets(self, state: Factory) -> list[Event]:
         found = []
         for p, one in enumerate(state.pallets):
             was, place, at = self.pallets[p]
@@ -55,19 +55,19 @@ class Watcher:
             who = at if place == ON_ROBOT else one.at if one.place == ON_ROBOT else None
             x, y = spot(state, p)
             if one.state == DELIVERED and was != DELIVERED:
-                found.append(Happening(DELIVERY, who, x, y, p))
+                found.append(Event(DELIVERY, who, x, y, p))
             elif one.state == DAMAGED and was != DAMAGED:
-                found.append(Happening(SPOILED, who, x, y, p))
+                found.append(Event(SPOILED, who, x, y, p))
             elif was == DAMAGED and one.state != DAMAGED:
-                found.append(Happening(RENEWED, None, x, y, p))
+                found.append(Event(RENEWED, None, x, y, p))
             elif one.place == ON_ROBOT:
-                found.append(Happening(LIFTED, who, x, y, p))
+                found.append(Event(LIFTED, who, x, y, p))
             elif one.place == IN_MACHINE:
-                found.append(Happening(STARTED, None, x, y, p))
+                found.append(Event(STARTED, None, x, y, p))
             elif place == IN_MACHINE:
-                found.append(Happening(DONE, None, x, y, p))
+                found.append(Event(DONE, None, x, y, p))
             elif one.place == IN_SLOT and place == ON_ROBOT:
-                found.append(Happening(SET_DOWN, who, x, y, p))
+                found.append(Event(SET_DOWN, who, x, y, p))
         return found
 
 

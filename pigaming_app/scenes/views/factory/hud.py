@@ -11,7 +11,7 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.factory.state import DELIVERED, MOST_PALLETS, TEAMS
-from pigaming_app.scenes.views.background import Bit, Ground
+from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import HudParts, number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
@@ -28,9 +28,9 @@ EMBLEM, NUMBER, ROBOT, CRATES = 58, 106, 268, 330  # px from a panel's outer edg
 class FactoryHud:
     """Keeps the ground saying what the match says. `players`: who sits where; names in BRAINS are marked as AI."""
 
-    def __init__(self, ground: Ground, players: list[str]) -> None:
-        self.ground, self.players = ground, players
-        self.parts = HudParts(ground)
+    def __init__(self, background: Background, players: list[str]) -> None:
+        self.background, self.players = background, players
+        self.parts = HudParts(background)
         self.delivered = [0] * TEAMS
 
     def show(self, state: Any) -> list[int]:

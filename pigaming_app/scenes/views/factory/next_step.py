@@ -18,7 +18,7 @@ AIMS = 0.8  # of a driver's colour, for what it is making for
 STAY = 120.0  # px by which another slot must be nearer before the arrow turns to it
 
 
-class Guide:
+class NextStepGuide:
     """Knows for each seat the slot to which it should go; -1: none."""
 
     def __init__(self, players: list[str]) -> None:
@@ -31,7 +31,7 @@ class Guide:
             if not robot.present or (state.tick + seat) % EVERY:
                 continue
             if self.players[seat] == "human":
-                self.slots[seat] = advised(state, seat, self.slots[seat])
+                self.slots[seat] = next_slot(state, seat, self.slots[seat])
             else:
                 self.slots[seat] = state.loads[seat].aim - 1
 
@@ -56,7 +56,7 @@ class Guide:
             at += PITCH
 
 
-def advised(state: Factory, seat: int, before: int) -> int:
+def next_slot(state: Factory, seat: int, before: int) -> int:
     """The nearest slot at which a robot could do what is next; a job further on comes before one at its beginning."""
     robot, load = state.robots[seat], state.loads[seat]
     best, least = -1, 1e9

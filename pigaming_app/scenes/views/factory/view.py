@@ -21,18 +21,18 @@ from pigaming_app.games.factory.state import (
     A,
     Factory,
 )
-from pigaming_app.scenes.views.background import LEFT, TOP, Ground
+from pigaming_app.scenes.views.background import LEFT, TOP, Background
 from pigaming_app.scenes.views.factory.background import bare
-from pigaming_app.scenes.views.factory.effects import Popping, react
-from pigaming_app.scenes.views.factory.events import Watcher, spot
+from pigaming_app.scenes.views.factory.effects import CratePops, react
+from pigaming_app.scenes.views.factory.events import EventDetector, spot
 from pigaming_app.scenes.views.factory.hud import FactoryHud, pulse
 from pigaming_app.scenes.views.factory.hud import X as PANELS
 from pigaming_app.scenes.views.factory.hud import Y as TOP_OF_PANELS
-from pigaming_app.scenes.views.factory.next_step import Guide
+from pigaming_app.scenes.views.factory.next_step import NextStepGuide
 from pigaming_app.scenes.views.factory.prewarm import jobs
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, Picture, Pose, Taste, Words
+from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions, Words
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
@@ -43,17 +43,17 @@ BEFORE = 124.0  # px from a real robot, in its wide disc, to what it carries
 BESIDE = 102.0  # px from a robot to the number that counts down
 
 
-class FactoryView(Picture):
+class FactoryView(MatchView):
     """The view of one match of Robot Factory."""
 
     def __init__(
-        self, arena: Arena, state: Factory, players: list[str], taste: Taste, words: Words | None = None
+        self, arena: Arena, state: Factory, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        super().__init__(state, players, taste, words, Ground(partial(bare, arena.plan)))
-        self.hud = FactoryHud(self.ground, players)
-        self.watcher = Watcher(state)
-        self.guide = Guide(players)
-        self.popping = Popping()
+        super().__init__(state, players, options, words, Background(partial(bare, arena.plan)))
+        self.hud = FactoryHud(self.background, players)
+        self.watcher = EventDetector(state)
+        self.guide = NextStepGuide(players)
+        self.popping = CratePops()
         self.people = self.people_before = _people(state)
         self.ahead(self.hud.jobs())
         self.ahead(jobs(self.seats))
@@ -63,14 +63,14 @@ class FactoryView(Picture):
         self.follow(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.look(state)
-        return react(self.watcher.look(state), state, self.moments, self.popping, self.taste)
+        return react(self.watcher.look(state), state, self.particles, self.popping, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
-        self.moments.advance(seconds)
+        self.particles.advance(seconds)
         for team in self.hud.show(state):
-            if self.taste.flashes != "off":
-                self.moments.bloom(PANELS[team], TOP_OF_PANELS, 0.4, pulse(team))
+            if self.options.flashes != "off":
+                self.particles.bloom(PANELS[team], TOP_OF_PANELS, 0.4, pulse(team))
         under: Batch = []
         over: Batch = []
         light: Batch = []
@@ -81,10 +81,10 @@ class FactoryView(Picture):
         self._people(over, top, state, blend)
         for seat, pose in poses.items():
             self._robot(under, over, light, top, state, seat, pose)
-            self.guide.draw(light, state, seat, pose, self.moments.clock)
+            self.guide.draw(light, state, seat, pose, self.particles.clock)
         self._counts(light, state)
-        self.moments.draw_light(light)
-        self.moments.draw_scores(top)
+        self.particles.draw_light(light)
+        self.particles.draw_scores(top)
         self.paint(screen, under, over, light, top)
 
     def _machines(self, over: Batch, light: Batch, state: Factory) -> None:
@@ -106,14 +106,14 @@ class FactoryView(Picture):
                 put(over, self._crate(p, one), LEFT + x, TOP + y)
 
     def _crate(self, p: int, one: Any) -> Any:
-        return crates.crate(one.team, one.state, self.popping.tenths(p, self.moments.clock))
+        return crates.crate(one.team, one.state, self.popping.tenths(p, self.particles.clock))
 
     def _people(self, over: Batch, top: Batch, state: Factory, blend: float) -> None:
         for old, new, worker in zip(self.people_before, self.people, state.workers, strict=True):
             x, y = LEFT + old[0] + (new[0] - old[0]) * blend, TOP + old[1] + (new[1] - old[1]) * blend
             working = worker.task == WORKING
             moving = worker.walking or working
-            stride = int(self.moments.clock * 7) % crates.STRIDE if moving else 0
+            stride = int(self.particles.clock * 7) % crates.STRIDE if moving else 0
             put(over, crates.person(step(worker.heading, crates.PERSON_TURNS), stride, working), x, y)
             if worker.pallet:
                 p, c, s = worker.pallet - 1, math.cos(worker.heading), math.sin(worker.heading)
@@ -127,7 +127,7 @@ class FactoryView(Picture):
         x, y, heading = pose
         robot, load, fine = state.robots[seat], state.loads[seat], step(heading, HEADINGS)
         refused = 0 < load.refused <= SHOWN_REFUSED
-        if refused and self.taste.shake:
+        if refused and self.options.shake:
             x += 4 * (-1) ** (load.refused // 2)
         self.light_up(under, seat, (x, y, heading), bool(robot.boosting))
         put(over, crates.forks(robot.team, fine), x, y)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.scenes.views.background import LEFT, TOP, Ground
+from pigaming_app.scenes.views.background import LEFT, TOP, Background
 from pigaming_app.scenes.views.sprites.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import LINE, PLAYERS, PRE, WALL, LayeredCanvas, cut_box, dim, shape_points
@@ -17,7 +17,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
 
 
-class Walled(Ground):
+class WalledBackground(Background):
     """The ground of a match with walls that break."""
 
     def __init__(self, state: Any, starts: Starts) -> None:

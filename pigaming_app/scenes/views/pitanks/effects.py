@@ -4,9 +4,9 @@ from collections.abc import Iterable
 
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.particles import Moments
-from pigaming_app.scenes.views.pitanks.events import Happening
-from pigaming_app.scenes.views.view import Heard, Taste
+from pigaming_app.scenes.views.particles import Particles
+from pigaming_app.scenes.views.pitanks.events import Event
+from pigaming_app.scenes.views.view import Heard, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
 
@@ -27,30 +27,30 @@ SOUNDS = {
 }
 
 
-def react(happenings: Iterable[Happening], state: PiTanks, moments: Moments, taste: Taste) -> list[Heard]:
+def react(happenings: Iterable[Event], state: PiTanks, moments: Particles, options: ViewOptions) -> list[Heard]:
     """Put what happened into the air; answers what is heard of it."""
     heard: list[Heard] = []
     for one in happenings:
-        _show(one, state, moments, taste)
+        _show(one, state, moments, options)
         if one.kind in SOUNDS:
             heard.append((SOUNDS[one.kind], one.player, one.x))
     return heard
 
 
-def _show(one: Happening, state: PiTanks, moments: Moments, taste: Taste) -> None:
+def _show(one: Event, state: PiTanks, moments: Particles, options: ViewOptions) -> None:
     x, y, player = LEFT + one.x, TOP + one.y, one.player
     color = ICE if player is None else PLAYERS[player]
     match one.kind:
         case "hit":
             moments.burst(x, y, color, 30, 46, 120)
-            _blast(x, y, color, moments, taste)
+            _blast(x, y, color, moments, options)
             moments.score(_inside(x) + BESIDE, y - 66, f"−{one.number}", player or 0)
         case "scored":
             moments.score(_inside(x) - BESIDE, y - 66, f"+{one.number}", player or 0)
         case "shielded":
             moments.burst(x, y, color, 26, 66, 90)
             moments.burst(x, y, FOCUS, 10, 66, 70)
-            if taste.flashes != "off":
+            if options.flashes != "off":
                 moments.shock(x, y, color)
         case "stopped" | "bounced":
             moments.burst(x, y, color, 7 if one.kind == "stopped" else 4, 8, 60, (one.angle, 1.1))
@@ -60,19 +60,19 @@ def _show(one: Happening, state: PiTanks, moments: Moments, taste: Taste) -> Non
             moments.burst(x, y, FOCUS, 16, 46, 60)
         case "mine_blown":
             moments.burst(x, y, ALARM, 24, 16, 130)
-            _blast(x, y, color, moments, taste)
+            _blast(x, y, color, moments, options)
 
 
-def _blast(x: float, y: float, color: tuple[int, int, int], moments: Moments, taste: Taste) -> None:
-    if taste.flashes != "off":
+def _blast(x: float, y: float, color: tuple[int, int, int], moments: Particles, options: ViewOptions) -> None:
+    if options.flashes != "off":
         moments.shock(x, y, color)
-    if taste.flashes == "full":
+    if options.flashes == "full":
         moments.glow(x, y, color)
-        if taste.shake:
+        if options.shake:
             moments.shake()
 
 
-def _break(one: Happening, state: PiTanks, moments: Moments) -> None:
+def _break(one: Event, state: PiTanks, moments: Particles) -> None:
     """Splinters of a wall: a few where a cell goes out, many where it falls."""
     wall = state.walls[one.number]
     ends = LEFT + wall.ax, TOP + wall.ay, LEFT + wall.bx, TOP + wall.by

@@ -13,7 +13,7 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.pitanks.state import POWERS
-from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit, Ground
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud_parts import EDGE, WIDE, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.scenes.views.sprites.pickups import small_icon
@@ -44,7 +44,7 @@ CELL = 17.75  # px from one cell of the turbo bar to the next
 
 
 @dataclass(frozen=True)
-class Slot:
+class SeatPanel:
     """The panel of a seat."""
 
     seat: int
@@ -53,44 +53,44 @@ class Slot:
 
 
 @dataclass(frozen=True)
-class Sum:
+class TeamPanel:
     """The box with a team's points; `mates`: the slots linked to it."""
 
     team: int
     x: int
-    mates: tuple[Slot, ...]
+    mates: tuple[SeatPanel, ...]
 
 
-def layout(robots: Any) -> tuple[list[Slot], list[Sum]]:
+def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
     """Where the panels stand, and the sums of two teams. Absent seats have no panel."""
     seats = [i for i, robot in enumerate(robots) if robot.present]
     teams = list(dict.fromkeys(robots[i].team for i in seats))
     if len(teams) != 2 or len(seats) == 2:
         places = XS.get(len(seats), ())
-        return [Slot(seat, x, WIDE) for seat, x in zip(seats, places, strict=False)], []
-    slots: list[Slot] = []
-    sums: list[Sum] = []
+        return [SeatPanel(seat, x, WIDE) for seat, x in zip(seats, places, strict=False)], []
+    slots: list[SeatPanel] = []
+    sums: list[TeamPanel] = []
     for side, team in enumerate(teams):
         members = [i for i in seats if robots[i].team == team]
         w = min(WIDE, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
         total = len(members) * w + 8 * (len(members) - 1)
         first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
-        mates = tuple(Slot(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
+        mates = tuple(SeatPanel(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
         slots += mates
-        sums.append(Sum(team, 692 if side == 0 else 1112, mates))
+        sums.append(TeamPanel(team, 692 if side == 0 else 1112, mates))
     return slots, sums
 
 
-class Hud:
+class PiTanksHud:
     """Keeps the ground saying what the match says. `players`: who sits where; names in BRAINS are marked as AI."""
 
-    def __init__(self, ground: Ground, state: Any, players: list[str]) -> None:
-        self.ground, self.players = ground, players
+    def __init__(self, background: Background, state: Any, players: list[str]) -> None:
+        self.background, self.players = background, players
         self.slots, self.sums = layout(state.robots)
-        self.parts = HudParts(ground)
+        self.parts = HudParts(background)
         self.points: dict[int, int] = {}
 
-    def show(self, state: Any) -> list[Slot]:
+    def show(self, state: Any) -> list[SeatPanel]:
         """Bake what has changed; answers the panels whose points have."""
         points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
         totals = {one.team: sum(points[slot.seat] for slot in one.mates) for one in self.sums}
@@ -124,16 +124,16 @@ class Hud:
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]
 
-    def _bake_sum(self, one: Sum, points: int, leads: bool) -> None:
+    def _bake_sum(self, one: TeamPanel, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")
         size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
         bits: list[Bit] = [(sum_frame(leads, one is self.sums[1]), (one.x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, one.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
-        self.ground.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
+        self.background.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
         inner = one.x - 12 if one.x < 960 else one.x + SUM_W
         gaps = [inner, *(slot.x + slot.w for slot in one.mates[:-1])]
         for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
-            self.ground.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
+            self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
 
 
 def _ahead(points: dict[int, int]) -> int | None:
@@ -156,7 +156,7 @@ def _powers(state: Any, seat: int) -> tuple[tuple[int, int], ...]:
 
 
 def panel_bits(
-    slot: Slot, score: int, leads: bool, ai: bool, turbo: int | None, powers: tuple[tuple[int, int], ...]
+    slot: SeatPanel, score: int, leads: bool, ai: bool, turbo: int | None, powers: tuple[tuple[int, int], ...]
 ) -> list[Bit]:
     """The pieces of a panel."""
     x, middle = slot.x, Y + (38 if turbo is not None else H // 2)

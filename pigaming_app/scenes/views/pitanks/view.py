@@ -7,15 +7,15 @@ import pygame
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud_parts import Y as TOP_OF_PANELS
-from pigaming_app.scenes.views.pitanks.background import Walled
+from pigaming_app.scenes.views.pitanks.background import WalledBackground
 from pigaming_app.scenes.views.pitanks.effects import react
-from pigaming_app.scenes.views.pitanks.events import Watcher
-from pigaming_app.scenes.views.pitanks.hud import Hud, pulse
+from pigaming_app.scenes.views.pitanks.events import EventDetector
+from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, Picture, Pose, Taste, Words
+from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions, Words
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -26,17 +26,17 @@ ENDING = 2 * HZ  # ticks before its end at which a shield begins to blink
 MUZZLE = 70.0  # px from a robot to the middle of its muzzle flash
 
 
-class PiTanksView(Picture):
+class PiTanksView(MatchView):
     """The view of one match of PiTanks."""
 
     def __init__(
-        self, arena: Arena, state: PiTanks, players: list[str], taste: Taste, words: Words | None = None
+        self, arena: Arena, state: PiTanks, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        self.walls = Walled(state, tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats))
-        super().__init__(state, players, taste, words, self.walls)
-        self.hud = Hud(self.ground, state, players)
-        self.watcher = Watcher(state)
+        self.walls = WalledBackground(state, tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats))
+        super().__init__(state, players, options, words, self.walls)
+        self.hud = PiTanksHud(self.background, state, players)
+        self.watcher = EventDetector(state)
         self.flashed = [-1.0] * len(state.robots)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
@@ -56,16 +56,16 @@ class PiTanksView(Picture):
         happenings = self.watcher.look(state)
         for one in happenings:
             if one.kind == "fire" and one.player is not None:
-                self.flashed[one.player] = self.moments.clock
-        return react(happenings, state, self.moments, self.taste)
+                self.flashed[one.player] = self.particles.clock
+        return react(happenings, state, self.particles, self.options)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
-        self.moments.advance(seconds)
+        self.particles.advance(seconds)
         self.walls.show_walls(state)
         for slot in self.hud.show(state):
-            if self.taste.flashes != "off":
-                self.moments.bloom(slot.x, TOP_OF_PANELS, 0.4, pulse(slot.seat, slot.w))
+            if self.options.flashes != "off":
+                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, pulse(slot.seat, slot.w))
         under: Batch = []
         over: Batch = []
         light: Batch = []
@@ -74,8 +74,8 @@ class PiTanksView(Picture):
         for seat in self.seats:
             self._robot(under, over, light, state, seat, self.pose(seat, blend))
         self._bullets(light, state, blend)
-        self.moments.draw_light(light)
-        self.moments.draw_scores(top)
+        self.particles.draw_light(light)
+        self.particles.draw_scores(top)
         self.paint(screen, under, over, light, top)
 
     def _things(self, over: Batch, light: Batch, state: PiTanks) -> None:
@@ -92,15 +92,15 @@ class PiTanksView(Picture):
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: PiTanks, seat: int, pose: Pose) -> None:
         x, y, heading = pose
-        now, driven, held = self.moments.clock, state.robots[seat], state.tanks[seat]
+        now, driven, held = self.particles.clock, state.robots[seat], state.tanks[seat]
         coarse, fine = step(heading, effects.TURNS), step(heading, HEADINGS)
         self.light_up(under, seat, pose, bool(driven.boosting or (held.powers[SPEED] and abs(driven.linear) > 40.0)))
         if seat in self.marked:
             put(under, tank.team_mark(int(driven.team != self.first_team), coarse), x, y)
-        here = not held.protected or held.protected // 4 % 2 == 0 or self.taste.flashes == "off"
+        here = not held.protected or held.protected // 4 % 2 == 0 or self.options.flashes == "off"
         put(over, tank.tank(seat, fine) if here else tank.ghost(seat), x, y)
         self._powers(light, state, seat, x, y)
-        if now - self.flashed[seat] < FLASH and self.taste.flashes != "off":
+        if now - self.flashed[seat] < FLASH and self.options.flashes != "off":
             flash = effects.flash(seat, coarse)
             put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))
 
@@ -117,7 +117,7 @@ class PiTanksView(Picture):
             )
         left = powers[SHIELD]
         if left > ENDING or left // 6 % 2:
-            put(light, effects.shield(seat, int(self.moments.clock * 24) % 24, self.reach(seat, 72)), x, y)
+            put(light, effects.shield(seat, int(self.particles.clock * 24) % 24, self.reach(seat, 72)), x, y)
 
     def _bullets(self, light: Batch, state: PiTanks, blend: float) -> None:
         for i, flying in enumerate(self.flying):

@@ -5,7 +5,7 @@ from functools import partial
 import pygame
 
 from pigaming_app.games.race.start import Track
-from pigaming_app.scenes.views.background import LEFT, TOP, Ground
+from pigaming_app.scenes.views.background import LEFT, TOP, Background
 from pigaming_app.scenes.views.race.track import BADGE, draw_track, edges, sign_post
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, STEEL, WIDE, GlowCanvas
@@ -16,7 +16,7 @@ GLOW = 0.75
 CORNER = 44  # px: the marks in the corners of the arena
 
 
-class Raceway(Ground):
+class RaceBackground(Background):
     """The ground of one race."""
 
     def __init__(self, track: Track) -> None:

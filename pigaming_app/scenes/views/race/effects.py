@@ -6,13 +6,13 @@ from typing import NamedTuple
 
 from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.particles import MOST, Moments, Particle
+from pigaming_app.scenes.views.particles import MOST, Particle, Particles
 from pigaming_app.scenes.views.race import sprites as race_signs
-from pigaming_app.scenes.views.race.events import Happening
+from pigaming_app.scenes.views.race.events import Event
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
-from pigaming_app.scenes.views.view import Heard, Pose, Taste, Words, decimal
+from pigaming_app.scenes.views.view import Heard, Pose, ViewOptions, Words, decimal
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
@@ -34,7 +34,7 @@ OVER = 70.0  # px from a robot to what rises
 HIGH = 76.0  # px from one that rises to another over it
 
 
-class Note(NamedTuple):
+class Announcement(NamedTuple):
     """Rises over the robot of a seat: a sprite, or a number after a star if it is the best."""
 
     born: float
@@ -44,15 +44,15 @@ class Note(NamedTuple):
     color: Color
 
 
-class Notes:
+class Announcements:
     """All that rises at the moment; what would lie over another stands above it."""
 
     def __init__(self) -> None:
-        self.notes: list[Note] = []
+        self.notes: list[Announcement] = []
 
     def say(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
         """Let something rise over a robot."""
-        self.notes.append(Note(now, seat, sprite, text, color))
+        self.notes.append(Announcement(now, seat, sprite, text, color))
 
     def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
         """Add what has not gone yet; over those who wear a sign, nothing."""
@@ -73,7 +73,7 @@ class Notes:
                 _number(light, note, x, y)
 
 
-def _number(light: Batch, note: Note, x: float, y: float) -> None:
+def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
     wide = number_width(note.text, SUB)
     if note.color == FOCUS:
         put(light, race_signs.gold_star(), x - wide / 2 - 12, y)
@@ -85,7 +85,7 @@ def _number(light: Batch, note: Note, x: float, y: float) -> None:
         x += advance
 
 
-def heard(happenings: Sequence[Happening], state: Race) -> list[Heard]:
+def heard(happenings: Sequence[Event], state: Race) -> list[Heard]:
     """What is heard: of every robot only what matters most."""
     loudest: dict[int, str] = {}
     for one in happenings:
@@ -94,15 +94,15 @@ def heard(happenings: Sequence[Happening], state: Race) -> list[Heard]:
     return [(SOUNDS[kind], seat, state.robots[seat].x) for seat, kind in loudest.items()]
 
 
-class Reactions:
+class RaceEffects:
     """Puts what happened into the air."""
 
-    def __init__(self, moments: Moments, notes: Notes, taste: Taste, words: Words | None) -> None:
-        self.moments, self.notes, self.taste, self.words = moments, notes, taste, words
+    def __init__(self, moments: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
+        self.particles, self.notes, self.options, self.words = moments, notes, options, words
 
-    def show(self, one: Happening, state: Race, golden: Delta | None) -> None:
+    def show(self, one: Event, state: Race, golden: Delta | None) -> None:
         """Show one happening; `golden`: what the racer is away from the best lap ever."""
-        moments, robot, racer = self.moments, state.robots[one.seat], state.racers[one.seat]
+        moments, robot, racer = self.particles, state.robots[one.seat], state.racers[one.seat]
         x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[one.seat]
         match one.kind:
             case "line":
@@ -126,21 +126,21 @@ class Reactions:
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
         """A chequered cloud."""
-        moments = self.moments
+        moments = self.particles
         for tone in (color, WHITE):
             for _ in range(min(22, MOST - len(moments.particles))):
                 _fly(moments, x, y, 210.0, race_signs.confetti(tone, moments.random.randrange(4)), 1.3)
         moments.burst(x, y, FOCUS, 14, 46, 130)
-        if self.taste.flashes != "off":
+        if self.options.flashes != "off":
             moments.shock(x, y, color)
-        if self.taste.flashes == "full":
+        if self.options.flashes == "full":
             moments.glow(x, y, color)
 
     def record(self, x: float, y: float) -> None:
         """The best lap ever on this track."""
-        self.moments.burst(x, y, FOCUS, 40, 46, 150)
-        if self.taste.flashes != "off":
-            self.moments.shock(x, y, FOCUS)
+        self.particles.burst(x, y, FOCUS, 40, 46, 150)
+        if self.options.flashes != "off":
+            self.particles.shock(x, y, FOCUS)
 
     def _difference(self, seat: int, delta: float | None, golden: Delta | None) -> None:
         if delta is not None:
@@ -149,10 +149,10 @@ class Reactions:
             self._say(seat, decimal(self.words, signed(golden[0])), FOCUS)
 
     def _say(self, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
-        self.notes.say(self.moments.clock, seat, text, color, sprite)
+        self.notes.say(self.particles.clock, seat, text, color, sprite)
 
 
-def spray(moments: Moments, x: float, y: float, heading: float, count: int, spread: float) -> None:
+def spray(moments: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
     """Clods that fly up behind wheels."""
     for _ in range(min(count, MOST - len(moments.particles))):
         frames = race_signs.clods(moments.random.choice(race_signs.CLODS))
@@ -160,7 +160,7 @@ def spray(moments: Moments, x: float, y: float, heading: float, count: int, spre
 
 
 def _fly(
-    moments: Moments,
+    moments: Particles,
     x: float,
     y: float,
     reach: float,

@@ -9,7 +9,7 @@ from threading import Thread
 
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.race import ghost_files as ghosts
-from pigaming_app.scenes.views.race.events import Happening
+from pigaming_app.scenes.views.race.events import Event
 from pigaming_app.scenes.views.race.ghost_files import Pose
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT
@@ -17,7 +17,7 @@ from pigaming_app.sim.world import DT
 Delta = tuple[float, int]  # ticks, and the tick at which it came
 
 
-class Haunt:
+class GhostRecorder:
     """The ghost of one track in one race. `trouble`: a word if the kept one had to be dropped."""
 
     def __init__(self, folder: Path, arena: Arena, players: Sequence[str]) -> None:
@@ -27,7 +27,7 @@ class Haunt:
         self.golden: dict[int, Delta] = {}
         self.writing: Thread | None = None
 
-    def watch(self, state: Race, happenings: Sequence[Happening]) -> list[int]:
+    def watch(self, state: Race, happenings: Sequence[Event]) -> list[int]:
         """See a tick: note the laps of people, compare them; answers the seats that have set a new best lap ever."""
         new = []
         for seat in (one.seat for one in happenings if one.kind == "line" and self._person(one.seat)):

@@ -10,12 +10,12 @@ import pygame
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.race.state import LINES, Race
-from pigaming_app.scenes.views.background import Bit, Ground
+from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import CLOCK, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
-from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, Card, W, card_bits
+from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, RaceCard, W, card_bits
 from pigaming_app.scenes.views.view import Words, decimal
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, GlowCanvas
@@ -26,16 +26,16 @@ from pigaming_app.ui.draw.text import glyph, number_width
 MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
 
 
-class Cards:
+class RaceHud:
     """Keeps the ground saying what the race says. `players`: who sits where; names in BRAINS are marked as AI."""
 
-    def __init__(self, ground: Ground, state: Race, players: list[str], words: Words | None) -> None:
-        self.ground, self.players, self.words = ground, players, words
+    def __init__(self, background: Background, state: Race, players: list[str], words: Words | None) -> None:
+        self.background, self.players, self.words = background, players, words
         self.gaps = Gaps(state)
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.xs = XS[len(seats)]
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
-        self.parts = HudParts(ground)
+        self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: which way it went, at which tick
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
@@ -83,12 +83,12 @@ class Cards:
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS.get("race", {})
 
-    def _card(self, state: Race, seat: int, place: int) -> Card:
+    def _card(self, state: Race, seat: int, place: int) -> RaceCard:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
         went, when = self.moves.get(seat, (0, -MOVED))
         done = bool(racer.finished)
         share = racer.progress / (laps * state.course.length)
-        return Card(
+        return RaceCard(
             seat=seat,
             ai=self._ai(seat),
             place=place,

@@ -47,7 +47,7 @@ SIGNS = W - 132  # px: the middle of what is wrong
 
 
 @dataclass(frozen=True)
-class Card:
+class RaceCard:
     """What a card shows. `sign`: "", "wrong" or "missed"; `moved`: 1 went ahead, -1 fell back, 0."""
 
     seat: int
@@ -65,7 +65,7 @@ class Card:
     done: bool
 
 
-def card_bits(card: Card, x: int) -> list[Bit]:
+def card_bits(card: RaceCard, x: int) -> list[Bit]:
     """The pieces of a card whose left edge is at x."""
     corner = (x - EDGE, Y - EDGE)
     bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done), corner, None)]
@@ -89,7 +89,7 @@ def card_bits(card: Card, x: int) -> list[Bit]:
     return bits
 
 
-def _figures(card: Card, x: int) -> list[Bit]:
+def _figures(card: RaceCard, x: int) -> list[Bit]:
     """The lap, and how far behind the leader; the leader wears a crown, and a flag at the end."""
     lap = str(card.lap)
     bits = number_bits(lap, FIGURE, x + LAP, Y + ROW, ICE)

@@ -53,7 +53,7 @@ def ribs(course: Course) -> tuple[Rib, ...]:
     return tuple(found)
 
 
-def beside(rib: Rib, side: float, out: float = 0.0) -> Point:
+def edge_point(rib: Rib, side: float, out: float = 0.0) -> Point:
     """The point `out` px outside the edge; `side` 1 is the right hand of the way, -1 the left."""
     far = side * (rib.half + out)
     return rib.x - far * math.sin(rib.heading), rib.y + far * math.cos(rib.heading)
@@ -61,7 +61,7 @@ def beside(rib: Rib, side: float, out: float = 0.0) -> Point:
 
 def edges(course: Course) -> tuple[list[Point], list[Point]]:
     """The left and the right edge."""
-    return [beside(rib, -1) for rib in ribs(course)], [beside(rib, 1) for rib in ribs(course)]
+    return [edge_point(rib, -1) for rib in ribs(course)], [edge_point(rib, 1) for rib in ribs(course)]
 
 
 def draw_track(glow: GlowCanvas, crisp: GlowCanvas, track: Track) -> Steps[None]:
@@ -93,8 +93,8 @@ def draw_kerbs(ink: GlowCanvas, course: Course) -> None:
             if a.bend * side < 1.0 / TIGHT or b.bend * side < 1.0 / TIGHT:
                 run = 0.0
                 continue
-            near, far = [beside(rib, side, -4) for rib in (a, b)], [beside(rib, side, 10) for rib in (b, a)]
-            whole = math.dist(beside(a, side, 3), beside(b, side, 3))
+            near, far = [edge_point(rib, side, -4) for rib in (a, b)], [edge_point(rib, side, 10) for rib in (b, a)]
+            whole = math.dist(edge_point(a, side, 3), edge_point(b, side, 3))
             done = 0.0
             while done < whole - 1e-6:
                 block = int((run + 1e-6) // KERB)
@@ -128,7 +128,7 @@ def draw_arrows(ink: GlowCanvas, track: Track) -> None:
                 ink.line([(x + a * c - b * s, y + a * s + b * c) for a, b in head], ARROWS, 6)
 
 
-class Frame(NamedTuple):
+class LineFrame(NamedTuple):
     """Where a line lies: its middle (px), its way along and across the course, half its width (px)."""
 
     x: float
@@ -142,14 +142,14 @@ class Frame(NamedTuple):
         return self.x + ahead * self.c - right * self.s, self.y + ahead * self.s + right * self.c
 
 
-def frame(course: Course, along: float) -> Frame:
+def frame(course: Course, along: float) -> LineFrame:
     """The frame of a line across the course."""
     (ax, ay), (bx, by) = spot(course, along, -1.0), spot(course, along, 1.0)
     half = half_at(course, *leg(course, along))
-    return Frame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
+    return LineFrame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
 
 
-def draw_line(glow: GlowCanvas, crisp: GlowCanvas, line: Frame, color: Color) -> None:
+def draw_line(glow: GlowCanvas, crisp: GlowCanvas, line: LineFrame, color: Color) -> None:
     """Two columns of a chequered band between two bright rails."""
     half = line.half - 3
     crisp.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], BLACK)

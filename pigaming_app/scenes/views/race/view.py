@@ -11,16 +11,16 @@ from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud_parts import Y
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
-from pigaming_app.scenes.views.race.background import Raceway
-from pigaming_app.scenes.views.race.effects import Notes, Reactions, heard, spray
-from pigaming_app.scenes.views.race.events import SHOWN_FROM, Happening, Watcher
-from pigaming_app.scenes.views.race.ghost import Haunt
-from pigaming_app.scenes.views.race.hud import Cards
+from pigaming_app.scenes.views.race.background import RaceBackground
+from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, heard, spray
+from pigaming_app.scenes.views.race.events import SHOWN_FROM, Event, EventDetector
+from pigaming_app.scenes.views.race.ghost import GhostRecorder
+from pigaming_app.scenes.views.race.hud import RaceHud
 from pigaming_app.scenes.views.race.prewarm import jobs, void_words
-from pigaming_app.scenes.views.race.track import Frame, frame
+from pigaming_app.scenes.views.race.track import LineFrame, frame
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.scenes.views.view import Heard, Picture, Pose, Taste, Words
+from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions, Words
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -35,17 +35,19 @@ ENTRY, STOP = 170.0, 52.0  # px before a line: where the way back leads to, and 
 SPRAYED = 60.0  # px/s from which mud flies
 
 
-class RaceView(Picture):
+class RaceView(MatchView):
     """The view of one race."""
 
-    def __init__(self, arena: Arena, state: Race, players: list[str], taste: Taste, words: Words | None = None) -> None:
-        super().__init__(state, players, taste, words, Raceway(arena.plan))
+    def __init__(
+        self, arena: Arena, state: Race, players: list[str], options: ViewOptions, words: Words | None = None
+    ) -> None:
+        super().__init__(state, players, options, words, RaceBackground(arena.plan))
         self.arena = arena
-        self.cards = Cards(self.ground, state, players, words)
-        self.watcher = Watcher(state)
-        self.notes = Notes()
-        self.reactions = Reactions(self.moments, self.notes, taste, words)
-        self.haunt: Haunt | None = None
+        self.cards = RaceHud(self.background, state, players, words)
+        self.watcher = EventDetector(state)
+        self.notes = Announcements()
+        self.reactions = RaceEffects(self.particles, self.notes, options, words)
+        self.haunt: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
         self.voided = [-VOID_LASTS] * len(state.robots)
@@ -54,7 +56,7 @@ class RaceView(Picture):
 
     def for_real(self, folder: Path) -> None:
         """People race here: the ghost of the track drives along, and their best laps are kept."""
-        self.haunt = Haunt(folder, self.arena, self.players)
+        self.haunt = GhostRecorder(folder, self.arena, self.players)
 
     def watch(self, state: Race) -> list[Heard]:
         """See what the last tick did; answers what is to be heard."""
@@ -73,12 +75,12 @@ class RaceView(Picture):
             robot = state.robots[seat]
             if not state.racers[seat].place.on and abs(robot.linear) > SPRAYED:
                 back = robot.heading + (math.pi if robot.linear > 0.0 else 0.0)
-                spray(self.moments, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
+                spray(self.particles, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
         return heard(happenings, state)
 
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
-        self.moments.advance(seconds)
+        self.particles.advance(seconds)
         self.cards.show(state, self.watcher.order)
         under: Batch = []
         over: Batch = []
@@ -92,22 +94,22 @@ class RaceView(Picture):
         for seat in self.seats:
             self._robot(under, over, light, state, seat, poses[seat])
         signed = {seat for seat in self.seats if self._sign(top, state, seat, poses[seat])}
-        self.moments.draw_light(light)
-        self.notes.draw(light, top, poses, self.moments.clock, signed)
+        self.particles.draw_light(light)
+        self.notes.draw(light, top, poses, self.particles.clock, signed)
         self.paint(screen, under, over, light, top)
         self._trouble(screen)
 
     # ---- inside
 
-    def _note(self, one: Happening, state: Race) -> None:
+    def _note(self, one: Event, state: Race) -> None:
         """What cards and signs remember of a happening."""
         if one.kind in ("up", "down"):
             self.cards.moved(one.seat, one.kind == "up", state.tick)
-            if self.taste.flashes != "off":
+            if self.options.flashes != "off":
                 x = self.cards.xs[int(one.number) - 1]
-                self.moments.bloom(x, Y, 0.4, race_cards.pulse(one.seat))
+                self.particles.bloom(x, Y, 0.4, race_cards.pulse(one.seat))
         elif one.kind == "void":
-            self.voided[one.seat] = self.moments.clock
+            self.voided[one.seat] = self.particles.clock
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: Race, seat: int, pose: Pose) -> None:
         x, y, heading = pose
@@ -128,7 +130,7 @@ class RaceView(Picture):
     def _sign(self, top: Batch, state: Race, seat: int, pose: Pose) -> bool:
         """Put up a robot's sign, above it or, near the upper edge, below; false: it has none."""
         racer = state.racers[seat]
-        said = bool(racer.missed) and self.moments.clock - self.voided[seat] < VOID_LASTS
+        said = bool(racer.missed) and self.particles.clock - self.voided[seat] < VOID_LASTS
         below = pose[1] - TOP < (260.0 if said else 165.0)
         sprite = self._sign_of(racer, seat, said, below)
         if sprite is None or (racer.finished and not self._placed(state, racer)):
@@ -150,14 +152,14 @@ class RaceView(Picture):
         """A place is shown for a while, and again in the end; in between it would hide who still races."""
         return bool(state.over) or state.tick - racer.finish < PLACE_LASTS
 
-    def _way_back(self, over: Batch, seat: int, pose: Pose, line: Frame) -> None:
+    def _way_back(self, over: Batch, seat: int, pose: Pose, line: LineFrame) -> None:
         """Dashes that march from a robot to the side of a line on which it must be entered."""
         x, y, _ = pose
         entry, stop = (LEFT + line.x - ENTRY * line.c, TOP + line.y - ENTRY * line.s), self._stop(line)
         way = [(x, y), entry, stop]
         if math.dist((x, y), entry) < 120.0 or math.dist((x, y), stop) < 120.0:
             way = [(x, y), stop]
-        gone, at = 0.0, 66.0 + self.moments.clock * MARCH % DASH
+        gone, at = 0.0, 66.0 + self.particles.clock * MARCH % DASH
         for a, b in pairwise(way):
             length = math.dist(a, b)
             turn = math.atan2(b[1] - a[1], b[0] - a[0])
@@ -169,12 +171,12 @@ class RaceView(Picture):
             gone += length
         put(over, race_signs.tip(seat, step(math.atan2(line.s, line.c), HEADINGS)), *stop)
 
-    def _stop(self, line: Frame) -> tuple[float, float]:
+    def _stop(self, line: LineFrame) -> tuple[float, float]:
         return LEFT + line.x - STOP * line.c, TOP + line.y - STOP * line.s
 
     def _trouble(self, screen: pygame.Surface) -> None:
         """Say for a moment that the ghost had to be dropped."""
-        if self.haunt and self.haunt.trouble and self.words and self.moments.clock < TROUBLE_LASTS:
+        if self.haunt and self.haunt.trouble and self.words and self.particles.clock < TROUBLE_LASTS:
             caption(self.words(f"race.ghost_{self.haunt.trouble}"), FOCUS).draw(screen, 960, 1034)
 
 
