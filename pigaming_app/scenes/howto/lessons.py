@@ -9,9 +9,9 @@ import pygame
 
 from pigaming_app.scenes.howto import factory, pitanks, race
 
-Picture = Callable[[pygame.Surface, float, float, float], str | None]
+LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
 
-LESSONS: dict[str, dict[str, Picture]] = {  # by game; the names are those of the texts below the pictures
+LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the names are those of the texts below the pictures
     "pitanks": {
         "drive": pitanks.drive,
         "shoot": pitanks.shoot,

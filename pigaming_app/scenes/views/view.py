@@ -19,21 +19,12 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PRE
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
 from pigaming_app.ui.draw.sprites import Batch, put, step
+from pigaming_app.ui.i18n import Words
 
 REAL_WIDER = 42  # px
 JUMP = 100.0  # px in a tick: a robot that was placed, not driven
 Pose = tuple[float, float, float]  # px and px on the canvas, rad
 Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
-
-
-class Words(Protocol):
-    """The texts of a language."""
-
-    def __call__(self, key: str, **values: object) -> str:
-        """The text of a key."""
-
-    def decimal(self, number: str) -> str:
-        """A number as this language writes it."""
 
 
 class ViewOptions(Protocol):

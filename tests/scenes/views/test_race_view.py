@@ -251,17 +251,17 @@ def test_a_place_is_shown_where_one_finished_for_a_while_and_again_in_the_end(sc
 def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
     scene = BusyRace(4)
     view, state = seen(scene), scene.state
-    assert view.watcher.order == [0, 1, 2, 3]
+    assert view.detector.order == [0, 1, 2, 3]
     for tick in range(3 * SETTLE):  # two side by side
         state.tick += 1
         state.racers[0].rank, state.racers[1].rank = (1, 2) if tick // 5 % 2 else (2, 1)
         view.watch(state)
-    assert view.watcher.order == [0, 1, 2, 3]
+    assert view.detector.order == [0, 1, 2, 3]
     state.racers[0].rank, state.racers[1].rank = 2, 1
     for _ in range(SETTLE + 1):
         state.tick += 1
         view.watch(state)
-    assert view.watcher.order == [1, 0, 2, 3]
+    assert view.detector.order == [1, 0, 2, 3]
     assert view.cards.moves[1][0] == 1
     assert view.cards.moves[0][0] == -1
 
@@ -446,8 +446,8 @@ def test_a_ghost_of_another_engine_is_dropped_with_a_word(screen, tmp_path):
     keep(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
     view = seen(scene)
     view.for_real(tmp_path)
-    assert view.haunt.ghost is None
-    assert view.haunt.trouble == "old"
+    assert view.recorder.ghost is None
+    assert view.recorder.trouble == "old"
     word = pygame.Rect(400, 1040, 1120, 40)
     said = shown(screen, view, scene.state, word)
     assert said != shown(screen, view, scene.state, word, 9.0)
@@ -493,9 +493,9 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
     drive_laps(scene, view, 0, [600, 500, 550])
     scene.state.tick += 1
     view.watch(scene.state)
-    view.haunt.writing.join()
+    view.recorder.writing.join()
     kept, _ = call(tmp_path, scene.arena)
-    assert kept == view.haunt.ghost
+    assert kept == view.recorder.ghost
     assert kept.seconds == 10.0
     assert kept.line == 0
     assert kept.crossed == (0.0, 2.5, 5.0, 7.5)
@@ -510,14 +510,14 @@ def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_pat
     view.for_real(tmp_path)
     drive_laps(scene, view, 0, [600, 500])
     view.watch(scene.state)
-    assert view.haunt.ghost is None
+    assert view.recorder.ghost is None
 
     players[1] = "normal"  # the shell's list: somebody's pad was lost
     view.players[1] = "normal"
     drive_laps(scene, view, 1, [400])
     view.players[1] = "human"
     view.watch(scene.state)
-    assert view.haunt.ghost is None
+    assert view.recorder.ghost is None
     assert not (tmp_path / "ghosts").exists()
 
 
@@ -527,13 +527,13 @@ def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_o
     view = seen(scene, ["hard", "human", "off", "off"])
     view.for_real(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
-    assert view.haunt.pose(state, 1.0) is None  # it waits for the line
+    assert view.recorder.pose(state, 1.0) is None  # it waits for the line
     racer.passed, racer.lap_began, state.tick = 1, 100.0, 150
-    assert view.haunt.pose(state, 1.0) == pytest.approx((400.0, 100.0, 0.0))  # 1 s after line 1
+    assert view.recorder.pose(state, 1.0) == pytest.approx((400.0, 100.0, 0.0))  # 1 s after line 1
     box = (160 + 400 - 40, 140 + 100 - 40, 80, 80)
     with_ghost = shown(screen, view, state, box)
     state.tick = 100 + 501
-    assert view.haunt.pose(state, 1.0) is None
+    assert view.recorder.pose(state, 1.0) is None
     assert shown(screen, view, state, box) != with_ghost
 
 
@@ -547,7 +547,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
     view.watch(state)
     racer.passed, racer.splits[1], state.tick = 2, 90.0, 192  # line 2 follows line 1 after 2 s, 100 ticks
     view.watch(state)
-    assert view.haunt.golden[1] == (pytest.approx(-10.0), 192)
+    assert view.recorder.golden[1] == (pytest.approx(-10.0), 192)
     assert [note.text for note in view.notes.notes] == ["−0.20"]
     assert (signed(-15.5), signed(15.5), signed(0.1)) == ("−0.31", "+0.31", "+0.00")
 
@@ -555,7 +555,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
 def test_without_a_person_there_is_no_ghost_and_no_file(tmp_path):
     scene = BusyRace(2)
     view = seen(scene, ["hard", "easy", "off", "off"])
-    assert view.haunt is None
+    assert view.recorder is None
     for _ in range(50):
         scene.tick()
         view.watch(scene.state)

@@ -1,4 +1,4 @@
-"""What a happening of Robot Factory looks and sounds like."""
+"""What an event of Robot Factory looks and sounds like."""
 
 from collections.abc import Iterable
 
@@ -13,7 +13,7 @@ from pigaming_app.scenes.views.factory.events import (
     SPOILED,
     STARTED,
     THAWED,
-    Event,
+    FactoryEvent,
 )
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
@@ -40,32 +40,32 @@ class CratePops:
 
 
 def react(
-    happenings: Iterable[Event], state: Factory, moments: Particles, popping: CratePops, options: ViewOptions
+    events: Iterable[FactoryEvent], state: Factory, particles: Particles, popping: CratePops, options: ViewOptions
 ) -> list[Heard]:
     """Put what happened into the air; answers what is heard of it."""
     heard: list[Heard] = []
-    for one in happenings:
+    for one in events:
         x, y = LEFT + one.x, TOP + one.y
         if one.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
-            popping.begin(one.what, moments.clock)
+            popping.begin(one.what, particles.clock)
         match one.kind:
             case "delivered":
                 color = TEAMS[state.pallets[one.what].team]
-                moments.burst(x, y, color, 30, 30, 120)
+                particles.burst(x, y, color, 30, 30, 120)
                 if options.flashes != "off":
-                    moments.shock(x, y, color)
+                    particles.shock(x, y, color)
                 if options.flashes == "full":
-                    moments.glow(x, y, color)
+                    particles.glow(x, y, color)
                 if one.player is not None:
-                    moments.score(x, y - 70, "+1", one.player)
+                    particles.score(x, y - 70, "+1", one.player)
             case "spoiled":
-                moments.burst(x, y, ALARM, 24, 26, 100)
+                particles.burst(x, y, ALARM, 24, 26, 100)
                 if options.flashes == "full" and options.shake:
-                    moments.shake()
+                    particles.shake()
             case "machine_done":
-                moments.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)
+                particles.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)
             case "freeze":
-                moments.burst(x, y, ALARM, 16, 50, 70)
+                particles.burst(x, y, ALARM, 16, 50, 70)
             case _:
                 pass
         if one.kind not in (THAWED, STARTED):

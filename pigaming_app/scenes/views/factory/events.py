@@ -8,7 +8,7 @@ LIFTED, SET_DOWN, REFUSED, SPOILED, DELIVERY = "lift", "set_down", "refused", "s
 STARTED, DONE, FROZEN, THAWED, RENEWED = "machine_start", "machine_done", "freeze", "thaw", "arrived"
 
 
-class Event(NamedTuple):
+class FactoryEvent(NamedTuple):
     """One thing that happened at (x, y), px; `player`: who did it, or None; `what`: pallet or machine, -1: neither."""
 
     kind: str
@@ -18,13 +18,13 @@ class Event(NamedTuple):
     what: int = -1
 
 
-class EventDetector:
+class FactoryEventDetector:
     """Remembers one match from tick to tick."""
 
     def __init__(self, state: Factory) -> None:
         self._remember(state)
 
-    def look(self, state: Factory) -> list[Event]:
+    def look(self, state: Factory) -> list[FactoryEvent]:
         """What has happened since the last look."""
         found = [*self._robots(state), *self._pallets(state)]
         self._remember(state)
@@ -34,19 +34,19 @@ class EventDetector:
         self.loads = [(load.pallet, load.refused, load.frozen) for load in state.loads]
         self.pallets = [(one.state, one.place, one.at) for one in state.pallets]
 
-    def _robots(self, state: Factory) -> list[Event]:
+    def _robots(self, state: Factory) -> list[FactoryEvent]:
         found = []
         for k, (load, robot) in enumerate(zip(state.loads, state.robots, strict=True)):
             _, refused, frozen = self.loads[k]
             if load.refused == 1 and refused != 1:
-                found.append(Event(REFUSED, k, robot.x, robot.y))
+                found.append(FactoryEvent(REFUSED, k, robot.x, robot.y))
             if load.frozen > frozen:
-                found.append(Event(FROZEN, k, robot.x, robot.y))
+                found.append(FactoryEvent(FROZEN, k, robot.x, robot.y))
             elif frozen and not load.frozen:
-                found.append(Event(THAWED, k, robot.x, robot.y))
+                found.append(FactoryEvent(THAWED, k, robot.x, robot.y))
         return found
 
-    def _pallets(self, state: Factory) -> list[Event]:
+    def _pallets(self, state: Factory) -> list[FactoryEvent]:
         found = []
         for p, one in enumerate(state.pallets):
             was, place, at = self.pallets[p]
@@ -55,19 +55,19 @@ class EventDetector:
             who = at if place == ON_ROBOT else one.at if one.place == ON_ROBOT else None
             x, y = spot(state, p)
             if one.state == DELIVERED and was != DELIVERED:
-                found.append(Event(DELIVERY, who, x, y, p))
+                found.append(FactoryEvent(DELIVERY, who, x, y, p))
             elif one.state == DAMAGED and was != DAMAGED:
-                found.append(Event(SPOILED, who, x, y, p))
+                found.append(FactoryEvent(SPOILED, who, x, y, p))
             elif was == DAMAGED and one.state != DAMAGED:
-                found.append(Event(RENEWED, None, x, y, p))
+                found.append(FactoryEvent(RENEWED, None, x, y, p))
             elif one.place == ON_ROBOT:
-                found.append(Event(LIFTED, who, x, y, p))
+                found.append(FactoryEvent(LIFTED, who, x, y, p))
             elif one.place == IN_MACHINE:
-                found.append(Event(STARTED, None, x, y, p))
+                found.append(FactoryEvent(STARTED, None, x, y, p))
             elif place == IN_MACHINE:
-                found.append(Event(DONE, None, x, y, p))
+                found.append(FactoryEvent(DONE, None, x, y, p))
             elif one.place == IN_SLOT and place == ON_ROBOT:
-                found.append(Event(SET_DOWN, who, x, y, p))
+                found.append(FactoryEvent(SET_DOWN, who, x, y, p))
         return found
 
 

@@ -24,7 +24,7 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
 from pigaming_app.scenes.views.factory.background import bare
 from pigaming_app.scenes.views.factory.effects import CratePops, react
-from pigaming_app.scenes.views.factory.events import EventDetector, spot
+from pigaming_app.scenes.views.factory.events import FactoryEventDetector, spot
 from pigaming_app.scenes.views.factory.hud import FactoryHud, pulse
 from pigaming_app.scenes.views.factory.hud import X as PANELS
 from pigaming_app.scenes.views.factory.hud import Y as TOP_OF_PANELS
@@ -32,10 +32,11 @@ from pigaming_app.scenes.views.factory.next_step import NextStepGuide
 from pigaming_app.scenes.views.factory.prewarm import jobs
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions, Words
+from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
+from pigaming_app.ui.i18n import Words
 
 SHOWN_REFUSED = 14  # ticks for which a cross says that there is nothing to do
 HANDS = 40.0  # px from a worker to what it carries
@@ -51,7 +52,7 @@ class FactoryView(MatchView):
     ) -> None:
         super().__init__(state, players, options, words, Background(partial(bare, arena.plan)))
         self.hud = FactoryHud(self.background, players)
-        self.watcher = EventDetector(state)
+        self.detector = FactoryEventDetector(state)
         self.guide = NextStepGuide(players)
         self.popping = CratePops()
         self.people = self.people_before = _people(state)
@@ -63,7 +64,7 @@ class FactoryView(MatchView):
         self.follow(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.look(state)
-        return react(self.watcher.look(state), state, self.particles, self.popping, self.options)
+        return react(self.detector.look(state), state, self.particles, self.popping, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""

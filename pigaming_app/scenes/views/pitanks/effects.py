@@ -1,11 +1,11 @@
-"""What a happening of PiTanks looks and sounds like."""
+"""What an event of PiTanks looks and sounds like."""
 
 from collections.abc import Iterable
 
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.particles import Particles
-from pigaming_app.scenes.views.pitanks.events import Event
+from pigaming_app.scenes.views.pitanks.events import PiTanksEvent
 from pigaming_app.scenes.views.view import Heard, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
@@ -27,61 +27,61 @@ SOUNDS = {
 }
 
 
-def react(happenings: Iterable[Event], state: PiTanks, moments: Particles, options: ViewOptions) -> list[Heard]:
+def react(events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions) -> list[Heard]:
     """Put what happened into the air; answers what is heard of it."""
     heard: list[Heard] = []
-    for one in happenings:
-        _show(one, state, moments, options)
+    for one in events:
+        _show(one, state, particles, options)
         if one.kind in SOUNDS:
             heard.append((SOUNDS[one.kind], one.player, one.x))
     return heard
 
 
-def _show(one: Event, state: PiTanks, moments: Particles, options: ViewOptions) -> None:
+def _show(one: PiTanksEvent, state: PiTanks, particles: Particles, options: ViewOptions) -> None:
     x, y, player = LEFT + one.x, TOP + one.y, one.player
     color = ICE if player is None else PLAYERS[player]
     match one.kind:
         case "hit":
-            moments.burst(x, y, color, 30, 46, 120)
-            _blast(x, y, color, moments, options)
-            moments.score(_inside(x) + BESIDE, y - 66, f"−{one.number}", player or 0)
+            particles.burst(x, y, color, 30, 46, 120)
+            _blast(x, y, color, particles, options)
+            particles.score(_inside(x) + BESIDE, y - 66, f"−{one.number}", player or 0)
         case "scored":
-            moments.score(_inside(x) - BESIDE, y - 66, f"+{one.number}", player or 0)
+            particles.score(_inside(x) - BESIDE, y - 66, f"+{one.number}", player or 0)
         case "shielded":
-            moments.burst(x, y, color, 26, 66, 90)
-            moments.burst(x, y, FOCUS, 10, 66, 70)
+            particles.burst(x, y, color, 26, 66, 90)
+            particles.burst(x, y, FOCUS, 10, 66, 70)
             if options.flashes != "off":
-                moments.shock(x, y, color)
+                particles.shock(x, y, color)
         case "stopped" | "bounced":
-            moments.burst(x, y, color, 7 if one.kind == "stopped" else 4, 8, 60, (one.angle, 1.1))
+            particles.burst(x, y, color, 7 if one.kind == "stopped" else 4, 8, 60, (one.angle, 1.1))
         case "cracked" | "crumbled":
-            _break(one, state, moments)
+            _break(one, state, particles)
         case "pickup":
-            moments.burst(x, y, FOCUS, 16, 46, 60)
+            particles.burst(x, y, FOCUS, 16, 46, 60)
         case "mine_blown":
-            moments.burst(x, y, ALARM, 24, 16, 130)
-            _blast(x, y, color, moments, options)
+            particles.burst(x, y, ALARM, 24, 16, 130)
+            _blast(x, y, color, particles, options)
 
 
-def _blast(x: float, y: float, color: tuple[int, int, int], moments: Particles, options: ViewOptions) -> None:
+def _blast(x: float, y: float, color: tuple[int, int, int], particles: Particles, options: ViewOptions) -> None:
     if options.flashes != "off":
-        moments.shock(x, y, color)
+        particles.shock(x, y, color)
     if options.flashes == "full":
-        moments.glow(x, y, color)
+        particles.glow(x, y, color)
         if options.shake:
-            moments.shake()
+            particles.shake()
 
 
-def _break(one: Event, state: PiTanks, moments: Particles) -> None:
+def _break(one: PiTanksEvent, state: PiTanks, particles: Particles) -> None:
     """Splinters of a wall: a few where a cell goes out, many where it falls."""
     wall = state.walls[one.number]
     ends = LEFT + wall.ax, TOP + wall.ay, LEFT + wall.bx, TOP + wall.by
-    moments.debris(*ends, 5 if one.kind == "cracked" else 26)
+    particles.debris(*ends, 5 if one.kind == "cracked" else 26)
     if one.kind == "crumbled":
         for i in range(5):
             t = (i + 0.5) / 5
             x, y = ends[0] + (ends[2] - ends[0]) * t, ends[1] + (ends[3] - ends[1]) * t
-            moments.burst(x, y, WALL, 5, 10, 70)
+            particles.burst(x, y, WALL, 5, 10, 70)
 
 
 def _inside(x: float) -> float:

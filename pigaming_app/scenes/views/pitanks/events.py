@@ -12,7 +12,7 @@ from pigaming_app.sim.robot import RADIUS
 NEAR = RADIUS + 20.0  # px between a robot and a bullet that it stopped
 
 
-class Event(NamedTuple):
+class PiTanksEvent(NamedTuple):
     """One thing that happened at (x, y), px; `angle`: which way it points, rad.
 
     kind        player   number
@@ -46,13 +46,13 @@ class _Shot(NamedTuple):
     vy: float
 
 
-class EventDetector:
+class PiTanksEventDetector:
     """Remembers one match from tick to tick."""
 
     def __init__(self, state: PiTanks) -> None:
         self._remember(state)
 
-    def look(self, state: PiTanks) -> list[Event]:
+    def look(self, state: PiTanks) -> list[PiTanksEvent]:
         """What has happened since the last look."""
         found = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
         self._remember(state)
@@ -65,38 +65,38 @@ class EventDetector:
         self.mines = [(mine.alive, mine.x, mine.y) for mine in state.mines]
         self.places = [(robot.x, robot.y) for robot in state.robots]
 
-    def _tanks(self, state: PiTanks) -> list[Event]:
+    def _tanks(self, state: PiTanks) -> list[PiTanksEvent]:
         found = []
         for k, (tank, robot) in enumerate(zip(state.tanks, state.robots, strict=True)):
             shots, hits, taken, powers = self.tanks[k]
             x, y = robot.x, robot.y
             if tank.shots > shots:
-                found.append(Event("fire", k, x, y, robot.heading))
+                found.append(PiTanksEvent("fire", k, x, y, robot.heading))
             if tank.hits > hits:
-                found.append(Event("scored", k, x, y, 0.0, tank.hits - hits))
+                found.append(PiTanksEvent("scored", k, x, y, 0.0, tank.hits - hits))
             if tank.taken > taken:
-                found.append(Event("hit", k, x, y, 0.0, tank.taken - taken))
+                found.append(PiTanksEvent("hit", k, x, y, 0.0, tank.taken - taken))
             for power in range(len(POWERS)):
                 before, now = powers[power], tank.powers[power]
                 if now > before:
-                    found.append(Event("pickup", k, x, y, 0.0, power))
+                    found.append(PiTanksEvent("pickup", k, x, y, 0.0, power))
                 elif power == SHIELD and before > 1 and not now:
-                    found.append(Event("shielded", k, x, y))
+                    found.append(PiTanksEvent("shielded", k, x, y))
                 elif before == 1 and not now:
-                    found.append(Event("power_end", k, x, y, 0.0, power))
+                    found.append(PiTanksEvent("power_end", k, x, y, 0.0, power))
         return found
 
-    def _bullets(self, state: PiTanks) -> list[Event]:
+    def _bullets(self, state: PiTanks) -> list[PiTanksEvent]:
         found = []
         for i, bullet in enumerate(state.bullets):
             before, owner = self.shots[i], i // OWN_BULLETS
             if bullet.alive and before.alive and (bullet.vx != before.vx or bullet.vy != before.vy):
-                found.append(Event("bounced", owner, bullet.x, bullet.y, math.atan2(bullet.vy, bullet.vx)))
+                found.append(PiTanksEvent("bounced", owner, bullet.x, bullet.y, math.atan2(bullet.vy, bullet.vx)))
             elif not bullet.alive and (before.alive or (bullet.x, bullet.y) != (before.x, before.y)):
                 victim = self._stopped_by(state, bullet, owner)
                 if victim is None or state.tanks[victim].taken == self.tanks[victim][2]:
                     angle = math.atan2(-bullet.vy, -bullet.vx)
-                    found.append(Event("stopped", owner, bullet.x, bullet.y, angle))
+                    found.append(PiTanksEvent("stopped", owner, bullet.x, bullet.y, angle))
         return found
 
     def _stopped_by(self, state: PiTanks, bullet: Bullet, owner: int) -> int | None:
@@ -111,7 +111,7 @@ class EventDetector:
                 return k
         return None
 
-    def _walls(self, state: PiTanks) -> list[Event]:
+    def _walls(self, state: PiTanks) -> list[PiTanksEvent]:
         found = []
         for i in range(state.wall_count):
             wall = state.walls[i]
@@ -121,17 +121,17 @@ class EventDetector:
                     (wall.ay + wall.by) / 2,
                     math.atan2(wall.by - wall.ay, wall.bx - wall.ax),
                 )
-                found.append(Event("cracked" if wall.health else "crumbled", None, x, y, angle, i))
+                found.append(PiTanksEvent("cracked" if wall.health else "crumbled", None, x, y, angle, i))
         return found
 
-    def _mines(self, state: PiTanks) -> list[Event]:
+    def _mines(self, state: PiTanks) -> list[PiTanksEvent]:
         found = []
         for i, mine in enumerate(state.mines):
             alive, _, _ = self.mines[i]
             if mine.alive > alive:
-                found.append(Event("mine_laid", i // OWN_MINES, mine.x, mine.y))
+                found.append(PiTanksEvent("mine_laid", i // OWN_MINES, mine.x, mine.y))
             elif alive > 1 and not mine.alive:
-                found.append(Event("mine_blown", i // OWN_MINES, mine.x, mine.y))
+                found.append(PiTanksEvent("mine_blown", i // OWN_MINES, mine.x, mine.y))
         return found
 
 

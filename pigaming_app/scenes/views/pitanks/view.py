@@ -9,17 +9,18 @@ from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud_parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.pitanks.background import WalledBackground
 from pigaming_app.scenes.views.pitanks.effects import react
-from pigaming_app.scenes.views.pitanks.events import EventDetector
+from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions, Words
+from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
+from pigaming_app.ui.i18n import Words
 
 FLASH = 0.06  # seconds
 ENDING = 2 * HZ  # ticks before its end at which a shield begins to blink
@@ -36,7 +37,7 @@ class PiTanksView(MatchView):
         self.walls = WalledBackground(state, tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats))
         super().__init__(state, players, options, words, self.walls)
         self.hud = PiTanksHud(self.background, state, players)
-        self.watcher = EventDetector(state)
+        self.detector = PiTanksEventDetector(state)
         self.flashed = [-1.0] * len(state.robots)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
@@ -49,15 +50,15 @@ class PiTanksView(MatchView):
         """See what the last tick did; answers what is to be heard: (sound, player or None, x in arena px)."""
         self.follow(state)
         for i, bullet in enumerate(state.bullets):
-            was = self.watcher.shots[i]
+            was = self.detector.shots[i]
             fresh = not was.alive
             self.shots[i] = (bullet.x - bullet.vx * DT, bullet.y - bullet.vy * DT) if fresh else (was.x, was.y)
             self.flying[i] = bullet.alive
-        happenings = self.watcher.look(state)
-        for one in happenings:
+        events = self.detector.look(state)
+        for one in events:
             if one.kind == "fire" and one.player is not None:
                 self.flashed[one.player] = self.particles.clock
-        return react(happenings, state, self.particles, self.options)
+        return react(events, state, self.particles, self.options)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""

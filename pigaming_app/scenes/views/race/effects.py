@@ -1,4 +1,4 @@
-"""What a happening of a race looks and sounds like, and the words and times that rise over robots."""
+"""What an event of a race looks and sounds like, and the words and times that rise over robots."""
 
 import math
 from collections.abc import Sequence
@@ -8,15 +8,16 @@ from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.particles import MOST, Particle, Particles
 from pigaming_app.scenes.views.race import sprites as race_signs
-from pigaming_app.scenes.views.race.events import Event
+from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
-from pigaming_app.scenes.views.view import Heard, Pose, ViewOptions, Words, decimal
+from pigaming_app.scenes.views.view import Heard, Pose, ViewOptions, decimal
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
 from pigaming_app.ui.draw.text import glyph, number_width
+from pigaming_app.ui.i18n import Words
 
 SOUNDS = {
     "finish": "finish",
@@ -85,10 +86,10 @@ def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
         x += advance
 
 
-def heard(happenings: Sequence[Event], state: Race) -> list[Heard]:
+def heard(events: Sequence[RaceEvent], state: Race) -> list[Heard]:
     """What is heard: of every robot only what matters most."""
     loudest: dict[int, str] = {}
-    for one in happenings:
+    for one in events:
         if one.kind in SOUNDS:
             loudest[one.seat] = min(loudest.get(one.seat, one.kind), one.kind, key=BY_WEIGHT.index)
     return [(SOUNDS[kind], seat, state.robots[seat].x) for seat, kind in loudest.items()]
@@ -97,16 +98,16 @@ def heard(happenings: Sequence[Event], state: Race) -> list[Heard]:
 class RaceEffects:
     """Puts what happened into the air."""
 
-    def __init__(self, moments: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
-        self.particles, self.notes, self.options, self.words = moments, notes, options, words
+    def __init__(self, particles: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
+        self.particles, self.notes, self.options, self.words = particles, notes, options, words
 
-    def show(self, one: Event, state: Race, golden: Delta | None) -> None:
-        """Show one happening; `golden`: what the racer is away from the best lap ever."""
-        moments, robot, racer = self.particles, state.robots[one.seat], state.racers[one.seat]
+    def show(self, one: RaceEvent, state: Race, golden: Delta | None) -> None:
+        """Show one event; `golden`: what the racer is away from the best lap ever."""
+        particles, robot, racer = self.particles, state.robots[one.seat], state.racers[one.seat]
         x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[one.seat]
         match one.kind:
             case "line":
-                moments.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
+                particles.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
                 if int(one.number) != one.seat:
                     self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
             case "lap" if not racer.finished:
@@ -114,27 +115,27 @@ class RaceEffects:
             case "best":
                 if not racer.finished:
                     self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), FOCUS)
-                moments.burst(x, y, FOCUS, 16, 44, 80)
+                particles.burst(x, y, FOCUS, 16, 44, 80)
             case "last_lap" if self.words:
                 self._say(one.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
             case "missed" | "void":
-                moments.burst(x, y, ALARM, 12, 44, 60)
+                particles.burst(x, y, ALARM, 12, 44, 60)
             case "mud":
-                spray(moments, x, y, 0.0, 9, 3.2)
+                spray(particles, x, y, 0.0, 9, 3.2)
             case "finish":
                 self.celebrate(x, y, color)
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
         """A chequered cloud."""
-        moments = self.particles
+        particles = self.particles
         for tone in (color, WHITE):
-            for _ in range(min(22, MOST - len(moments.particles))):
-                _fly(moments, x, y, 210.0, race_signs.confetti(tone, moments.random.randrange(4)), 1.3)
-        moments.burst(x, y, FOCUS, 14, 46, 130)
+            for _ in range(min(22, MOST - len(particles.particles))):
+                _fly(particles, x, y, 210.0, race_signs.confetti(tone, particles.random.randrange(4)), 1.3)
+        particles.burst(x, y, FOCUS, 14, 46, 130)
         if self.options.flashes != "off":
-            moments.shock(x, y, color)
+            particles.shock(x, y, color)
         if self.options.flashes == "full":
-            moments.glow(x, y, color)
+            particles.glow(x, y, color)
 
     def record(self, x: float, y: float) -> None:
         """The best lap ever on this track."""
@@ -152,15 +153,15 @@ class RaceEffects:
         self.notes.say(self.particles.clock, seat, text, color, sprite)
 
 
-def spray(moments: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
+def spray(particles: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
     """Clods that fly up behind wheels."""
-    for _ in range(min(count, MOST - len(moments.particles))):
-        frames = race_signs.clods(moments.random.choice(race_signs.CLODS))
-        _fly(moments, x, y, 70.0, frames, 0.6, heading, spread)
+    for _ in range(min(count, MOST - len(particles.particles))):
+        frames = race_signs.clods(particles.random.choice(race_signs.CLODS))
+        _fly(particles, x, y, 70.0, frames, 0.6, heading, spread)
 
 
 def _fly(
-    moments: Particles,
+    particles: Particles,
     x: float,
     y: float,
     reach: float,
@@ -169,7 +170,7 @@ def _fly(
     heading: float = 0.0,
     spread: float = 3.2,
 ) -> None:
-    a = heading + moments.random.uniform(-spread, spread)
-    c, s, far = math.cos(a), math.sin(a), reach * moments.random.uniform(0.3, 1.0)
-    life *= moments.random.uniform(0.6, 1.0)
-    moments.particles.append(Particle(moments.clock, life, x + 34 * c, y + 34 * s, far * c, far * s, frames))
+    a = heading + particles.random.uniform(-spread, spread)
+    c, s, far = math.cos(a), math.sin(a), reach * particles.random.uniform(0.3, 1.0)
+    life *= particles.random.uniform(0.6, 1.0)
+    particles.particles.append(Particle(particles.clock, life, x + 34 * c, y + 34 * s, far * c, far * s, frames))

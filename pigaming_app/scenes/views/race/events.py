@@ -9,7 +9,7 @@ SETTLE = 12  # ticks for which an order holds before it is believed: two side by
 SHOWN_FROM = 25  # ticks of driving the wrong way after which it is said
 
 
-class Event(NamedTuple):
+class RaceEvent(NamedTuple):
     """One thing that happened to the robot of a seat.
 
     kind       number
@@ -30,7 +30,7 @@ class Event(NamedTuple):
     number: float = 0.0
 
 
-class EventDetector:
+class RaceEventDetector:
     """Remembers one race from tick to tick. `order`: the seats as they run, the first leads."""
 
     def __init__(self, state: Race) -> None:
@@ -39,7 +39,7 @@ class EventDetector:
         self.asked, self.since = self.order, state.tick
         self._remember(state)
 
-    def look(self, state: Race) -> list[Event]:
+    def look(self, state: Race) -> list[RaceEvent]:
         """What has happened since the last look."""
         found = [one for seat in self.seats for one in self._racer(state, seat)]
         found += self._order(state)
@@ -52,26 +52,26 @@ class EventDetector:
             for one in state.racers
         ]
 
-    def _racer(self, state: Race, seat: int) -> list[Event]:
+    def _racer(self, state: Race, seat: int) -> list[RaceEvent]:
         passed, missed, void, wrong, on, finished, best = self.racers[seat]
         racer = state.racers[seat]
         found = []
         if racer.passed > passed:
-            found.append(Event("line", seat, (seat + racer.passed - 1) % LINES))
+            found.append(RaceEvent("line", seat, (seat + racer.passed - 1) % LINES))
             found += self._lap(state, seat, best)
         if racer.void > void:
-            found.append(Event("void", seat, racer.missed - 1))
+            found.append(RaceEvent("void", seat, racer.missed - 1))
         elif racer.missed and racer.missed != missed:
-            found.append(Event("missed", seat, racer.missed - 1))
+            found.append(RaceEvent("missed", seat, racer.missed - 1))
         if racer.wrong > SHOWN_FROM and not wrong and not racer.finished:
-            found.append(Event("wrong", seat))
+            found.append(RaceEvent("wrong", seat))
         if on and not racer.place.on and not racer.finished:
-            found.append(Event("mud", seat))
+            found.append(RaceEvent("mud", seat))
         if racer.finished and not finished:
-            found.append(Event("finish", seat, racer.rank))
+            found.append(RaceEvent("finish", seat, racer.rank))
         return found
 
-    def _lap(self, state: Race, seat: int, best: float) -> list[Event]:
+    def _lap(self, state: Race, seat: int, best: float) -> list[RaceEvent]:
         """What passing a line meant for the laps, if it was its own."""
         racer, laps = state.racers[seat], state.robots[seat].score
         if racer.passed % LINES != 1:
@@ -79,15 +79,15 @@ class EventDetector:
         found = []
         if racer.passed > 1:
             kind = "best" if racer.best_lap < best else "lap"
-            found.append(Event(kind, seat, racer.last_lap * DT))
+            found.append(RaceEvent(kind, seat, racer.last_lap * DT))
         if laps == state.rules.laps - 1 and laps > 0:
-            found.append(Event("last_lap", seat))
+            found.append(RaceEvent("last_lap", seat))
         return found
 
     def _running(self, state: Race) -> list[int]:
         return sorted(self.seats, key=lambda seat: state.racers[seat].rank)
 
-    def _order(self, state: Race) -> list[Event]:
+    def _order(self, state: Race) -> list[RaceEvent]:
         """Believe another order once it has held for a while, or when somebody has finished."""
         running = self._running(state)
         if running != self.asked:
@@ -98,6 +98,6 @@ class EventDetector:
         before, self.order = self.order, running
         moved = [seat for seat in running if running.index(seat) != before.index(seat)]
         return [
-            Event("up" if running.index(seat) < before.index(seat) else "down", seat, 1 + running.index(seat))
+            RaceEvent("up" if running.index(seat) < before.index(seat) else "down", seat, 1 + running.index(seat))
             for seat in moved
         ]

@@ -9,7 +9,7 @@ from threading import Thread
 
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.race import ghost_files as ghosts
-from pigaming_app.scenes.views.race.events import Event
+from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost_files import Pose
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT
@@ -27,10 +27,10 @@ class GhostRecorder:
         self.golden: dict[int, Delta] = {}
         self.writing: Thread | None = None
 
-    def watch(self, state: Race, happenings: Sequence[Event]) -> list[int]:
+    def watch(self, state: Race, events: Sequence[RaceEvent]) -> list[int]:
         """See a tick: note the laps of people, compare them; answers the seats that have set a new best lap ever."""
         new = []
-        for seat in (one.seat for one in happenings if one.kind == "line" and self._person(one.seat)):
+        for seat in (one.seat for one in events if one.kind == "line" and self._person(one.seat)):
             self._compare(state, seat)
             if state.racers[seat].passed % LINES == 1:
                 if self._best_ever(state, seat):

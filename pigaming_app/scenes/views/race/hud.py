@@ -16,12 +16,13 @@ from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
 from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, RaceCard, W, card_bits
-from pigaming_app.scenes.views.view import Words, decimal
+from pigaming_app.scenes.views.view import decimal
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, GlowCanvas
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import glyph, number_width
+from pigaming_app.ui.i18n import Words
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
 

@@ -7,11 +7,12 @@ from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
 from pigaming_app.scenes.views.sprites import effects
-from pigaming_app.scenes.views.view import Words, decimal
+from pigaming_app.scenes.views.view import decimal
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, THIN, WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.text import glyph
+from pigaming_app.ui.i18n import Words
 
 
 def jobs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:

@@ -13,18 +13,19 @@ from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground
 from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, heard, spray
-from pigaming_app.scenes.views.race.events import SHOWN_FROM, Event, EventDetector
+from pigaming_app.scenes.views.race.events import SHOWN_FROM, RaceEvent, RaceEventDetector
 from pigaming_app.scenes.views.race.ghost import GhostRecorder
 from pigaming_app.scenes.views.race.hud import RaceHud
 from pigaming_app.scenes.views.race.prewarm import jobs, void_words
 from pigaming_app.scenes.views.race.track import LineFrame, frame
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions, Words
+from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.caption import caption
 
 VOID_LASTS = 3.5  # s for which it is said that a lap did not count
@@ -44,10 +45,10 @@ class RaceView(MatchView):
         super().__init__(state, players, options, words, RaceBackground(arena.plan))
         self.arena = arena
         self.cards = RaceHud(self.background, state, players, words)
-        self.watcher = EventDetector(state)
+        self.detector = RaceEventDetector(state)
         self.notes = Announcements()
         self.reactions = RaceEffects(self.particles, self.notes, options, words)
-        self.haunt: GhostRecorder | None = None
+        self.recorder: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
         self.voided = [-VOID_LASTS] * len(state.robots)
@@ -56,16 +57,16 @@ class RaceView(MatchView):
 
     def for_real(self, folder: Path) -> None:
         """People race here: the ghost of the track drives along, and their best laps are kept."""
-        self.haunt = GhostRecorder(folder, self.arena, self.players)
+        self.recorder = GhostRecorder(folder, self.arena, self.players)
 
     def watch(self, state: Race) -> list[Heard]:
         """See what the last tick did; answers what is to be heard."""
         self.follow(state)
         self.cards.follow(state)
-        happenings = self.watcher.look(state)
-        records = self.haunt.watch(state, happenings) if self.haunt else []
-        golden = self.haunt.golden if self.haunt else {}
-        for one in happenings:
+        events = self.detector.look(state)
+        records = self.recorder.watch(state, events) if self.recorder else []
+        golden = self.recorder.golden if self.recorder else {}
+        for one in events:
             fresh = golden.get(one.seat)
             self.reactions.show(one, state, fresh if fresh and fresh[1] == state.tick else None)
             self._note(one, state)
@@ -76,12 +77,12 @@ class RaceView(MatchView):
             if not state.racers[seat].place.on and abs(robot.linear) > SPRAYED:
                 back = robot.heading + (math.pi if robot.linear > 0.0 else 0.0)
                 spray(self.particles, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
-        return heard(happenings, state)
+        return heard(events, state)
 
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:
         """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.particles.advance(seconds)
-        self.cards.show(state, self.watcher.order)
+        self.cards.show(state, self.detector.order)
         under: Batch = []
         over: Batch = []
         light: Batch = []
@@ -101,8 +102,8 @@ class RaceView(MatchView):
 
     # ---- inside
 
-    def _note(self, one: Event, state: Race) -> None:
-        """What cards and signs remember of a happening."""
+    def _note(self, one: RaceEvent, state: Race) -> None:
+        """What cards and signs remember of an event."""
         if one.kind in ("up", "down"):
             self.cards.moved(one.seat, one.kind == "up", state.tick)
             if self.options.flashes != "off":
@@ -122,7 +123,7 @@ class RaceView(MatchView):
             put(light, effects.timer_ring(FOCUS, math.ceil(48 * robot.turbo), self.reach(seat, 52), THIN), x, y)
 
     def _ghost(self, light: Batch, state: Race, blend: float) -> None:
-        pose = self.haunt.pose(state, blend) if self.haunt else None
+        pose = self.recorder.pose(state, blend) if self.recorder else None
         if pose:
             sprite = race_signs.ghost(step(pose[2], race_signs.GHOST_TURNS))
             put(light, sprite, LEFT + pose[0], TOP + pose[1])
@@ -142,7 +143,7 @@ class RaceView(MatchView):
 
     def _sign_of(self, racer: Racer, seat: int, said: bool, below: bool) -> Sprite | None:
         if racer.finished:
-            place = 1 + self.watcher.order.index(seat)
+            place = 1 + self.detector.order.index(seat)
             return race_signs.place(seat, place, self.cards.endings[place - 1], below)
         if racer.missed:
             return race_signs.missed(racer.missed - 1, below, self.void if said else ())
@@ -176,8 +177,8 @@ class RaceView(MatchView):
 
     def _trouble(self, screen: pygame.Surface) -> None:
         """Say for a moment that the ghost had to be dropped."""
-        if self.haunt and self.haunt.trouble and self.words and self.particles.clock < TROUBLE_LASTS:
-            caption(self.words(f"race.ghost_{self.haunt.trouble}"), FOCUS).draw(screen, 960, 1034)
+        if self.recorder and self.recorder.trouble and self.words and self.particles.clock < TROUBLE_LASTS:
+            caption(self.words(f"race.ghost_{self.recorder.trouble}"), FOCUS).draw(screen, 960, 1034)
 
 
 def _between(a: tuple[float, float], b: tuple[float, float], share: float) -> tuple[float, float]:
