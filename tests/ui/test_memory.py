@@ -25,7 +25,7 @@ from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
-from tests.bench.memory import event
+from tests.bench.memory import press
 from tests.scenes.arcade import Arcade
 
 
@@ -95,7 +95,7 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
 
     def over() -> bool:
         used.append(surfaces.bytes)
-        event(rng, 40)
+        press(rng, 40)
         return len(used) > 50
 
     assert run(Options(headless=True, kiosk=True, step=0.1, over=over)) == 0
@@ -115,7 +115,7 @@ class Leaving:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, press: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:
