@@ -1,6 +1,6 @@
 """Where texts stand on a page, measured while it is painted: for tests that nothing touches or is cut off.
 
-`GlowCanvas` notes each line of text and each closed outline of the house shape; a `Screen` notes which of them reach it.
+`GlowCanvas` notes each line of text and each closed cut box; a `Screen` notes which of them reach it.
 """
 
 import functools

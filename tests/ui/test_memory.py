@@ -115,7 +115,7 @@ class Leaving:
     def entered(self) -> None:
         pass
 
-    def on(self, press: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> Turn:
         return None
 
     def update(self, seconds: float) -> Turn:
