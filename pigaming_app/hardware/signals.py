@@ -1,6 +1,6 @@
 """What passes between the parts of the robot loop: frames, fixes, wheels, telemetry. Nothing here knows cv2 or serial.
 
-Camera -> Frame -> markers -> Mark -> ground -> Fix -> tracker -> Sighting -> match -> twist -> safety -> Wheels, link.
+CameraFrame -> DetectedMarker -> GroundPlane -> Fix -> Tracker -> Sighting -> match -> twist -> Safety -> WheelCommand.
 Every time is in seconds of one clock, which is handed in: `time.monotonic` in the arena, simulated time in the tests.
 """
 

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pygame
 import pytest
-from pigaming_app.ui.draw.ink import PLAYERS
 
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
@@ -20,11 +19,11 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import beam, wave
-from pigaming_app.ui.draw import surface_cache
+from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from tests.bench.memory import event
+from tests.bench.memory import press
 from tests.scenes.arcade import Arcade, Floor
 
 
@@ -95,7 +94,7 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
 
     def over() -> bool:
         used.append(surfaces.bytes)
-        event(rng, 40)
+        press(rng, 40)
         return len(used) > 50
 
     assert run(Options(headless=True, kiosk=True, step=0.1, over=over)) == 0

@@ -45,9 +45,15 @@ class Testbed:
     ) -> None:
         self.lighting = Lighting(seed)
         self.session = EmulatedSession(
-            seed, False, lighting=self.lighting, pace=FrameTiming(fps, DELAY, drops=drops), air=air, unrest=UNREST,
-            ground=ground, tracker=TimedTracker,
-        )  # fmt: skip
+            seed,
+            False,
+            lighting=self.lighting,
+            pace=FrameTiming(fps, DELAY, drops=drops),
+            air=air,
+            unrest=UNREST,
+            ground=ground,
+            tracker=TimedTracker,
+        )
         self.rig = self.session.open()
         self.arena, self.ground = self.session.arena, self.session.ground
         assert isinstance(self.rig.tracker, TimedTracker)

@@ -63,9 +63,13 @@ class RobotSession(Protocol):
 
 
 def new_rig(
-    camera: "CameraSource", link: "Link", ground: "GroundPlane", clock: "Clock", drivetrains: "Sequence[Drivetrain]",
+    camera: "CameraSource",
+    link: "Link",
+    ground: "GroundPlane",
+    clock: "Clock",
+    drivetrains: "Sequence[Drivetrain]",
     tracker: "type[Tracker] | None" = None,
-) -> "Rig":  # fmt: skip
+) -> "Rig":
     """A rig whose tracker also measures the drift of the camera. Raises OpenCVMissing."""
     from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig

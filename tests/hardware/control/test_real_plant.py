@@ -51,6 +51,22 @@ def test_real_robots_drive_as_asked_within_their_gains():
     assert plant.world.robots[0].linear == pytest.approx(200.0, rel=0.03)
 
 
+@pytest.mark.parametrize("thinking", [0.0, 0.03])
+def test_a_tick_predicts_all_robots_once_unless_the_game_thinks_for_long(monkeypatch, thinking):
+    mat = Mat()
+    plant, predicted = on_floor(mat), []
+    predict = mat.predict
+    monkeypatch.setattr(mat, "predict", lambda now, ahead: predicted.append(now) or predict(now, ahead))
+    for _ in range(10):
+        predicted.clear()
+        plant.sense()
+        mat.pass_time(thinking)
+        plant.drive(AHEAD, 0.02)
+        assert len(predicted) == (2 if thinking else 1)
+        assert predicted[-1] == mat.now
+        mat.pass_time()
+
+
 def test_a_real_robot_comes_to_rest_before_a_virtual_wall():
     mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
     plant = on_floor(mat, [(800.0, 300.0, 800.0, 600.0)])

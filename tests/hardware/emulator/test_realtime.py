@@ -24,10 +24,10 @@ DRIVER = """
 import sys, time
 from pigaming_app.hardware.radio.serial_line import serial_port
 from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 link = Link(serial_port(sys.argv[1]), time.monotonic).start()
 while True:
-    link.send([Wheels(0.5, 0.4)] * 4)
+    link.send([WheelCommand(0.5, 0.4)] * 4)
     time.sleep(0.02)
 """
 ROOT = Path(__file__).resolve().parents[3]

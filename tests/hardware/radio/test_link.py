@@ -239,16 +239,16 @@ import sys, time
 from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
 from pigaming_app.hardware.radio.serial_line import serial_port
 from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.signals import Wheels
+from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.robot_packets import drive_from, report_packet
 from tests.hardware.sentences import sentence
 from tests.hardware import robot_packets
 
 link = Link(serial_port(sys.argv[1]), time.monotonic, Air(Mode.TRANSPARENT)).start()
 while link._dialect.broadcasts < 3:
-    link.send([Wheels(1.0, 1.0)])
+    link.send([WheelCommand(1.0, 1.0)])
     time.sleep(0.001)
-link.send([Wheels(1.0, 1.0)])
+link.send([WheelCommand(1.0, 1.0)])
 {end}
 """
     far, near = os.openpty()

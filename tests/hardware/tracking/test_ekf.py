@@ -58,6 +58,13 @@ def test_a_wheel_told_less_than_its_stiction_stands():
     assert (robot.x, robot.heading) == (0.0, 0.0)
 
 
+def test_one_prediction_of_two_times_is_that_of_each():
+    robot = follower()
+    drive(robot, (200.0, 1.5), 0.0, 0.3)
+    assert robot.along((0.1, 0.2, 0.31)) == [pytest.approx(robot.at(time), abs=0.01) for time in (0.1, 0.2, 0.31)]
+    assert robot.along((0.2, 0.2))[1] == robot.at(0.2)
+
+
 def test_a_robot_that_was_never_seen_is_nowhere():
     assert PoseFilter(NOMINAL, MM).at(5.0).age == NEVER
 

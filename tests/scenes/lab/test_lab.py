@@ -148,7 +148,7 @@ def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
     arcade.shown(Challenge)
 
 
-@pytest.mark.parametrize(("act", "end"), [(Button.RIGHT, 10.0), (Button.LEFT, -10.0)])
+@pytest.mark.parametrize(("button", "end"), [(Button.RIGHT, 10.0), (Button.LEFT, -10.0)])
 def test_a_knob_stops_at_its_ends(arcade: Arcade, button: Button, end: float) -> None:
     lab(arcade).focus.go("miss")
     arcade.press(Button.FIRE)

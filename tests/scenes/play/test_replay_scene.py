@@ -45,7 +45,7 @@ def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) 
 
 
 @pytest.mark.parametrize(
-    "act", [Button.FIRE, Button.START, Button.LEFT, Button.BACK, Button.POINT, Button.CLICK, Button.FOUND]
+    "button", [Button.FIRE, Button.START, Button.LEFT, Button.BACK, Button.POINT, Button.CLICK, Button.FOUND]
 )
 def test_any_input_ends_it(arcade: Arcade, button: Button) -> None:
     arcade.open(Attract(arcade.context))

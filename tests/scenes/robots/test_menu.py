@@ -69,7 +69,7 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     arcade.press(Button.FIRE)
     assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("app.unsaved")
 
-    def none() -> bytes:
+    def none(**_: object) -> bytes:
         raise OpenCVMissing(OperatorMessage("no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)

@@ -81,7 +81,7 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
 
     code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
     assert code == int(alone)
-    mat = contexts[0].mat
+    mat = contexts[0].session
     assert isinstance(mat, EmulatedSession)
     mat.arena.advance(0.1)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)

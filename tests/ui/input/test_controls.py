@@ -66,7 +66,7 @@ def test_a_pad_that_was_there_at_the_start_is_known_and_not_found_again(pads: Ex
 
 
 @pytest.mark.parametrize(
-    ("button", "act"),
+    ("button", "meaning"),
     [
         ("a", Button.FIRE),
         ("b", Button.BACK),

@@ -5,7 +5,7 @@ import subprocess
 import pytest
 
 from pigaming_app.cli import main
-from pigaming_app.jobs import checks
+from pigaming_app.jobs import test as checks
 
 EVERYTHING = {"pytest", "ruff", "mypy"}
 
