@@ -42,12 +42,12 @@ def test_numbers_have_the_decimal_sign_of_the_language() -> None:
 
 
 FORMATTERS = {
-    "told": "feats",
-    "clock": "feats",
-    "figure": "race_gaps",
-    "signed": "race_hud",
-    "cell": "results_page",
-    "numbers": "limits",
+    "format_score": "high_score_tables",
+    "clock": "high_score_tables",
+    "figure": "race.gaps",
+    "signed": "race.hud",
+    "cell": "results.view",
+    "rule_numbers": "flow.match_words",
 }
 
 
@@ -71,7 +71,7 @@ def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False
     """The lines on which a number with decimals is written without regard to the language."""
     for node in ast.iter_child_nodes(module):
         name = getattr(node, "name", "")
-        if name in ("Gauge", "projection") or isinstance(node, ast.Raise):
+        if name in ("FrameMeter", "projection") or isinstance(node, ast.Raise):
             continue  # F3, what a calibration is valid for, and reasons in the log: not for players
         if isinstance(node, ast.FormattedValue) and not localised and decimals(node):
             yield node.lineno

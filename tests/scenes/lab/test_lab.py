@@ -337,7 +337,7 @@ def test_words_stay_in_their_places(language: str, controls: Controls, home: Pat
         arcade.wait(0.1)
         assert places(there.prompts.said, ROOM)[-1][1] <= SAFE.right
     for name in KNOB_NAMES:
-        lines = page.balanced(words(f"lab.{name}"))
+        lines = page.wrap_balanced(words(f"lab.{name}"), 2)
         assert len(lines) <= 2
         assert all(text_width(line, BODY, "body") <= 206 for line in lines)
     left, right = page.bar_ends(words)

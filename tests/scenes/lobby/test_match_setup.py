@@ -9,6 +9,7 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow import match_choice
 from pigaming_app.scenes.flow.match_choice import playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, rows
@@ -114,13 +115,13 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
     (folder / "classic.toml").write_text((ASSETS / "arenas" / "pitanks" / "classic.toml").read_text())
     (folder / "broken.toml").write_text("title = 3")
     monkeypatch.setattr("pigaming_app.games.arenas.ASSETS", tmp_path)
-    setup.playable.cache_clear()
-    setup.load_kept.cache_clear()
+    match_choice.playable_arenas.cache_clear()
+    match_choice.load_cached.cache_clear()
     try:
         assert playable_arenas("pitanks") == ("classic",)
     finally:
-        setup.playable.cache_clear()
-        setup.load_kept.cache_clear()
+        match_choice.playable_arenas.cache_clear()
+        match_choice.load_cached.cache_clear()
 
 
 @pytest.mark.parametrize("game", [game for game in games() if games()[game].goals])
