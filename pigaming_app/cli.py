@@ -9,8 +9,9 @@ from importlib import import_module
 from typing import NoReturn
 
 from pigaming_app import INSTALLED
-from pigaming_app.jobs import console, files
-from pigaming_app.jobs.refusal import Refusal
+from pigaming_app.jobs import files
+from pigaming_app.jobs.terminal import console
+from pigaming_app.jobs.terminal.refusal import Refusal
 
 PROGRAM = "pigaming" if INSTALLED else "main.py"
 JOBS = {  # modules of `jobs`

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.cli import JOBS, main
-from pigaming_app.jobs import refusal
+from pigaming_app.jobs.terminal import refusal
 from pigaming_app.storage.settings import Settings, folders
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -29,8 +29,7 @@ from pigaming_app.hardware.session.store import load as load_calibration
 from pigaming_app.hardware.session.store import load_robots
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, measure
 from pigaming_app.hardware.sysid.evaluate import replay as replay_run
-from pigaming_app.jobs import replay_files
-from pigaming_app.scenes.lab import table_files
+from pigaming_app.scenes.files import load_replay, load_table, save_replay
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, to_toml
@@ -181,7 +180,7 @@ def packed_replay(path):
     match = seated(make_setup("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
     while not match.over:
         match.tick()
-    replay_files.save(match, path)
+    save_replay(match, path)
     line, _, packed = path.read_bytes().partition(b"\n")
     return json.loads(line), packed
 
@@ -199,7 +198,7 @@ def test_replays(tmp_path):
     used = 0
     for one in mutated(head):
         path.write_bytes(forged(one, packed))
-        used += refused_or_used(lambda: replay_files.load(path), ReplayError)
+        used += refused_or_used(lambda: load_replay(path), ReplayError)
     assert used > 20
 
 
@@ -209,14 +208,14 @@ def test_a_forged_replay_plays_to_its_end(tmp_path):
     for _ in range(4):
         noise = zlib.compress(chance.randbytes(len(zlib.decompress(packed))))
         path.write_bytes(forged(head, noise))
-        assert replay.verify(replay_files.load(path)) is False
+        assert replay.verify(load_replay(path)) is False
 
 
 def test_a_bomb_of_ticks_is_refused(tmp_path):
     path = tmp_path / "a.replay"
     head, _ = packed_replay(path)
     path.write_bytes(forged(head, zlib.compress(bytes(100_000_000), 9)))
-    assert not refused_or_used(lambda: replay_files.load(path), ReplayError)
+    assert not refused_or_used(lambda: load_replay(path), ReplayError)
 
 
 def forged_table(head, q, n, check=True):
@@ -234,13 +233,13 @@ def test_tables(tmp_path):
     values = [None, True, -1, HUGE, 2**63, 1e308, float("nan"), "", "\n" * 300, [], {}]
     for one in random.Random(2).sample(list(mutated(head, values)), 60):
         path.write_bytes(forged_table(json.loads(json.dumps(one)), q, n))
-        used += refused_or_used(lambda: table_files.load(path), TableError)
+        used += refused_or_used(lambda: load_table(path), TableError)
     assert 1 < used < 30
     for wrong in (q * np.nan, q[:5], q.astype("<f4"), q.reshape(2, -1), q.astype(object)):
         packed = BytesIO()
         np.savez_compressed(packed, head=np.array(json.dumps(head)), q=wrong, n=n)
         path.write_bytes(packed.getvalue())
-        assert not refused_or_used(lambda: table_files.load(path), TableError)
+        assert not refused_or_used(lambda: load_table(path), TableError)
 
 
 NPY = (
@@ -261,7 +260,7 @@ def test_a_table_with_a_hostile_header_is_refused(tmp_path, header):
     with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
         for part in ("head", "q", "n"):
             archive.writestr(f"{part}.npy", array)
-    assert not refused_or_used(lambda: table_files.load(tmp_path / "a.npz"), TableError)
+    assert not refused_or_used(lambda: load_table(tmp_path / "a.npz"), TableError)
 
 
 READERS = {
@@ -269,8 +268,8 @@ READERS = {
     "robots.toml": (load_robots, DrivetrainError),
     "calibration.toml": (load_calibration, CalibrationError),
     "run.jsonl": (runs.load, RecordingError),
-    "a.replay": (replay_files.load, ReplayError),
-    "a.npz": (table_files.load, TableError),
+    "a.replay": (load_replay, ReplayError),
+    "a.npz": (load_table, TableError),
 }
 
 

@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from pigaming_app.games.arenas import parse
+from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
@@ -20,7 +21,6 @@ from pigaming_app.games.setup import check_teams
 from pigaming_app.sim.action import STEPS, set_action
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.record import digest
-from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.toml_table import printable, quote
 from pigaming_app.sim.world import HZ, ROBOTS
 

@@ -4,8 +4,8 @@ import argparse
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
-from pigaming_app.jobs.options import display, mat_options, mat_settings, shared, whole
-from pigaming_app.jobs.refusal import refused, require
+from pigaming_app.jobs.terminal.options import display, mat_options, mat_settings, shared, whole
+from pigaming_app.jobs.terminal.refusal import refused, require
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.app import Options

@@ -8,8 +8,8 @@ from pathlib import Path
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.jobs.arcade import show
-from pigaming_app.jobs.options import display, mat_settings, path, real, shared
-from pigaming_app.jobs.refusal import Refusal, refused, require
+from pigaming_app.jobs.terminal.options import display, mat_settings, path, real, shared
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.ui.i18n import in_every_language
 
 

@@ -18,8 +18,8 @@ from pathlib import Path
 from pigaming_app import ASSETS, INSTALLED, ROOT
 from pigaming_app.boot.interpreter import ARCADE, Trouble, both_pygames, lacks, packages
 from pigaming_app.boot.interpreter import requirements as listed
-from pigaming_app.jobs.options import shared
-from pigaming_app.jobs.refusal import remedy
+from pigaming_app.jobs.terminal.options import shared
+from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import folders

@@ -8,8 +8,8 @@ from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments import league
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
-from pigaming_app.jobs.options import AIS, duel_options, game_option, goal
-from pigaming_app.jobs.refusal import refused
+from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
+from pigaming_app.jobs.terminal.refusal import refused
 from pigaming_app.sim.arena import ArenaError
 
 

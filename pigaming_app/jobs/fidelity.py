@@ -12,9 +12,9 @@ from pigaming_app.hardware.recordings import RecordingError
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, unfit
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort
 from pigaming_app.hardware.sysid.plots import PlotsUnavailable
-from pigaming_app.jobs.options import mat_settings, path, shared, whole
-from pigaming_app.jobs.refusal import Refusal, refused, require
 from pigaming_app.jobs.sessions import new_session
+from pigaming_app.jobs.terminal.options import mat_settings, path, shared, whole
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english

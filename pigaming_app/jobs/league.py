@@ -9,8 +9,8 @@ from dataclasses import asdict
 from pigaming_app.ai.experiments import league as leagues
 from pigaming_app.ai.experiments.league import Duel, League, LeagueRow
 from pigaming_app.games.setup import ChoiceError
-from pigaming_app.jobs.options import AIS, duel_options, game_option, goal
-from pigaming_app.jobs.refusal import refused
+from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
+from pigaming_app.jobs.terminal.refusal import refused
 from pigaming_app.sim.arena import ArenaError
 
 WIDTH = 100  # columns

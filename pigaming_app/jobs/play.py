@@ -15,7 +15,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.jobs.arcade import show
-from pigaming_app.jobs.options import (
+from pigaming_app.jobs.terminal.options import (
     DEFAULT_GAME,
     MATCH,
     display,
@@ -27,8 +27,8 @@ from pigaming_app.jobs.options import (
     real,
     shared,
 )
-from pigaming_app.jobs.refusal import Refusal, refused, require
-from pigaming_app.jobs.replay_files import save
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.scenes.files import save_replay
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -193,7 +193,7 @@ def _headless(
             sleep(ahead)
     try:
         if arguments.record:
-            save(match, arguments.record)
+            save_replay(match, arguments.record)
     finally:
         _print(match, arguments.json, perf_counter() - began)
     if photographer and photographer.trouble:
@@ -296,7 +296,7 @@ def _on_screen(
     if made and arguments.headless and not arguments.screenshot:
         _print(made[0].match, arguments.json, made[0].match.seconds)
     if made and arguments.record:
-        save(made[0].match, arguments.record)
+        save_replay(made[0].match, arguments.record)
     if code == 0 and arguments.screenshot and not shot:
         raise Refusal("--screenshot: the match was left before its time, so there is no picture")
     return code if made or not arguments.headless else 2  # no match: the reason has been printed

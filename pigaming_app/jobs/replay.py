@@ -5,9 +5,9 @@ from argparse import ArgumentParser, Namespace
 
 from pigaming_app.games.replay import ReplayError, verify
 from pigaming_app.jobs.arcade import show
-from pigaming_app.jobs.options import path
-from pigaming_app.jobs.refusal import refused
-from pigaming_app.jobs.replay_files import load
+from pigaming_app.jobs.terminal.options import path
+from pigaming_app.jobs.terminal.refusal import refused
+from pigaming_app.scenes.files import load_replay
 
 
 def options(parser: ArgumentParser) -> None:
@@ -18,7 +18,7 @@ def options(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Show or verify the replay; 1: it plays out differently. Raises Refusal."""
     with refused(ReplayError):
-        found = load(arguments.file)
+        found = load_replay(arguments.file)
         if found.other_engine:
             name = arguments.file.name
             print(f"{name}: recorded with another version of the engine; it may play out differently", file=sys.stderr)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
-from pigaming_app.jobs.options import mat_settings, shared
-from pigaming_app.jobs.refusal import Refusal, refused, require, sentence
 from pigaming_app.jobs.sessions import new_session
+from pigaming_app.jobs.terminal.options import mat_settings, shared
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
 from pigaming_app.ui.i18n import english
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from pigaming_app import INSTALLED, ROOT
-from pigaming_app.jobs.refusal import Refusal
+from pigaming_app.jobs.terminal.refusal import Refusal
 
 RUFF: dict[str, tuple[str, ...]] = {
     "ruff check": ("ruff", "check", "--quiet", "."),

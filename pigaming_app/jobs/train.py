@@ -22,9 +22,9 @@ from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError, require_one_of
-from pigaming_app.jobs.options import game_option, path, real, shared, whole
-from pigaming_app.jobs.refusal import Refusal, refused, require
-from pigaming_app.scenes.lab import table_files
+from pigaming_app.jobs.terminal.options import game_option, path, real, shared, whole
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.scenes.files import load_table, save_table
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
@@ -83,7 +83,7 @@ def _train_and_save(arguments: Namespace) -> int:
     with _interrupts() as stopped:
         print("Ctrl-C ends the training after the current match and saves the result", file=sys.stderr)
         seconds = _train(course, arguments, points, stopped)
-        table_files.save(course.trained(arguments.out.stem), arguments.out)
+        save_table(course.trained(arguments.out.stem), arguments.out)
         if arguments.csv:
             write_atomic(arguments.csv, _csv_of(points))
         if arguments.curve:
@@ -144,7 +144,7 @@ def _begin(arguments: Namespace) -> training.Training:
     recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
     if not arguments.resume:
         return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
-    kept = table_files.load(arguments.out)
+    kept = load_table(arguments.out)
     asked = (recipe, arguments.seed, arguments.arena, arguments.minutes)
     words = ("reward (or --set)", "seed", "arena", "minutes")
     there = (kept.recipe, kept.seed, kept.arena, kept.minutes)

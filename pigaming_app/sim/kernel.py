@@ -8,6 +8,7 @@ of all these sources.
 """
 
 import contextlib
+import hashlib
 import os
 import sys
 from collections.abc import Callable
@@ -18,11 +19,12 @@ from typing import Any, TypeVar
 
 import platformdirs
 
-from pigaming_app.sim.source_hash import ENGINE, text_hash
-
 F = TypeVar("F", bound=Callable[..., Any])
 
 _noted: list[Callable[..., Any]] = []
+
+PACKAGE = Path(__file__).resolve().parent.parent
+COMPILED = ("sim", "games", "ai")  # rooms with kernels
 
 
 def kernel(function: F) -> F:
@@ -79,5 +81,15 @@ def _numba() -> Any:
 def _cache_folder() -> Path:
     home = os.environ.get("PIGAMING_HOME")
     root = Path(home) / "cache" if home else Path(platformdirs.user_cache_dir("pigaming"))
-    sources = text_hash((*ENGINE, "ai"))[:16]
-    return root / f"compiled-{sys.version_info[0]}.{sys.version_info[1]}-{sources}"
+    return root / f"compiled-{sys.version_info[0]}.{sys.version_info[1]}-{_source_hash()[:16]}"
+
+
+@cache
+def _source_hash() -> str:
+    """SHA-256 over the paths and texts of all modules with kernels."""
+    sha = hashlib.sha256()
+    for folder in COMPILED:
+        for path in sorted((PACKAGE / folder).rglob("*.py")):
+            sha.update(path.relative_to(PACKAGE).as_posix().encode())
+            sha.update(path.read_bytes().replace(b"\r\n", b"\n"))
+    return sha.hexdigest()

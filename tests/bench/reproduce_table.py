@@ -22,7 +22,7 @@ from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.league import wilson
 from pigaming_app.ai.experiments.training import Training, contest
 from pigaming_app.ai.qlearning.rewards import RECIPES
-from pigaming_app.scenes.lab.table_files import save
+from pigaming_app.scenes.files import save_table
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
@@ -98,7 +98,7 @@ def ship(fast: bool) -> list[Row]:
     found = []
     for reward, seed in NAMED.items():
         course = trained(reward, seed, fast)
-        save(course.trained(f"q{reward}"), ASSETS / "brains" / f"q{reward}.npz")
+        save_table(course.trained(f"q{reward}"), ASSETS / "brains" / f"q{reward}.npz")
         found.append(measured(course, reward, seed))
         tell(f"q{reward}, seed {seed}", found[-1])
     return found

@@ -10,8 +10,7 @@ import subprocess
 import sys
 from threading import Lock
 
-from pigaming_app.sim.kernel import can_compile
-from pigaming_app.sim.source_hash import PACKAGE
+from pigaming_app.sim.kernel import PACKAGE, can_compile
 
 PATIENCE = 10  # how nice the process is to others
 

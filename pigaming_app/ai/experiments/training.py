@@ -17,13 +17,13 @@ from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, RecipeRecord
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.games.batch import initial_states
+from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import can_compile, compiled, compiled_before
 from pigaming_app.sim.record import copy, fields_of, packed, unpack
 from pigaming_app.sim.rng import seeded
-from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.sim.world import HZ
 
 GAME, VARIANT, ARENA, MINUTES = "pitanks", "classic", "classic", 2.0

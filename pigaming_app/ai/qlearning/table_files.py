@@ -20,9 +20,9 @@ from pigaming_app.ai.qlearning.features import STATES
 from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES
 from pigaming_app.sim.record import dtype
-from pigaming_app.sim.source_hash import engine_hash
 
 FORMAT, RULE = "pigaming-table-1", "pitanks classic"
 MOST_BYTES = 4_000_000  # of a file; one of a whole training has about 60,000

@@ -5,8 +5,8 @@ import sys
 from argparse import ArgumentParser, Namespace
 from typing import Any
 
-from pigaming_app.jobs.options import game_option, shared
-from pigaming_app.jobs.refusal import refused, require
+from pigaming_app.jobs.terminal.options import game_option, shared
+from pigaming_app.jobs.terminal.refusal import refused, require
 
 ROBOTS = "robots"
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pigaming_app.ai.experiments.training import Training, resumed
 from pigaming_app.ai.qlearning.table_files import TableError
-from pigaming_app.scenes.lab import table_files
+from pigaming_app.scenes.files import load_table, save_table
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.settings import folders
 
@@ -57,7 +57,7 @@ def proposal() -> str:
 def save_robot(training: Training, name: str) -> None:
     """Save a robot under a name. Raises RobotFileError; what stood there before is intact."""
     try:
-        table_files.save(training.trained(name), file_of(name))
+        save_table(training.trained(name), file_of(name))
     except OSError as trouble:
         log.warning("%s was not saved: %s", file_of(name), trouble)
         full = trouble.errno in (errno.ENOSPC, errno.EDQUOT)
@@ -67,7 +67,7 @@ def save_robot(training: Training, name: str) -> None:
 def load_robot(name: str, fast: bool) -> tuple[Training, bool]:
     """A robot as it was saved, and whether it was trained with another version of the engine. Raises RobotFileError."""
     try:
-        trained = table_files.load(file_of(name))
+        trained = load_table(file_of(name))
         return resumed(trained, fast), trained.other_engine
     except (TableError, ArenaError) as trouble:
         log.warning("%s", trouble)

@@ -137,7 +137,7 @@ def test_a_disk_that_takes_nothing_is_one_sentence_and_the_robot_lives_on(
         raise OSError(number, "no")
 
     arcade.context.words.switch(language)
-    monkeypatch.setattr("pigaming_app.scenes.lab.table_files.save", fail)
+    monkeypatch.setattr("pigaming_app.scenes.lab.saved_robots.save_table", fail)
     experiences = lab(arcade).trainer.training.experiences
     save(arcade, "ROBI")
     here = lab(arcade)

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.ai import seated
 from pigaming_app.games.registry import games
-from pigaming_app.jobs.replay_files import load, save
+from pigaming_app.scenes.files import load_replay, save_replay
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
@@ -59,12 +59,12 @@ def recorded(tmp_path: Path) -> tuple[Path, str]:
     match = seated(setup("hard easy normal off", 0.1))
     while not match.over:
         match.tick()
-    save(match, tmp_path / "match.replay")
+    save_replay(match, tmp_path / "match.replay")
     return tmp_path / "match.replay", digest(match.state)
 
 
 def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.context, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arcade.open(scene)
     taken = arcade.until(lambda: scene.ended)
     assert taken == pytest.approx(6.0, abs=0.1)
@@ -73,7 +73,7 @@ def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Pat
 
 
 def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.context, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arcade.open(scene)
     arcade.wait(1.0, draw=True)
     arcade.press(Button.FIRE)
@@ -100,7 +100,7 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
     arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str, paused: bool
 ) -> None:
     arcade.context.words.switch(language)
-    scene = ReplayScene(arcade.context, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arena = pygame.Rect(160, 136, 1600, 908)
     with measuring(monkeypatch) as screen:
         if paused:
@@ -122,7 +122,7 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
     arcade.context.words.switch(language)
-    scene = ReplayScene(arcade.context, load(OLD / "pitanks.replay"))
+    scene = ReplayScene(arcade.context, load_replay(OLD / "pitanks.replay"))
     arcade.open(scene)
     notice = arcade.context.words("replay.other_engine")
     with measuring(monkeypatch) as screen:
@@ -137,7 +137,7 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
 
 
 def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.context, load(recorded[0]))
+    scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arcade.open(scene)
     assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]
     arcade.press(Button.FIRE)

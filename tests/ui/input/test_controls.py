@@ -79,7 +79,7 @@ def test_a_pad_that_was_there_at_the_start_is_known_and_not_found_again(pads: Ex
 def test_every_press_is_heard_once(controls: Controls, pads: ExitStack, button: str, meaning: Button) -> None:
     pad, device = plug(controls, pads)
     pad.press(button)
-    assert heard(controls) == [(act, device)]
+    assert heard(controls) == [(meaning, device)]
     pad.release(button)
     assert heard(controls) == []
 

@@ -17,10 +17,10 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
+from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES, Rules
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.source_hash import engine_hash
 from pigaming_app.storage.parsing import parse_json, quote
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
 

@@ -10,7 +10,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.jobs.refusal import Refusal
+from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.parsing import quote
 
 MOST_WHOLE = 2**63 - 1

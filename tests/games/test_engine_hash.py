@@ -4,8 +4,9 @@ import shutil
 
 import pytest
 
-from pigaming_app.sim import source_hash
-from pigaming_app.sim.source_hash import PACKAGE, engine_hash, syntax_hash
+from pigaming_app.games import engine_hash as source_hash
+from pigaming_app.games.engine_hash import engine_hash, syntax_hash
+from pigaming_app.sim.kernel import PACKAGE
 
 SOURCE = '''"""About robots."""
 

@@ -1,13 +1,13 @@
-"""Hashes of this package's own sources: of what decides how a match plays out, and of what numba compiles."""
+"""The hash of the engine, which replays, ghosts and trained weights carry: the sources that decide how a match plays out."""
 
 import ast
 import hashlib
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 from typing import Any
 
-PACKAGE = Path(__file__).resolve().parent.parent
+from pigaming_app.sim.kernel import PACKAGE
+
 ENGINE = ("sim", "games")  # these decide how a match plays out, given the actions of the seats
 _SKIPPED = ("ctx", "kind", "type_comment")  # fields of the syntax tree without a meaning of their own
 
@@ -26,17 +26,6 @@ def engine_hash() -> str:
 def syntax_hash(source: bytes) -> str:
     """SHA-256 over the syntax tree of one module."""
     return hashlib.sha256("\n".join(_tokens(ast.parse(source))).encode()).hexdigest()
-
-
-@cache
-def text_hash(folders: tuple[str, ...]) -> str:
-    """SHA-256 over the names and texts of all modules in these folders of the package."""
-    sha = hashlib.sha256()
-    for folder in folders:
-        for path in sorted((PACKAGE / folder).rglob("*.py")):
-            sha.update(path.relative_to(PACKAGE).as_posix().encode())
-            sha.update(path.read_bytes().replace(b"\r\n", b"\n"))
-    return sha.hexdigest()
 
 
 def _tokens(node: Any) -> Iterator[str]:

@@ -1,0 +1,44 @@
+"""Replays and trained tables as files: their formats belong to `games` and `ai`, reading and writing to `storage`."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeVar
+
+from pigaming_app.ai.qlearning import table_files
+from pigaming_app.ai.qlearning.table_files import TableError, Trained
+from pigaming_app.games import replay
+from pigaming_app.games.match import Match
+from pigaming_app.games.replay import Replay, ReplayError
+from pigaming_app.storage.parsing import describe_error, read
+from pigaming_app.storage.safe_files import write_atomic
+
+T = TypeVar("T")
+
+
+def save_replay(match: Match, path: Path) -> None:
+    """Write the replay of a match as far as it has been played, whole or not at all. Raises NotSaved."""
+    write_atomic(path, replay.encode(match))
+
+
+def load_replay(path: Path) -> Replay:
+    """Read and check a replay. Raises ReplayError, which begins with the name of the file."""
+    return _load(path, replay.MOST_BYTES, replay.decode, ReplayError)
+
+
+def save_table(trained: Trained, path: Path) -> None:
+    """Write a trained table, whole or not at all. Raises NotSaved."""
+    write_atomic(path, table_files.encode(trained))
+
+
+def load_table(path: Path) -> Trained:
+    """Read and check a trained table. Raises TableError, which begins with the name of the file."""
+    return _load(path, table_files.MOST_BYTES, table_files.decode, TableError)
+
+
+def _load(path: Path, limit: int, decode: Callable[[bytes, str], T], error: type[ValueError]) -> T:
+    """Read a file of at most `limit` bytes and decode it. Raises `error`."""
+    try:
+        raw = read(path, limit)
+    except OSError as trouble:
+        raise error(f"{path.name}: cannot be read ({describe_error(trouble)})") from None
+    return decode(raw, path.name)
