@@ -1,4 +1,4 @@
-"""The hash of the engine, which replays, ghosts and trained weights carry: the sources that decide how a match plays out."""
+"""The hash of the engine: the sources that decide how a match plays out. Replays, ghosts and trained weights carry it."""
 
 import ast
 import hashlib
