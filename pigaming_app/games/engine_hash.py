@@ -1,4 +1,4 @@
-"""The hash of the engine: the sources that decide how a match plays out. Replays, ghosts and trained weights carry it."""
+"""The hash of the engine: of all sources that decide how a match plays out. Replays, ghosts and tables carry it."""
 
 import ast
 import hashlib

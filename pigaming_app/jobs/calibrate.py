@@ -6,7 +6,6 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import display, mat_settings, path, real, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
@@ -59,7 +58,7 @@ def _prove(arguments: Namespace) -> int:
     from pigaming_app.hardware.vision.markers import opencv
     from pigaming_app.jobs.calibrate_unattended import calibrate
 
-    with refused(OpenCVMissing):
+    with refused(OperatorError):
         opencv()
     result = calibrate(arguments.emulate, arguments.robot)
     if arguments.json:

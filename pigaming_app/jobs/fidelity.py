@@ -8,10 +8,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.recordings import RecordingError
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, unfit
-from pigaming_app.hardware.sysid.evaluate import RecordingTooShort
-from pigaming_app.hardware.sysid.plots import PlotsUnavailable
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, path, shared, whole
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
@@ -115,7 +112,7 @@ def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) 
 def identify(arguments: Namespace) -> dict[str, Any]:
     """Identify and save the drivetrains; compare the simulator with and without them. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.session.store import load_robots, robots_file
-    from pigaming_app.hardware.sysid.evaluate import HORIZONS, measure
+    from pigaming_app.hardware.sysid.evaluate import HORIZONS, RecordingTooShort, measure
     from pigaming_app.sim.drivetrain import DrivetrainError, to_toml
     from pigaming_app.storage.safe_files import write_with_backup
 
@@ -176,14 +173,14 @@ def replay(arguments: Namespace) -> dict[str, Any]:
 
 
 def _load(file: Path) -> Any:
-    from pigaming_app.hardware.recordings import load
+    from pigaming_app.hardware.recordings import RecordingError, load
 
     with refused(RecordingError):
         return load(file)
 
 
 def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
-    from pigaming_app.hardware.sysid.plots import draw
+    from pigaming_app.hardware.sysid.plots import PlotsUnavailable, draw
 
     with refused(PlotsUnavailable):
         return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
