@@ -103,7 +103,9 @@ def refused(ended):
 def test_the_wheel_has_the_package_and_the_assets_and_no_tests(wheel):
     inside = {name for name in names(wheel) if ".dist-info/" not in name}
     package = {name for name in names_below("pigaming_app") if "__pycache__" not in name}
-    assert inside == package | {f"pigaming_app/{name}" for name in names_below("assets")}
+    assets = {name for name in names_below("assets") if "__pycache__" not in name}
+    shipped = {name for name in assets if not name.startswith("assets/pictures/")}  # those are for README
+    assert inside == package | {f"pigaming_app/{name}" for name in shipped}
     for kind in ("fonts", "text", "arenas", "brains", "sounds"):
         assert any(name.startswith(f"pigaming_app/assets/{kind}/") for name in inside)
 
@@ -128,7 +130,7 @@ def test_the_wheel_of_the_sdist_is_that_of_the_tree(sdist, wheel, tmp_path):
 def test_the_wheel_declares_version_extras_and_program(environment):
     (installed,) = metadata.distributions(name="pigaming-app", path=[str(site_packages(environment))])
     assert installed.version == pigaming_app.__version__
-    assert set(installed.metadata.get_all("Provides-Extra")) == {"train", "hardware", "plots", "sounds", "test"}
+    assert set(installed.metadata.get_all("Provides-Extra")) == {"train", "hardware", "plots", "sounds", "pictures", "test"}
     (program,) = installed.entry_points
     assert (program.name, program.value) == ("pigaming", "pigaming_app.cli:main")
 
