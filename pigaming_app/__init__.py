@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-__version__ = "1.4.0"
+__version__ = "1.5.0"
 
 _PACKAGE = Path(__file__).resolve().parent
 ROOT = _PACKAGE.parent  # the working directory in which `python -m pigaming_app.…` finds this package
