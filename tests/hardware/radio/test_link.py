@@ -236,15 +236,12 @@ def test_a_program_that_ends_without_closing_says_stop_five_times(end):
     pytest.importorskip("serial")
     program = f"""
 import sys, time
-from pigaming_app.hardware.radio.xbee_protocol import Air, Mode
+from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 from pigaming_app.hardware.radio.serial_line import serial_port
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.signals import WheelCommand
-from tests.hardware.robot_packets import drive_from, report_packet
-from tests.hardware.sentences import sentence
-from tests.hardware import robot_packets
 
-link = Link(serial_port(sys.argv[1]), time.monotonic, Air(Mode.TRANSPARENT)).start()
+link = Link(serial_port(sys.argv[1]), time.monotonic, XBeeProtocol(XBeeMode.TRANSPARENT)).start()
 while link._dialect.broadcasts < 3:
     link.send([WheelCommand(1.0, 1.0)])
     time.sleep(0.001)
