@@ -52,9 +52,14 @@ def made() -> Iterator[CalibrationResult]:
         yield arcade.pictures(ResultPage).finding
 
 
+def boards(arcade: Operated, made: CalibrationResult) -> BoardsPage:
+    """The page of the boards, from which a calibration begins again."""
+    return BoardsPage(arcade.context, arcade.site, made.number, made.measures)
+
+
 def concluded(arcade: Operated, made: CalibrationResult) -> ResultPage:
     """The page of a calibration that has been made, above the wizard's first."""
-    page = ResultPage(arcade.context, replace(made, site=arcade.site))
+    page = ResultPage(arcade.context, replace(made, site=arcade.site), lambda: boards(arcade, made))
     arcade.open(page)
     return page
 
@@ -191,7 +196,7 @@ def test_nobody_puts_a_robot_on_the_outline(
 ) -> None:
     monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
-    arcade.open(HeightPage(arcade.context, replace(made, site=arcade.site)))
+    arcade.open(HeightPage(arcade.context, replace(made, site=arcade.site), lambda: boards(arcade, made)))
     result = arcade.pictures(ResultPage)
     assert result.finding.trouble.key == "nobody"
 
