@@ -236,7 +236,7 @@ def bounce(match: Any, bullet: Any) -> None:
 
 @kernel
 def hit_robot(match: Any, k: int, victim: int, shot: int) -> None:
-    """Score bullet `shot` of robot k on robot `victim`, unless it is protected, shielded, or hit earlier in the tick."""
+    """Score bullet `shot` of robot k on robot `victim`, unless protected, shielded, or hit earlier in the tick."""
     tank = match.tanks[victim]
     if match.rules.protection:
         if tank.protected:
