@@ -1,6 +1,6 @@
-"""Double-click to play. On a fresh machine this makes .venv, fetches the packages of pyproject.toml, and starts.
+"""Double-click to play. The first start creates .venv and installs the packages of pyproject.toml.
 
-An old Python must be able to parse this file, for the message about its version; the rest is in pigaming_app/boot.
+Old Python versions must be able to parse this file, to report that they are too old; the rest is in pigaming_app/boot.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ NEEDS = (3, 11)
 
 
 def too_old(version: tuple[int, ...]) -> str | None:
-    """The refusal of a Python of this version (major, minor), or None if it is new enough."""
+    """The error message for this Python version (major, minor), or None if it is new enough."""
     if version >= NEEDS:
         return None
     return "PiGaming needs Python {}.{} or newer; this is {}.{}".format(*(NEEDS + version))
 
 
 def main() -> int:
-    """Start with the arguments of the command line; the exit code of the job, or 2 where it cannot start."""
+    """Run the job of the command line. Returns its exit code, or 2 if it cannot start."""
     refusal = too_old(tuple(sys.version_info[:2]))
     if refusal:
         print(refusal, file=sys.stderr)
@@ -27,7 +27,7 @@ def main() -> int:
     folder = os.path.dirname(os.path.abspath(__file__))
     if folder not in sys.path:
         sys.path.insert(0, folder)
-    if "pigaming" not in sys._xoptions:  # which marks the Python that boot has chosen
+    if "pigaming" not in sys._xoptions:  # set by boot for the Python that it has chosen
         from pigaming_app.boot.start import start
 
         code = start(sys.argv[1:])

@@ -1,4 +1,4 @@
-"""`python -m pigaming_app`: the same as `main.py`, in an environment that has everything already."""
+"""`python -m pigaming_app`: the same as `main.py`, without setting up the environment first."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""The command line: finds the job and hands over. A refusal is one line on standard error, with exit code 2."""
+"""Command line: dispatch to the job's module. A Refusal is one line on standard error, with exit code 2."""
 
 import argparse
 import os
@@ -29,19 +29,18 @@ JOBS = {  # modules of `jobs`
     "test": "linter, types and tests",
 }
 LISTING = "\n".join(["jobs:", *(f"  {job:17} {text}" for job, text in JOBS.items())])
-LOGGED = ("robots", "calibrate", "fidelity")  # their refusals go to the arcade's log as well
+LOGGED = ("robots", "calibrate", "fidelity")  # jobs whose refusals are also written to the arcade's log
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that raises Refusal instead of printing a usage text."""
+    """An ArgumentParser that raises Refusal instead of printing the usage and exiting."""
 
     def error(self, message: str) -> NoReturn:
-        """Refuse."""
         raise Refusal(message)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the job of these arguments (left out: those of this process); its exit code."""
+    """Run a job with these arguments, by default those of this process. Returns the exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # standard output belongs to the job
     console.prepare()
@@ -81,7 +80,7 @@ def _run(name: str, words: list[str]) -> int:
         description=textwrap.fill((job.__doc__ or "").partition("\n\n")[0], 80),
         epilog=LISTING if name == "arcade" else None,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,  # boot looks for whole words, and unknown options of `test` are those of pytest
+        allow_abbrev=False,  # boot matches whole words, and `test` passes unknown options to pytest
     )
     job.options(parser)
     arguments, unknown = parser.parse_known_args(words)
@@ -89,6 +88,6 @@ def _run(name: str, words: list[str]) -> int:
         arguments.for_pytest = unknown
     elif unknown:
         raise Refusal(f"unrecognized arguments: {' '.join(unknown)}")
-    if name != "doctor":  # which changes nothing
+    if name != "doctor":  # it changes no files
         files.sweep()
     return int(job.run(arguments))

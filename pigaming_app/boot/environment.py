@@ -1,6 +1,7 @@
-"""The first start: creates the environment and fetches its packages, one process at a time. Standard library only.
+"""Creation of the virtual environment and installation of its packages. Standard library only.
 
-It can be interrupted at any moment and started again. Every failure is one sentence with the remedy.
+A lock admits one process at a time. An interrupted installation resumes at the next start. Every failure is reported
+as a sentence with the remedy.
 """
 
 import errno
@@ -36,7 +37,7 @@ NO_VENV = (
 NO_ROOM = "the disk is full: free about 1 GB and start again."
 OFFLINE = "{names} could not be fetched: connect this machine to the internet, this once, and start again."
 UNKNOWN = "{names} is not to be had: if this machine is online, use a Python from 3.11 to 3.14 (this is {python})."
-CAUSES = (  # the first match in the output of a tool decides
+CAUSES = (  # (pattern in the output of a tool, message); the first match applies
     (r"No space left|Errno 28|not enough space|Disk quota", NO_ROOM),
     (r"ensurepip is not|No module named (ensurepip|venv)", NO_VENV),
     (r"Permission denied|Access is denied|Errno 13|Read-only file system", "no permission to write in {place}."),
@@ -45,26 +46,29 @@ CAUSES = (  # the first match in the output of a tool decides
 )
 
 
-def prepared(needed: set[str], wished: set[str]) -> Path:
-    """An environment with these groups; waits while another process makes one. Raises Trouble."""
+def prepared(needed: set[str], optional: set[str]) -> Path:
+    """An environment with the needed groups, and the optional ones if they can be installed. Raises Trouble.
+
+    Waits while another process is installing.
+    """
     place, lock = _claimed()
     with lock:
         if not works(place):
             make(place)
         if not needed <= ready(place):
             install(place, needed | ready(place))
-        whole = ready(place)
-        if not wished <= whole:
+        complete = ready(place)
+        if not optional <= complete:
             try:
-                install(place, whole | wished)
+                install(place, complete | optional)
             except Trouble as trouble:
-                say(f"{trouble} Going on without {_names(requirements(wished))}.")
-                install(place, whole)
+                say(f"{trouble} Going on without {_names(requirements(optional))}.")
+                install(place, complete)
     return place
 
 
 def _claimed() -> tuple[Path, IO[str]]:
-    """The first writable place, locked until the file is closed or this process ends."""
+    """The first writable place and its lock file, locked until it is closed or this process ends. Raises Trouble."""
     for place in places():
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
@@ -90,7 +94,7 @@ def _wait_for(lock: IO[str]) -> None:
 
 
 def _locked(lock: IO[str]) -> bool:
-    """Take the lock, which the system releases with the process. False: another process has it."""
+    """Take the lock, which the system releases when the process ends. Returns False if another process has it."""
     try:
         if sys.platform == "win32":
             import msvcrt
@@ -101,23 +105,23 @@ def _locked(lock: IO[str]) -> bool:
 
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
-        return error.errno not in (errno.EWOULDBLOCK, errno.EACCES, errno.EDEADLK)  # a disk without locks: go on
+        return error.errno not in (errno.EWOULDBLOCK, errno.EACCES, errno.EDEADLK)  # no locks: proceed
     return True
 
 
 def works(place: Path) -> bool:
-    """Whether there is an environment with a Python that runs, is new enough and finds its pip."""
+    """True if there is an environment with a Python that runs, is new enough and has pip."""
     if not python_of(place).exists():
         return False
-    look = "import os, sys, sysconfig; print(sys.version_info >= (3, 11), os.path.isdir(sysconfig.get_path('purelib')))"
+    code = "import os, sys, sysconfig; print(sys.version_info >= (3, 11), os.path.isdir(sysconfig.get_path('purelib')))"
     python = [str(python_of(place)), "-I"]
-    if _run([*python, "-c", look]) != (0, "True True\n"):
+    if _run([*python, "-c", code]) != (0, "True True\n"):
         return False
     return _run([*python, "-m", "pip", "--version"])[0] == 0 or _run([*python, "-m", "ensurepip"])[0] == 0
 
 
 def make(place: Path) -> None:
-    """Create an empty environment, in place of a broken one. Raises Trouble."""
+    """Create an empty environment, replacing a broken one. Raises Trouble."""
     if not (importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip")):
         raise Trouble(NO_VENV)
     if place.exists():
@@ -130,13 +134,13 @@ def make(place: Path) -> None:
 
 
 def install(place: Path, groups: set[str]) -> None:
-    """Install the missing packages of these groups, and note that the groups are complete. Raises Trouble."""
+    """Install the missing packages of these groups, and record the groups as complete. Raises Trouble."""
     wanted = requirements(groups)
     try:
         (place / "ready").unlink(missing_ok=True)
         installed = packages([site_packages(place)])
-        if fetched := [one for one in wanted if lacks(installed, one)]:
-            say(f"fetching {_names(fetched)} (only once; it may take a minute).")
+        if missing := [requirement for requirement in wanted if lacks(installed, requirement)]:
+            say(f"fetching {_names(missing)} (only once; it may take a minute).")
         code, output = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], names=True)
         if code:
             raise Trouble(_cause(output, place, wanted))
@@ -146,7 +150,7 @@ def install(place: Path, groups: set[str]) -> None:
 
 
 def _write(path: Path, text: str) -> None:
-    """Replace a file in one step. Raises OSError."""
+    """Replace a file atomically. Raises OSError."""
     draft = path.with_name(f"{path.name}.new")
     with open(draft, "w", encoding="utf-8") as file:
         file.write(text)
@@ -156,15 +160,15 @@ def _write(path: Path, text: str) -> None:
 
 
 def _run(command: list[str], names: bool = False) -> tuple[int, str]:
-    """Run a tool to its end; its exit code and output. `names`: print the name of each file that it downloads."""
-    surroundings = {**os.environ, "PIP_USER": "0", "PIP_REQUIRE_VIRTUALENV": "0"}
+    """Run a tool to completion; returns exit code and output. `names`: print each file that it downloads."""
+    variables = {**os.environ, "PIP_USER": "0", "PIP_REQUIRE_VIRTUALENV": "0"}
     try:
         process = subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-            env=surroundings,
+            env=variables,
             encoding="utf-8",
             errors="replace",
         )
@@ -184,14 +188,14 @@ def _run(command: list[str], names: bool = False) -> tuple[int, str]:
 
 
 def _names(wanted: list[str]) -> str:
-    return ", ".join(re.split("[<>]", one)[0] for one in wanted)
+    return ", ".join(re.split("[<>]", requirement)[0] for requirement in wanted)
 
 
 def _cause(output: str, place: Path, wanted: list[str]) -> str:
-    """One sentence for the output of a tool that failed."""
+    """A message, with the remedy if known, for the output of a tool that failed."""
     missing = re.search(r"requirement ([\w.-]+)", output)
-    about = {"place": place, "names": missing[1] if missing else _names(wanted), "python": platform.python_version()}
-    for words, sentence in CAUSES:
-        if re.search(words, output):
-            return sentence.format(**about)
+    names = missing[1] if missing else _names(wanted)
+    for pattern, message in CAUSES:
+        if re.search(pattern, output):
+            return message.format(place=place, names=names, python=platform.python_version())
     return (output.strip() or "the installation failed.").splitlines()[-1]

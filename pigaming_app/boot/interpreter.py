@@ -1,6 +1,6 @@
-"""Pythons, environments and their packages: what is installed where, and whether it is complete. Standard library only.
+"""Inspection of interpreters, environments and installed packages. Standard library only.
 
-The file `ready` in an environment lists the groups of packages that are complete, and the Python below.
+The file `ready` in an environment lists the groups of packages that are complete, and a fingerprint of its base Python.
 """
 
 import os
@@ -12,16 +12,16 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROJECT = ROOT / "pyproject.toml"
-ARCADE = "arcade"  # the group of packages that every job needs; the other groups are the extras of pyproject.toml
+ARCADE = "arcade"  # group of packages that every job needs; the other groups are the extras of pyproject.toml
 WINDOWS = sys.platform == "win32"
 
 
 class Trouble(Exception):
-    """The program cannot start. The text is one sentence, with the remedy."""
+    """The program cannot start. The text is a sentence with the remedy."""
 
 
 def say(text: str) -> None:
-    """One plain line on standard error; standard output belongs to the job."""
+    """Print a line on standard error; standard output is reserved for the job."""
     print(f"PiGaming: {text}", file=sys.stderr, flush=True)
 
 
@@ -32,23 +32,23 @@ def requirements(groups: Iterable[str]) -> list[str]:
     try:
         project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
         listed = {**project["optional-dependencies"], ARCADE: project["dependencies"]}
-        return [one for group in sorted(groups) for one in listed[group]]
+        return [requirement for group in sorted(groups) for requirement in listed[group]]
     except (OSError, ValueError, KeyError) as error:
         raise Trouble(f"{PROJECT} cannot be read ({error}): get the whole folder again.") from error
 
 
 def packages(folders: Iterable[Path]) -> dict[str, str]:
-    """Name and version of every package installed in the folders. A tenth of the time of importlib.metadata."""
-    found: dict[str, str] = {}
+    """Versions by name of the packages installed in the folders. Ten times faster than importlib.metadata."""
+    versions: dict[str, str] = {}
     for folder in folders:
         for entry in os.listdir(folder) if folder.is_dir() else []:
             if match := re.fullmatch(r"(.+?)-(\d[^-]*)(?:-py[\d.]+)?\.(?:dist|egg)-info", entry):
-                found.setdefault(re.sub(r"[-_.]+", "-", match[1]).lower(), match[2])
-    return found
+                versions.setdefault(re.sub(r"[-_.]+", "-", match[1]).lower(), match[2])
+    return versions
 
 
 def lacks(installed: dict[str, str], requirement: str) -> bool:
-    """Whether nothing there satisfies the requirement, of the form `name>=1.2,<3`."""
+    """True if no installed package satisfies the requirement, of the form `name>=1.2,<3`."""
     name, *bounds = re.split(r"(?=[<>])|,", requirement)
     if name not in installed:
         return True
@@ -59,18 +59,18 @@ def lacks(installed: dict[str, str], requirement: str) -> bool:
 
 
 def _numbers(text: str) -> list[int]:
-    """The leading numbers of a version or a bound: 2.5.8.dev1 is [2, 5, 8]."""
+    """The leading numbers of a version or a bound: [2, 5, 8] of 2.5.8.dev1."""
     match = re.search(r"\d+(\.\d+)*", text)
     return [int(part) for part in match[0].split(".")] if match else []
 
 
 def both_pygames(installed: dict[str, str]) -> bool:
-    """Whether both are installed, which write the same files."""
+    """True if both pygame and pygame-ce are installed; they overwrite each other's files."""
     return "pygame" in installed and "pygame-ce" in installed
 
 
 def places() -> list[Path]:
-    """Possible folders of the environment: beside main.py, or if that is read-only among the user's files."""
+    """Possible folders of the environment, in order: next to main.py, and in the user's data folder."""
     home = Path.home()
     if override := os.environ.get("PIGAMING_HOME"):
         data = Path(override)
@@ -96,7 +96,7 @@ def site_packages(place: Path) -> Path:
 
 
 def ready(place: Path) -> set[str]:
-    """The groups that are complete, provided that pyproject.toml and the Python below have not changed since."""
+    """The groups that are complete; none if pyproject.toml or the base Python has changed since."""
     try:
         fingerprint_then, *groups = (place / "ready").read_text(encoding="utf-8").splitlines()
         return set(groups) if fingerprint_then == fingerprint(place) else set()
@@ -105,10 +105,10 @@ def ready(place: Path) -> set[str]:
 
 
 def fingerprint(place: Path) -> str:
-    """A fingerprint of pyproject.toml and of the Python below an environment. Raises OSError if one of them is gone."""
+    """A fingerprint of pyproject.toml and of an environment's base Python. Raises OSError if either is missing."""
     python = python_of(place).resolve()
-    if WINDOWS:  # where that is only a launcher
+    if WINDOWS:  # python.exe of an environment is only a launcher
         lines = (place / "pyvenv.cfg").read_text(encoding="utf-8").splitlines()
         python = Path(next(line.partition("=")[2].strip() for line in lines if line.startswith("home")), "python.exe")
-    about = python.stat()
-    return f"{zlib.crc32(PROJECT.read_bytes()):08x} {python} {about.st_size} {int(about.st_mtime)}"
+    status = python.stat()
+    return f"{zlib.crc32(PROJECT.read_bytes()):08x} {python} {status.st_size} {int(status.st_mtime)}"

@@ -1,7 +1,7 @@
-"""Choice of the Python that runs the job. Standard library only, and fast: it runs before every start.
+"""Choice of the Python that runs the job. Standard library only; it must be fast, since it runs at every start.
 
-`.venv` beside main.py is used once it is ready. Otherwise this Python is used if it has every package; failing that,
-environment.py makes `.venv` ready.
+`.venv` next to main.py is used if it is ready; otherwise this Python, if it has every package; otherwise environment.py
+creates or completes `.venv`.
 """
 
 import os
@@ -25,25 +25,25 @@ from pigaming_app.boot.interpreter import (
 )
 
 NEEDED = {"test": {"test"}}
-WISHED = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # optional: the job runs without
-WISHED |= {"test": {"train", "hardware", "plots"}}
-MEANT = {  # words that ask for an extra anywhere on the command line
+OPTIONAL = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # extras that a job also runs without
+OPTIONAL |= {"test": {"train", "hardware", "plots"}}
+EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
 }
-HANDED_OVER = "pigaming"  # python -X pigaming: main.py need not ask again
+HANDED_OVER = "pigaming"  # python -X pigaming: main.py skips boot
 
 
 def start(args: list[str]) -> int | None:
-    """Hand the job over to the Python that has its packages; its exit code. None: that is this Python.
+    """Run the job in the Python that has its packages and return its exit code. None: that is this Python.
 
-    2 where it cannot start, 130 where the installation was interrupted.
+    Returns 2 if it cannot start, 130 if the installation was interrupted.
     """
     job = "" if not args or {"-h", "--help"} & set(args) else args[0]
     try:
         words = {arg.partition("=")[0] for arg in args}
-        wished = WISHED.get(job, set()) | {MEANT[word] for word in words if word in MEANT}
-        place = environment({ARCADE} | NEEDED.get(job, set()), wished)
+        optional = OPTIONAL.get(job, set()) | {EXTRA_OF_WORD[word] for word in words if word in EXTRA_OF_WORD}
+        place = environment({ARCADE} | NEEDED.get(job, set()), optional)
         return None if place is None else hand_over(place, args)
     except Trouble as trouble:
         say(str(trouble))
@@ -54,7 +54,7 @@ def start(args: list[str]) -> int | None:
 
 
 def hand_over(place: Path, args: list[str]) -> int:
-    """Run main.py in that environment: instead of this process, or on Windows as its child. Raises Trouble."""
+    """Run main.py in an environment, replacing this process, or on Windows as its child. Raises Trouble."""
     if both_pygames(packages([site_packages(place)])):
         say(f"{place} holds both pygame and pygame-ce, which overwrite each other: delete it and start again.")
     command = [str(python_of(place)), "-X", HANDED_OVER, str(ROOT / "main.py"), *args]
@@ -69,18 +69,18 @@ def hand_over(place: Path, args: list[str]) -> int:
     while True:
         try:
             return process.wait()
-        except KeyboardInterrupt:  # the job received it as well, and decides
+        except KeyboardInterrupt:  # the job receives it as well, and handles it
             continue
 
 
-def environment(needed: set[str], wished: set[str]) -> Path | None:
-    """The environment that has these groups, made ready if none has; None: this Python. Raises Trouble."""
-    groups = needed | wished
+def environment(needed: set[str], optional: set[str]) -> Path | None:
+    """An environment with these groups, prepared if there is none; None: this Python has them. Raises Trouble."""
+    groups = needed | optional
     place = next((place for place in places() if groups <= ready(place)), None)
     if place and sys.prefix == sys.base_prefix:
         return place
     own = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
-    if not both_pygames(own) and not any(lacks(own, one) for one in requirements(groups)):
+    if not both_pygames(own) and not any(lacks(own, requirement) for requirement in requirements(groups)):
         return None
     if place:
         return place
@@ -88,4 +88,4 @@ def environment(needed: set[str], wished: set[str]) -> Path | None:
         say(f"{sys.prefix} holds both pygame and pygame-ce, which overwrite each other: it is not used.")
     from pigaming_app.boot.environment import prepared
 
-    return prepared(needed, wished)
+    return prepared(needed, optional)

@@ -1,1 +1,1 @@
-"""The rules of the games; `registry` lists them."""
+"""Rules of the games and the matches played by them; `registry` lists the games."""

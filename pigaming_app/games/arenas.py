@@ -1,13 +1,13 @@
-"""Where the arenas of the games lie: files under assets/arenas/GAME/, read by the game they are for."""
+"""Loading of arenas: files under assets/arenas/GAME/, parsed by the game they belong to."""
 
 from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import Arena, ArenaError
-from pigaming_app.sim.arena import parse as parse_by
+from pigaming_app.sim.arena import parse as parse_arena
 
-MOST_BYTES = 100_000  # of a file; replays hold a copy
+MAX_BYTES = 100_000  # per file; replays contain a copy
 
 
 def arenas(game: str) -> list[str]:
@@ -17,7 +17,7 @@ def arenas(game: str) -> list[str]:
 
 
 def load(game: str, name: str) -> Arena:
-    """An arena of a game by its name, or by the path of a file that ends in .toml. Raises ArenaError."""
+    """Load an arena of a game by its name, or by the path of a file that ends in .toml. Raises ArenaError."""
     path = Path(name) if name.endswith(".toml") else ASSETS / "arenas" / game / f"{name}.toml"
     try:
         if not path.exists():
@@ -31,15 +31,15 @@ def load(game: str, name: str) -> Arena:
 
 def _read(path: Path) -> str:
     """The text of a file, without a byte order mark. Raises OSError, UnicodeDecodeError."""
-    if not path.is_file():  # opening a pipe would wait
+    if not path.is_file():  # opening a pipe would block
         raise OSError("it is not a file")
     with path.open("rb") as file:
-        raw = file.read(MOST_BYTES + 1)
-    if len(raw) > MOST_BYTES:
-        raise OSError(f"it is larger than {MOST_BYTES:,} bytes")
-    return raw.decode("utf-8-sig")  # Notepad writes the mark
+        raw = file.read(MAX_BYTES + 1)
+    if len(raw) > MAX_BYTES:
+        raise OSError(f"it is larger than {MAX_BYTES:,} bytes")
+    return raw.decode("utf-8-sig")  # Notepad writes a byte order mark
 
 
 def parse(game: str, source: str, file: str) -> Arena:
-    """Check the text of an arena file of a game. Raises ArenaError, which names `file`, the key and the reason."""
-    return parse_by(source, file, games()[game].read)
+    """Parse and validate an arena file of a game. Raises ArenaError, with `file`, key and reason."""
+    return parse_arena(source, file, games()[game].read)

@@ -1,4 +1,4 @@
-"""Many matches at once for policies from outside: give every match its actions, step all by one tick, compiled.
+"""Batches of matches for external policies: one call steps all matches by one tick, compiled.
 
 rows = matches([setup_1, setup_2, ...])
 while not rows["over"].all():
@@ -31,15 +31,15 @@ def initial_states(setups: Sequence[Setup]) -> list[Any]:
 
 
 def matches(setups: Sequence[Setup]) -> Any:
-    """One match for each setup, all of one game, as a NumPy array (n,) of the game's record. Raises ArenaError."""
+    """A match for each setup, all of the same game, as a NumPy array (n,) of the game's record. Raises ArenaError."""
     return packed(initial_states(setups))
 
 
 def step_all(matches: Any, actions: Any) -> None:
-    """One tick of every match: `matches` as `matches()` gives them, `actions` a float array (n, 4, 4).
+    """Advance every match by one tick: `matches` from `matches()`, `actions` a float array (n, 4, 4).
 
-    The four numbers of a seat are linear and angular in [-1, 1], fire and turbo as 0 or 1. Lists of plain records and
-    of numbers of the same shape do too, uncompiled. Raises ImportError without numba, TypeError for foreign records.
+    The last axis is linear and angular in [-1, 1], fire and turbo as 0 or 1. A list of plain records, with nested lists
+    of actions, also works, uncompiled. Raises ImportError without numba, TypeError for records of no game.
     """
     if not len(matches):
         return
@@ -53,14 +53,14 @@ def step_all(matches: Any, actions: Any) -> None:
 
 
 def make_step_all(judge: Callable[[Any], None]) -> Callable[[Any, Any], None]:
-    """The loop over matches, for either body."""
+    """The loop over matches, plain or to be compiled."""
 
     def step(matches: Any, actions: Any) -> None:
         for i in range(len(matches)):
             match = matches[i]
             for seat in range(ROBOTS):
-                wish = actions[i][seat]
-                set_action(match.actions[seat], wish[0], wish[1], int(wish[2] > 0.5), int(wish[3] > 0.5))
+                action = actions[i][seat]
+                set_action(match.actions[seat], action[0], action[1], int(action[2] > 0.5), int(action[3] > 0.5))
             judge(match)
             drive(match)
 

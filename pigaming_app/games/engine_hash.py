@@ -1,4 +1,4 @@
-"""The hash of the engine: of all sources that decide how a match plays out. Replays, ghosts and tables carry it."""
+"""Hash of the sources that determine how a match plays out, stored in replays, ghosts and trained weights."""
 
 import ast
 import hashlib
@@ -8,16 +8,15 @@ from typing import Any
 
 from pigaming_app.sim.kernel import PACKAGE
 
-ENGINE = ("sim", "games")  # these decide how a match plays out, given the actions of the seats
-_SKIPPED = ("ctx", "kind", "type_comment")  # fields of the syntax tree without a meaning of their own
+ENGINE = ("sim", "games")  # rooms that determine how a match plays out, given the actions of the seats
+_SKIPPED = ("ctx", "kind", "type_comment")  # fields of the syntax tree without meaning for the program
 
 
 @cache
 def engine_hash() -> str:
     """SHA-256 over the syntax trees of the engine, the same on every system and every Python since 3.11.
 
-    Comments, docstrings, layout, and where a module lies do not count; every name, constant, operator and annotation
-    does.
+    Comments, docstrings, formatting and module paths do not count; every name, constant, operator and annotation does.
     """
     sources = (path.read_bytes() for folder in ENGINE for path in (PACKAGE / folder).rglob("*.py"))
     return hashlib.sha256("".join(sorted(map(syntax_hash, sources))).encode()).hexdigest()
@@ -29,15 +28,15 @@ def syntax_hash(source: bytes) -> str:
 
 
 def _tokens(node: Any) -> Iterator[str]:
-    """A syntax tree as text. `ast.dump` is of no use here: it differs from one Python to the next.
+    """A syntax tree as text tokens. `ast.dump` is not used since its output differs between Python versions.
 
-    Empty fields are left out, since every new Python brings some. Imports from this package are too: they say where a
-    module lies, and what they import is hashed itself.
+    Empty fields are skipped, since new Python versions add some. So are imports from this package: they contain module
+    paths, and the imported modules are hashed themselves.
     """
     match node:
         case list():
-            for one in node:
-                yield from _tokens(one) if one is not None else ("-",)
+            for child in node:
+                yield from _tokens(child) if child is not None else ("-",)
         case ast.Expr(value=ast.Constant()) | ast.ImportFrom(module="pigaming_app"):
             return
         case ast.ImportFrom(module=str(module)) if module.startswith("pigaming_app."):

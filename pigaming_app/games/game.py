@@ -1,4 +1,4 @@
-"""What a game is, who sits where, and how a match ended."""
+"""Interface of a game, setup of a match, and its outcome."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -7,12 +7,12 @@ from typing import Any
 from pigaming_app.sim.arena import Arena, Layout
 from pigaming_app.sim.toml_table import TomlTable
 
-FREE, ALONE, PAIRS = "free", "alone", "pairs"  # teams: as people wish; none; two teams of at most two robots
+FREE, ALONE, PAIRS = "free", "alone", "pairs"  # teams: free choice; none; two teams of at most two robots
 
 
 @dataclass(frozen=True)
 class Seat:
-    """One of the four places at a match: who plays there, and for which team (free-for-all: its own number)."""
+    """One of the four seats of a match: its player and its team (free-for-all: the seat's own number)."""
 
     brain: str  # human, off, or a name in BRAINS
     team: int
@@ -20,7 +20,7 @@ class Seat:
 
 @dataclass(frozen=True)
 class Setup:
-    """Everything that decides a match, but what the seats do."""
+    """Everything that determines a match, except the actions of the seats."""
 
     game: str
     arena: str
@@ -33,59 +33,59 @@ class Setup:
 
 @dataclass(frozen=True)
 class Row:
-    """One seat in the table of results."""
+    """One seat in the results table."""
 
     seat: int
     team: int
-    place: int  # 1 is best; equals share a place
+    place: int  # 1 is best; ties share a place
     score: int
-    stats: Mapping[str, float]  # what the game counts, in the order of its columns
-    records: Mapping[str, int]  # what may enter the tables of the best: points, or milliseconds
-    times: tuple[float, ...]  # s for each part of the way to the goal, such as a lap
+    stats: Mapping[str, float]  # the game's statistics, in the order of its columns
+    records: Mapping[str, int]  # candidates for the high scores: points, or milliseconds
+    times: tuple[float, ...]  # s for each stage towards the goal, such as a lap
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a match ended: the best first."""
+    """Final standings of a match, best first."""
 
     rows: tuple[Row, ...]
-    winners: tuple[int, ...]  # seats; all of the winning team; empty: a tie
+    winners: tuple[int, ...]  # all seats of the winning team; empty: a tie
     series: tuple[tuple[tuple[float, int], ...], ...]  # for each seat, (seconds, score) at each change
     seconds: float
 
 
 @dataclass(frozen=True)
 class RecordKind:
-    """A table of the best. `timed`: it holds milliseconds, and less is better; else points, and more is."""
+    """A high-score table. `timed`: milliseconds, lower is better; else points, higher is better."""
 
     name: str
     timed: bool = False
-    by_goal: bool = False  # only those with the same goal can be compared
+    by_goal: bool = False  # one table for each goal, since only equal goals are comparable
 
 
 @dataclass(frozen=True)
 class Game:
-    """The functions and words of one game. `judge` and `observe` work in both bodies."""
+    """The functions and properties of one game. `judge` and `observe` are kernels: they run plain and compiled."""
 
     name: str
     state: type
-    senses: type  # the record that shapes an observation
+    senses: type  # record with the parameters of an observation
     observation: type
     variants: tuple[str, ...]  # the first is the default
     minutes: tuple[int, ...]
     default_minutes: int
-    goals: tuple[int, ...]  # what may be chosen; empty: the game has no goal, only time
+    goals: tuple[int, ...]  # the choices; empty: the game has no goal, only a time limit
     default_goal: int
     team_mode: str  # FREE, ALONE or PAIRS
-    teams: tuple[int, int, int, int]  # of the seats, if nobody says otherwise
-    columns: tuple[str, ...]  # keys of `stats`, as the table of results shows them
+    teams: tuple[int, int, int, int]  # default team of each seat
+    columns: tuple[str, ...]  # keys of `stats`, in the order of the results table
     record_kinds: tuple[RecordKind, ...]
-    read: Callable[[TomlTable], Layout]  # what an arena file of this game holds besides its title; raises Wrong
+    read: Callable[[TomlTable], Layout]  # parse an arena file, except its title; raises FieldError
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
-    judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, ask for speeds
+    judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, request speeds
     observe: Callable[[Any, int, Any, Any], None]  # observe(match, seat, senses, observation)
-    ranking_key: Callable[[Any, int], float]  # of a seat, with its team: more is better, and what the order goes by
+    ranking_key: Callable[[Any, int], float]  # of a seat, with its team; higher ranks first
     stats: Callable[[Any, int], Mapping[str, float]]
-    records: Callable[[Any, int], Mapping[str, int]]  # by the names of `record_kinds`; only those that were achieved
+    records: Callable[[Any, int], Mapping[str, int]]  # by names of `record_kinds`; only those achieved
     times: Callable[[Any, int], tuple[float, ...]]
-    goal: str = ""  # what `goals` count: laps, pallets
+    goal: str = ""  # unit of `goals`: laps, pallets

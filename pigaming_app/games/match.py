@@ -1,7 +1,7 @@
-"""One tick of any game on any plant: sense, think, judge, drive.
+"""The tick of any game on any plant: sense, think, judge, drive.
 
-The plant says where the robots are; the brain on each seat says what it wants; the game judges and asks for speeds; the
-plant drives. A game never moves a robot, and a seat can change hands between any two ticks.
+The plant supplies the poses; the brain on each seat sets its action; the game applies its rules and requests speeds;
+the plant drives. A game never moves a robot, and a seat's brain can be replaced between any two ticks.
 """
 
 from collections.abc import Callable
@@ -17,26 +17,26 @@ from pigaming_app.sim.world import DT, ROBOTS, Action
 
 
 class Brain(Protocol):
-    """Whoever sits on a seat."""
+    """The player on a seat, human or AI."""
 
     def think(self, state: Any, seat: int) -> None:
         """Set `state.actions[seat]` for this tick."""
 
 
 class IdlePlayer:
-    """An empty seat, or a robot that stands still."""
+    """A player that never moves; also the player of an empty seat."""
 
     def think(self, state: Any, seat: int) -> None:
         set_action(state.actions[seat], 0.0, 0.0, 0, 0)
 
 
 class Match:
-    """A match of any game. All brains are `IdlePlayer` until somebody sits down."""
+    """A match of any game. Every seat has an `IdlePlayer` until `sit` replaces it."""
 
     def __init__(
         self, setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, arena: Arena | None = None
     ) -> None:
-        """`plant`: a plant, or what makes one for the match's state."""
+        """`plant`: a plant, or its factory, called with the match's state. Raises ArenaError."""
         self.setup = setup
         self.game = games()[setup.game]
         self.arena = arena or load(setup.game, setup.arena)
@@ -49,7 +49,7 @@ class Match:
         self.series: list[list[tuple[float, int]]] = [[(0.0, 0)] for _ in range(ROBOTS)]
 
     def sit(self, seat: int, brain: Brain) -> None:
-        """Hand a seat over: from the next tick on `brain` decides what it does."""
+        """Replace the brain of a seat, from the next tick on."""
         self.brains[seat] = brain
 
     @property
@@ -58,7 +58,7 @@ class Match:
 
     @property
     def seconds(self) -> float:
-        """Played so far."""
+        """Match time so far."""
         return self.state.tick * DT  # type: ignore[no-any-return]
 
     @property
@@ -66,7 +66,7 @@ class Match:
         return max(0.0, self.setup.minutes * 60 - self.seconds)
 
     def tick(self) -> None:
-        """Advance by 1/50 s."""
+        """Advance by DT (1/50 s)."""
         state = self.state
         for robot, sighting in zip(state.robots, self.plant.sense(), strict=True):
             robot.x, robot.y, robot.heading = sighting.x, sighting.y, sighting.heading
@@ -80,20 +80,20 @@ class Match:
                 line.append((state.tick * DT, robot.score))
 
     def outcome(self) -> Outcome:
-        """How it stands, or how it ended."""
+        """The standings: final if the match is over, else as of now."""
         state, game = self.state, self.game
         seats = [i for i in range(ROBOTS) if state.robots[i].present]
-        standing = {i: game.ranking_key(state, i) for i in seats}
-        best = max(standing.values())
-        leaders = [i for i in seats if standing[i] == best]
+        keys = {i: game.ranking_key(state, i) for i in seats}
+        best = max(keys.values())
+        leaders = [i for i in seats if keys[i] == best]
         one_team = len({state.robots[i].team for i in leaders}) == 1
-        order = sorted(seats, key=lambda i: (-standing[i], state.robots[i].team, -state.robots[i].score))
-        ranks = [standing[i] for i in order]
+        order = sorted(seats, key=lambda i: (-keys[i], state.robots[i].team, -state.robots[i].score))
+        ranks = [keys[i] for i in order]
         rows = tuple(
             Row(
                 seat=i,
                 team=state.robots[i].team,
-                place=1 + ranks.index(standing[i]),
+                place=1 + ranks.index(keys[i]),
                 score=state.robots[i].score,
                 stats=game.stats(state, i),
                 records=game.records(state, i),
@@ -106,13 +106,13 @@ class Match:
 
 
 class ActionLog:
-    """What every seat did on every tick, three bytes a seat: stick in 64ths, buttons and aim."""
+    """The actions of every seat on every tick, three bytes per seat: two of the stick, in 64ths; buttons and aim."""
 
     def __init__(self) -> None:
         self.ticks = bytearray()
 
     def append(self, actions: list[Action]) -> None:
-        """Add one tick."""
+        """Append one tick."""
         for action in actions:
             self.ticks += bytes(
                 (

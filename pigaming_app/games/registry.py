@@ -1,4 +1,4 @@
-"""The only list of the games."""
+"""List of all games."""
 
 from collections.abc import Mapping
 from functools import cache

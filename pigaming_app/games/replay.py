@@ -1,8 +1,8 @@
-"""Replays: setup, arena, engine hash, what every seat did on every tick, and the digest of the last state.
+"""Replay files: setup, arena, engine hash, the actions of every seat on every tick, digest of the final state.
 
 The file is one line of JSON (the head) and the ticks, column by column and compressed. A column is one byte of one
-seat: it changes seldom, so a two-minute match takes a few kilobytes. Everything is checked at the door: a file that is
-truncated, edited or foreign is refused in one line.
+seat; it rarely changes, so a two-minute match takes a few kilobytes. Decoding validates everything: a truncated, edited
+or foreign file raises a ReplayError of one line.
 """
 
 import hashlib
@@ -25,34 +25,34 @@ from pigaming_app.sim.toml_table import printable, quote
 from pigaming_app.sim.world import HZ, ROBOTS
 
 FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 has the engine hash of 1.4.0 and before
-BYTES_PER_TICK = 3 * ROBOTS  # a tick
-MOST_TICKS = 60 * 60 * HZ
-MOST_HEAD = 1_000_000  # bytes; an arena's file has at most 100,000, which JSON escapes
-MOST_BYTES = MOST_HEAD + BYTES_PER_TICK * MOST_TICKS  # hardly ever: ticks are packed
+BYTES_PER_TICK = 3 * ROBOTS
+MAX_TICKS = 60 * 60 * HZ
+MAX_HEAD = 1_000_000  # bytes; an arena file has at most 100,000, before JSON escapes
+MOST_BYTES = MAX_HEAD + BYTES_PER_TICK * MAX_TICKS  # upper bound: ticks are compressed
 
 
 class ReplayError(ValueError):
-    """A file that is not a replay, in one line."""
+    """A file is not a valid replay: the reason in one line."""
 
 
 @dataclass(frozen=True)
 class Replay:
-    """A checked replay."""
+    """A validated replay."""
 
     setup: Setup
-    source: str  # the text of the arena's file
-    ticks: bytes  # BYTES for each tick
+    source: str  # text of the arena file
+    ticks: bytes  # BYTES_PER_TICK for each tick
     digest: str  # of the state after the last tick
-    engine: str  # hash of the engine it was recorded with
+    engine: str  # hash of the engine that recorded it
 
     @property
     def other_engine(self) -> bool:
-        """Whether it was recorded with another version of the engine, so that it may play out differently."""
+        """True if another version of the engine recorded it, so that it may play out differently."""
         return self.engine != engine_hash()
 
 
 def encode(match: Match) -> bytes:
-    """The file of a match as far as it has been played."""
+    """The contents of a replay file of a match, up to its current tick."""
     ticks = bytes(match.log.ticks)
     columns = b"".join(ticks[i::BYTES_PER_TICK] for i in range(BYTES_PER_TICK))
     packed = zlib.compress(columns, 9)
@@ -69,7 +69,7 @@ def encode(match: Match) -> bytes:
 
 
 def decode(raw: bytes, name: str) -> Replay:
-    """Check and unpack the file `name`. Raises ReplayError, which begins with the name."""
+    """Validate and unpack the contents of the file `name`. Raises ReplayError, prefixed with the name."""
     try:
         return _decode(raw)
     except ReplayError as error:
@@ -77,7 +77,7 @@ def decode(raw: bytes, name: str) -> Replay:
 
 
 def to_match(replay: Replay) -> Match:
-    """The match that a replay holds, before its first tick; its seats do what the file says."""
+    """The match of a replay, before its first tick, with a ReplayPlayer on every seat."""
     match = Match(replay.setup, arena=parse(replay.setup.game, replay.source, replay.setup.arena))
     for seat in range(ROBOTS):
         match.sit(seat, ReplayPlayer(replay.ticks))
@@ -85,7 +85,7 @@ def to_match(replay: Replay) -> Match:
 
 
 def verify(replay: Replay) -> bool:
-    """Whether the match plays out as the file says, to the last bit."""
+    """True if re-simulation ends in exactly the recorded state."""
     match = to_match(replay)
     for _ in range(len(replay.ticks) // BYTES_PER_TICK):
         match.tick()
@@ -93,22 +93,21 @@ def verify(replay: Replay) -> bool:
 
 
 class ReplayPlayer:
-    """A brain that does what a replay says; when that ends, nothing."""
+    """A brain that repeats the recorded actions, and idles after the last."""
 
     def __init__(self, ticks: bytes) -> None:
         self.ticks = ticks
 
     def think(self, state: Any, seat: int) -> None:
-        """Set the seat's action for this tick."""
-        at = state.tick * BYTES_PER_TICK + 3 * seat
-        linear, angular, buttons = self.ticks[at : at + 3] or (int(STEPS), int(STEPS), 0)
+        offset = state.tick * BYTES_PER_TICK + 3 * seat
+        linear, angular, buttons = self.ticks[offset : offset + 3] or (int(STEPS), int(STEPS), 0)
         action = state.actions[seat]
         set_action(action, linear / STEPS - 1.0, angular / STEPS - 1.0, buttons & 1, buttons & 2)
         action.aim = buttons >> 2
 
 
 def _check(head: Mapping[str, Any], packed: bytes) -> str:
-    """A hash over all of the file but itself: it tells an edited file, not a forger."""
+    """A hash over the file except the hash itself. It detects edits but does not prevent forgery."""
     rest = {key: value for key, value in head.items() if key != "check"}
     return hashlib.sha256(json.dumps(rest, sort_keys=True).encode() + packed).hexdigest()
 
@@ -116,7 +115,7 @@ def _check(head: Mapping[str, Any], packed: bytes) -> str:
 def _decode(raw: bytes) -> Replay:
     line, newline, packed = raw.partition(b"\n")
     try:
-        head = json.loads(line) if newline and len(line) < MOST_HEAD else None
+        head = json.loads(line) if newline and len(line) < MAX_HEAD else None
     except (ValueError, RecursionError, MemoryError):
         head = None
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
@@ -130,9 +129,9 @@ def _decode(raw: bytes) -> Replay:
         count, source, last = int(head["ticks"]), str(head["arena"]), str(head["digest"])
         engine = str(head["engine"])
         parse(setup.game, source, setup.arena)
-        if not 0 <= count <= MOST_TICKS:
+        if not 0 <= count <= MAX_TICKS:
             raise ValueError("ticks")
-        columns = zlib.decompressobj().decompress(packed, BYTES_PER_TICK * MOST_TICKS)
+        columns = zlib.decompressobj().decompress(packed, BYTES_PER_TICK * MAX_TICKS)
     except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
         raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {printable(str(error))})") from None
     if len(columns) != count * BYTES_PER_TICK:
@@ -144,7 +143,7 @@ def _decode(raw: bytes) -> Replay:
 
 
 def _setup(table: Mapping[str, Any]) -> Setup:
-    """Raises KeyError, TypeError or ValueError for what no match can be made of."""
+    """Parse a setup. Raises KeyError, TypeError or ValueError if it is invalid."""
     seats = [Seat(str(seat["brain"]), int(seat["team"])) for seat in table["seats"]]
     if len(seats) != ROBOTS or not {seat.team for seat in seats} <= {*range(ROBOTS)}:
         raise ValueError("seats")

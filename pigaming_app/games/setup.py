@@ -1,4 +1,4 @@
-"""From words that a person typed to a checked setup."""
+"""Validation of a match setup from the words of the command line."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ LEAST_MINUTES, MOST_MINUTES = 0.05, 60.0
 
 
 class ChoiceError(ValueError):
-    """Something that was asked for and is not there, in one line."""
+    """A choice is not available: the reason in one line."""
 
 
 def make_setup(
@@ -26,7 +26,7 @@ def make_setup(
     known: Sequence[str],
     goal: int | None = None,
 ) -> Setup:
-    """A setup of what was asked for; what is None is the game's own. `known`: its brains. Raises ChoiceError."""
+    """A validated setup; None selects the game's default. `known`: names of its brains. Raises ChoiceError."""
     require_one_of("game", game, list(games()))
     rules = games()[game]
     for brain in brains:
@@ -54,7 +54,7 @@ def make_setup(
 
 
 def check_teams(rules: Game, playing: Sequence[int]) -> None:
-    """Whether these teams of the robots that play can play. Raises ChoiceError."""
+    """Raises ChoiceError unless the game permits these teams, one for each robot that plays."""
     if len(playing) < 2:
         raise ChoiceError("at least two seats must be taken")
     if len(set(playing)) < 2:
@@ -65,7 +65,7 @@ def check_teams(rules: Game, playing: Sequence[int]) -> None:
         raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
 
 
-def require_one_of(what: str, name: str, there: Sequence[str]) -> None:
-    """Raises ChoiceError unless `name` is there."""
-    if name not in there:
-        raise ChoiceError(f"no {what} '{name}'; there are {', '.join(there)}")
+def require_one_of(what: str, name: str, choices: Sequence[str]) -> None:
+    """Raises ChoiceError, with the noun `what`, unless `name` is one of the choices."""
+    if name not in choices:
+        raise ChoiceError(f"no {what} '{name}'; there are {', '.join(choices)}")

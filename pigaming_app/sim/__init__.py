@@ -1,1 +1,1 @@
-"""The world: robots, walls, contact, sight. It knows no game and no screen."""
+"""Simulated world shared by all games: robots, walls, contact, line of sight. No game rules, no drawing."""

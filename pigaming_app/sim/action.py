@@ -1,16 +1,16 @@
-"""How a seat says what it wants in this tick."""
+"""Setting a seat's action for one tick, with the stick quantised to 64ths."""
 
 from math import floor
 from typing import Any
 
 from pigaming_app.sim.kernel import kernel
 
-STEPS = 64.0  # of a stick, from its middle to its edge: a file keeps it as a whole number, exactly
+STEPS = 64.0  # stick steps from centre to edge: replay files store them exactly, as whole numbers
 
 
 @kernel
 def set_action(action: Any, linear: float, angular: float, fire: int, turbo: int) -> None:
-    """Set an action that makes for nothing: the stick is held within [-1, 1] and rounded to 64ths."""
+    """Set an action without an aim; the stick is clamped to [-1, 1] and rounded to 64ths."""
     action.linear = quantise(linear)
     action.angular = quantise(angular)
     action.fire = 1 if fire else 0
@@ -20,7 +20,7 @@ def set_action(action: Any, linear: float, angular: float, fire: int, turbo: int
 
 @kernel
 def quantise(value: float) -> float:
-    """A stick's way in [-1, 1], rounded to 64ths; what is not a number counts as the middle."""
+    """A stick position clamped to [-1, 1] and rounded to 64ths; NaN counts as the centre."""
     if value >= 1.0:
         return 1.0
     if value <= -1.0:

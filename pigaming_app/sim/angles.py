@@ -1,4 +1,4 @@
-"""Angles in rad, headings in [0, 2 pi); and random numbers that are alike in both bodies."""
+"""Angle arithmetic. Angles in rad, headings in [0, 2 pi)."""
 
 from math import pi, tau
 
@@ -7,7 +7,7 @@ from pigaming_app.sim.kernel import kernel
 
 @kernel
 def wrap(angle: float) -> float:
-    """The same direction in [0, 2 pi). The angle is at most a few turns out."""
+    """The same direction in [0, 2 pi). Meant for angles at most a few turns out of range."""
     while angle >= tau:
         angle -= tau
     while angle < 0.0:
@@ -19,7 +19,7 @@ def wrap(angle: float) -> float:
 
 @kernel
 def turn_to(angle: float) -> float:
-    """The same turn in (-pi, pi]: the short way round."""
+    """The equivalent turn in (-pi, pi]: the short way round."""
     while angle > pi:
         angle -= tau
     while angle <= -pi:

@@ -1,13 +1,13 @@
-"""Arenas: what the TOML files under assets/arenas/GAME/ say, checked at the door.
+"""Arenas: parsing and validation of the TOML files under assets/arenas/GAME/.
 
-Every file has a title; what else it holds is the game's to read, with the pieces here: walls, starts. What only one
-game has lies in the arena's `plan`.
+Every file has a title. The game parses the rest, with the readers for walls and starts below; data that only one game
+has goes into the arena's `plan`.
 
 [title]
 en = "Courtyard"
 pt = "Pátio"
 
-[[start]]                # four of them, in the order of the players
+[[start]]                # four, in the order of the seats
 at = [110, 110]          # px, x right, y down, in an arena of 1600 x 900
 heading = 45             # degrees, 0 to the right, clockwise
 
@@ -15,8 +15,8 @@ heading = 45             # degrees, 0 to the right, clockwise
 from = [300, 200]
 to = [300, 420]
 thick = 30               # px
-health = 5               # bullets it takes; left out: 5
-solid = true             # instead of health: it takes any number
+health = 5               # bullets it takes, default 5
+solid = true             # instead of health: indestructible
 """
 
 from collections.abc import Callable, Mapping
@@ -33,16 +33,16 @@ from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
 
 LANGUAGES = ("en", "pt")
 HEALTH = 5
-LONGEST_TITLE = 40  # characters
+MAX_TITLE = 40  # characters
 
 
 class ArenaError(ValueError):
-    """An arena file that cannot be used: one line with file, key and reason."""
+    """An arena file is invalid: one line with file, key and reason."""
 
 
 @dataclass(frozen=True)
 class WallSpec:
-    """A wall from (ax, ay) to (bx, by), `half` px to either side; health as in `Wall`."""
+    """A wall from (ax, ay) to (bx, by), `half` px thick on either side; health as in `Wall`."""
 
     ax: float
     ay: float
@@ -54,7 +54,7 @@ class WallSpec:
 
 @dataclass(frozen=True)
 class StartPose:
-    """Where a robot begins: px, px, rad."""
+    """Start pose of a robot: px, px, rad."""
 
     x: float
     y: float
@@ -63,7 +63,7 @@ class StartPose:
 
 @dataclass(frozen=True)
 class Layout:
-    """What a game has read from a file: walls, four starts, and a plan of what only this game has."""
+    """The parts of a file that the game parses: walls, four starts, and the game's own plan."""
 
     walls: tuple[WallSpec, ...]
     starts: tuple[StartPose, ...]
@@ -72,7 +72,7 @@ class Layout:
 
 @dataclass(frozen=True)
 class Arena:
-    """A checked arena. `source` is the text of its file."""
+    """A validated arena. `source` is the text of its file."""
 
     name: str
     title: Mapping[str, str]
@@ -83,20 +83,20 @@ class Arena:
 
 
 def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
-    """Check the text of an arena file; `read` is the game's. Raises ArenaError, which names `file`, key and reason."""
+    """Parse and validate an arena file; `read` is the game's. Raises ArenaError, with `file`, key and reason."""
     try:
         table = TomlTable.parse(source)
         title = _title(table)
         layout = read(table)
         arena = Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan)
-        _check_ways(arena)
-    except FieldError as wrong:
-        raise ArenaError(f"{file}: {wrong}") from None
+        _check_starts(arena)
+    except FieldError as error:
+        raise ArenaError(f"{file}: {error}") from None
     return arena
 
 
 def build(world: World, arena: Arena) -> None:
-    """Put an arena's walls into a fresh world, and robots on its starts (present or not is the game's to say)."""
+    """Put an arena's walls into a fresh world and robots on its starts. The game sets `present`."""
     world.wall_count = len(arena.walls)
     block_rim(world)
     for wall, spec in zip(world.walls, arena.walls, strict=False):
@@ -112,7 +112,7 @@ def build(world: World, arena: Arena) -> None:
 
 
 def read_walls(table: TomlTable) -> tuple[WallSpec, ...]:
-    """The tables [[wall]]. Raises FieldError."""
+    """Parse the tables [[wall]]. Raises FieldError."""
     walls = tuple(_wall(entry) for entry in table.tables("wall"))
     if len(walls) > WALLS:
         raise table.error("wall", f"{len(walls)} walls, but at most {WALLS} are possible")
@@ -120,7 +120,7 @@ def read_walls(table: TomlTable) -> tuple[WallSpec, ...]:
 
 
 def read_starts(table: TomlTable) -> tuple[StartPose, ...]:
-    """The tables [[start]]. Raises FieldError."""
+    """Parse the tables [[start]]. Raises FieldError."""
     starts = tuple(_start(entry) for entry in table.tables("start"))
     if len(starts) != ROBOTS:
         raise table.error("start", f"{len(starts)} starts, but there must be {ROBOTS}")
@@ -134,8 +134,8 @@ def _title(table: TomlTable) -> Mapping[str, str]:
         text = title.entries.get(language)
         if not isinstance(text, str) or not text.strip():
             raise title.error(language, "a text is missing")
-        if len(text) > LONGEST_TITLE or not text.isprintable():
-            raise title.error(language, f"a text of at most {LONGEST_TITLE} characters on one line is needed")
+        if len(text) > MAX_TITLE or not text.isprintable():
+            raise title.error(language, f"a text of at most {MAX_TITLE} characters on one line is needed")
     return title.entries
 
 
@@ -163,8 +163,8 @@ def _start(entry: TomlTable) -> StartPose:
     return StartPose(x, y, heading)
 
 
-def _check_ways(arena: Arena) -> None:
-    """Every start is free, no two touch, and there is a way from the first to each other."""
+def _check_starts(arena: Arena) -> None:
+    """Raises FieldError unless every start is free, no two overlap, and all are reachable from the first."""
     world = World()
     build(world, arena)
     nodes = []

@@ -1,13 +1,14 @@
-"""Robots against robots and walls: they slide along walls and part from each other.
+"""Inelastic contact between robots, and between robots and walls: robots slide along walls and push each other apart.
 
-Nothing here bounces. After every robot has rolled, overlaps are taken back along their normals, which lets a robot
-keep the part of its way that leads along the wall. Two promises hold after every tick if they held before it:
+Every robot first moves freely; overlaps are then resolved along their normals, so that motion along a wall is kept.
+Two invariants hold after every tick if they held before it:
 
-- No robot is in a wall. One that still touches a wall after the last round goes back to where it stood before the tick.
-- No two robots overlap by more than OVERLAP px. Two that do, and by more than before the tick, go back both.
+- No robot is in a wall. One that still touches a wall after the last round returns to its position before the tick.
+- No two robots overlap by more than OVERLAP px. Two that do, and by more than before the tick, both return.
 
-Where a robot goes back to, the first promise held already, and two that have both gone back are as far apart as they
-were; each goes back at most once, so this ends. A tick moves a robot by at most SHOVE px, so no crush throws one.
+Proof: at the position to which a robot returns the first invariant held already, and two that have both returned are as
+far apart as before; each returns at most once, so the loop ends. A tick moves a robot by at most SHOVE px, so that no
+crush catapults a robot.
 """
 
 from math import sqrt
@@ -19,18 +20,18 @@ from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
-ROUNDS, MORE_ROUNDS = 6, 24  # of taking overlaps back at most: usually, and in a crush
-SHOVE = 16.0
-SLOP = 1e-6  # px by which a robot may touch a wall, for rounding
-CRUSH = 0.5  # px of overlap above which more rounds follow
-OVERLAP = 1.5
-APART = 4.0 * RADIUS * RADIUS
-LEAST = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)
+ROUNDS, MAX_ROUNDS = 6, 24  # limits on rounds of overlap resolution: usually, and in a crush
+SHOVE = 16.0  # px, the longest step in a tick with contact
+SLOP = 1e-6  # px by which a robot may overlap a wall, for rounding
+CRUSH = 0.5  # px of overlap above which ROUNDS is exceeded
+OVERLAP = 1.5  # px, permitted between two robots
+APART = 4.0 * RADIUS * RADIUS  # px^2 between centres, from which two robots do not overlap
+TOO_CLOSE = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)  # px^2, below which OVERLAP is exceeded
 
 
 @kernel
 def drive(world: Any) -> None:
-    """One tick of the floor: every present robot drives, then contact sorts them out."""
+    """One tick of motion: integrate every present robot, then resolve contacts."""
     robots = world.robots
     r0, r1, r2, r3 = robots[0], robots[1], robots[2], robots[3]
     x0, y0, x1, y1 = r0.x, r0.y, r1.x, r1.y
@@ -39,7 +40,7 @@ def drive(world: Any) -> None:
         if robot.present:
             integrate(robot)
     touched = 0
-    for n in range(MORE_ROUNDS):
+    for n in range(MAX_ROUNDS):
         deepest = separate(robots)
         moved = deepest > SLOP
         for robot in robots:
@@ -66,28 +67,28 @@ def drive(world: Any) -> None:
 
 @kernel
 def separate(robots: Any) -> float:
-    """Move every two robots that overlap apart, half the way each. The px of the deepest overlap."""
+    """Push overlapping robots apart, half the overlap each. Returns the deepest overlap in px."""
     deepest = 0.0
     for i in range(ROBOTS - 1):
-        one = robots[i]
-        if not one.present:
+        robot = robots[i]
+        if not robot.present:
             continue
         for j in range(i + 1, ROBOTS):
             other = robots[j]
             if not other.present:
                 continue
-            dx, dy = other.x - one.x, other.y - one.y
-            apart = dx * dx + dy * dy
-            if apart >= APART:
+            dx, dy = other.x - robot.x, other.y - robot.y
+            distance2 = dx * dx + dy * dy
+            if distance2 >= APART:
                 continue
-            gap = sqrt(apart)
-            if gap > 1e-9:
-                nx, ny = dx / gap, dy / gap
+            distance = sqrt(distance2)
+            if distance > 1e-9:
+                nx, ny = dx / distance, dy / distance
             else:  # on the same spot: any direction will do
                 nx, ny = 1.0, 0.0
-            push = 0.5 * (2.0 * RADIUS - gap)
-            one.x -= push * nx
-            one.y -= push * ny
+            push = 0.5 * (2.0 * RADIUS - distance)
+            robot.x -= push * nx
+            robot.y -= push * ny
             other.x += push * nx
             other.y += push * ny
             if 2.0 * push > deepest:
@@ -97,7 +98,7 @@ def separate(robots: Any) -> float:
 
 @kernel
 def push_out_of_walls(world: Any, robot: Any) -> int:
-    """Move a robot that overlaps a wall straight out of it. 1 if it did."""
+    """Move a robot that overlaps a wall straight out of it. Returns 1 if it moved."""
     moved = 0
     if robot.x < RADIUS:
         robot.x = RADIUS
@@ -147,7 +148,7 @@ def in_wall(world: Any, x: float, y: float) -> int:
 
 @kernel
 def limit_step(world: Any, robot: Any, from_x: float, from_y: float) -> None:
-    """Limit the step of a robot that stood at (from_x, from_y), and undo it if it ends in a wall."""
+    """Limit a robot's step from (from_x, from_y) to SHOVE px, and undo it if it ends in a wall."""
     dx, dy = robot.x - from_x, robot.y - from_y
     way2 = dx * dx + dy * dy
     if way2 > SHOVE * SHOVE:
@@ -160,16 +161,16 @@ def limit_step(world: Any, robot: Any, from_x: float, from_y: float) -> None:
 
 
 @kernel
-def undo_overlap(one: Any, x1: float, y1: float, other: Any, x2: float, y2: float) -> int:
-    """Put two robots back if they overlap too far, and farther than where they stood before. 1 if it did."""
-    if not one.present or not other.present:
+def undo_overlap(robot: Any, x1: float, y1: float, other: Any, x2: float, y2: float) -> int:
+    """Return two robots to (x1, y1) and (x2, y2) if they overlap too far, and farther than there. 1 if it did."""
+    if not robot.present or not other.present:
         return 0
-    dx, dy = other.x - one.x, other.y - one.y
+    dx, dy = other.x - robot.x, other.y - robot.y
     now = dx * dx + dy * dy
-    if now >= LEAST:
+    if now >= TOO_CLOSE:
         return 0
     dx, dy = x2 - x1, y2 - y1
     if now >= dx * dx + dy * dy:
         return 0
-    one.x, one.y, other.x, other.y = x1, y1, x2, y2
+    robot.x, robot.y, other.x, other.y = x1, y1, x2, y2
     return 1

@@ -1,14 +1,14 @@
-"""What one robot's motors make of what they are told: its wheels, their lag, and how late it hears.
+"""Differential-drive model of one robot: wheel speeds with deadband, motor lag, dead time.
 
-A command is a share of full speed for each wheel: `wheel_shares` finds them for a twist, `twist` is the inverse. The
-numbers of a measured robot (job `fidelity`) stand in a file, one table for each robot:
+A command is a share of full speed for each wheel: `wheel_shares` computes them from a twist, `twist` is the inverse.
+The job `fidelity` writes the parameters of measured robots to a file, one table for each robot:
 
 [[robot]]
-left = [757.6, 0.02]     # px/s at full share, and the share below which the wheel stands still
+left = [757.6, 0.02]     # px/s at full share, and the deadband: the share below which the wheel stands still
 right = [741.0, 0.03]
 base = 62.1              # px between the wheels
 lag = 0.08               # s, time constant of the motors
-dead_time = 0.06         # s from sending a command to the motors' answer
+dead_time = 0.06         # s from sending a command to the motors' response
 """
 
 from collections.abc import Sequence
@@ -19,13 +19,13 @@ from pigaming_app.sim.robot import LAG
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import ROBOTS
 
-MM = 1.32  # mm in an arena px on the nominal mat
-FASTEST = 3000.0  # px/s, more than any such robot drives
+MM = 1.32  # mm per arena px on the nominal mat
+FASTEST = 3000.0  # px/s, upper limit of a plausible wheel speed
 
 
 @dataclass(frozen=True)
 class Wheel:
-    """One driven wheel: px/s at full share; the share, of [0, 1), below which it stands still."""
+    """One driven wheel: px/s at full share; deadband, the share in [0, 1) below which it stands still."""
 
     speed: float
     deadband: float
@@ -33,7 +33,7 @@ class Wheel:
 
 @dataclass(frozen=True)
 class Drivetrain:
-    """Two wheels `base` px apart, motors with a lag (s), and a dead time (s) before they hear."""
+    """Two wheels `base` px apart; time constant of the motors (s); dead time before they respond (s)."""
 
     left: Wheel
     right: Wheel
@@ -42,17 +42,17 @@ class Drivetrain:
     dead_time: float
 
 
-NOMINAL = Drivetrain(Wheel(1000.0 / MM, 0.0), Wheel(1000.0 / MM, 0.0), 82.0 / MM, LAG, 0.0)  # a 3pi, by its maker
+NOMINAL = Drivetrain(Wheel(1000.0 / MM, 0.0), Wheel(1000.0 / MM, 0.0), 82.0 / MM, LAG, 0.0)  # Pololu 3pi data
 
 
 class DrivetrainError(ValueError):
-    """A file of robots that cannot be used: one line with file, key and reason."""
+    """A file of robots is invalid: one line with file, key and reason."""
 
 
 def wheel_shares(drivetrain: Drivetrain, linear: float, angular: float) -> tuple[float, float]:
-    """What to tell (left, right) so that the robot drives at px/s and rad/s, clockwise positive.
+    """Inverse kinematics: wheel shares (left, right) for a twist in px/s and rad/s, clockwise positive.
 
-    If a wheel would have to turn faster than it can, both are slowed alike: the way keeps its bend.
+    If a wheel would exceed its top speed, both are scaled by the same factor, which keeps the curvature.
     """
     half = 0.5 * drivetrain.base * angular
     left, right = linear + half, linear - half
@@ -61,31 +61,31 @@ def wheel_shares(drivetrain: Drivetrain, linear: float, angular: float) -> tuple
 
 
 def twist(drivetrain: Drivetrain, left: float, right: float) -> tuple[float, float]:
-    """The speed, px/s and rad/s, at which a robot ends up that is told these shares."""
+    """Forward kinematics: the steady-state speed, px/s and rad/s, for these wheel shares."""
     fast, slow = _speed(drivetrain.left, left), _speed(drivetrain.right, right)
     return 0.5 * (fast + slow), (fast - slow) / drivetrain.base
 
 
 def parse(text: str, file: str) -> tuple[Drivetrain, ...]:
-    """The robots that a file tells of, at most one for each seat. Raises DrivetrainError."""
+    """Parse a file of robots, at most one for each seat. Raises DrivetrainError."""
     try:
         table = TomlTable.parse(text)
         table.only("robot")
-        found = tuple(_drivetrain(entry) for entry in table.tables("robot"))
-        if not 1 <= len(found) <= ROBOTS:
-            raise table.error("robot", f"{len(found)} robots, but 1 to {ROBOTS} are possible")
-    except FieldError as wrong:
-        raise DrivetrainError(f"{file}: {wrong}") from None
-    return found
+        drivetrains = tuple(_drivetrain(entry) for entry in table.tables("robot"))
+        if not 1 <= len(drivetrains) <= ROBOTS:
+            raise table.error("robot", f"{len(drivetrains)} robots, but 1 to {ROBOTS} are possible")
+    except FieldError as error:
+        raise DrivetrainError(f"{file}: {error}") from None
+    return drivetrains
 
 
 def to_toml(drivetrains: Sequence[Drivetrain]) -> str:
-    """The text of a file that tells of these robots."""
+    """The text of a file with these robots, as `parse` reads it."""
     return "\n".join(
-        f"[[robot]]\nleft = [{one.left.speed:.2f}, {one.left.deadband:.4f}]\n"
-        f"right = [{one.right.speed:.2f}, {one.right.deadband:.4f}]\nbase = {one.base:.3f}\n"
-        f"lag = {one.lag:.4f}\ndead_time = {one.dead_time:.4f}\n"
-        for one in drivetrains
+        f"[[robot]]\nleft = [{train.left.speed:.2f}, {train.left.deadband:.4f}]\n"
+        f"right = [{train.right.speed:.2f}, {train.right.deadband:.4f}]\nbase = {train.base:.3f}\n"
+        f"lag = {train.lag:.4f}\ndead_time = {train.dead_time:.4f}\n"
+        for train in drivetrains
     )
 
 

@@ -1,7 +1,7 @@
-"""Which way round the walls: flow fields on a grid of nodes 50 px apart.
+"""Path planning around walls: flow fields on a grid of nodes 50 px apart.
 
-A field grows from a goal over the free nodes of the grid until it reaches the robot; the robot then makes for the
-farthest node down the field that it can go to in a straight line.
+A breadth-first search expands from the goal over the free nodes of the grid until it reaches the robot. The robot then
+heads for the farthest node down the field to which the straight line is clear.
 """
 
 from typing import Annotated, Any
@@ -13,48 +13,48 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_KEPT, ROWS
 
-SLACK = 2  # nodes that a goal may move before the field is grown anew
-LOOK = 7  # nodes that a robot looks ahead down the field
+SLACK = 2  # nodes that a goal may move before the field is rebuilt
+LOOK = 7  # lookahead down the field, nodes
 
 
 @record
 class Route:
-    """Where a robot wants to go, and the field that leads there."""
+    """A robot's goal and the flow field towards it."""
 
-    wanted: int  # 0: nowhere
+    wanted: int  # 0: no goal
     goal_x: float
     goal_y: float
     way_x: float  # the point to drive to now
     way_y: float
     straight: int  # 1: it is the goal itself
-    root: int  # the node from which the field has grown; 0: there is no field
-    walls: int  # how many walls stood then
+    root: int  # the node from which the field was built; 0: there is no field
+    walls: int  # number of walls standing at that time
     reach: Annotated[list[int], NODES_KEPT, "h"]  # steps to the root, 1 at the root, 0 not reached
-    queue: Annotated[list[int], NODES_KEPT, "h"]  # the growing edge
+    queue: Annotated[list[int], NODES_KEPT, "h"]  # frontier of the breadth-first search
 
 
 @kernel
 def free_node(world: Any, x: float, y: float) -> int:
-    """The free node nearest to a point, among those up to two nodes away; 0 (never free) where there is none."""
+    """The free node nearest to a point, among those up to two nodes away; 0 (never free) if there is none."""
     middle = node_at(x, y)
     if not world.grid[middle] & BLOCKED:
         return middle
-    best, least = 0, 1e9
+    best, nearest2 = 0, 1e9
     row, column = middle // COLUMNS, middle % COLUMNS
     for r in range(max(row - 2, 1), min(row + 3, ROWS - 1)):
         for c in range(max(column - 2, 1), min(column + 3, COLUMNS - 1)):
             node = r * COLUMNS + c
             if not world.grid[node] & BLOCKED:
                 dx, dy = c * CELL - x, r * CELL - y
-                gap = dx * dx + dy * dy
-                if gap < least:
-                    best, least = node, gap
+                distance2 = dx * dx + dy * dy
+                if distance2 < nearest2:
+                    best, nearest2 = node, distance2
     return best
 
 
 @kernel
 def expand(world: Any, route: Any, root: int, until: int) -> None:
-    """Grow the field from `root`, breadth first, until it has passed the node `until` or filled its room."""
+    """Build the field from `root`, breadth first, to 3 steps past the node `until`, or over all that is reachable."""
     reach, queue, grid = route.reach, route.queue, world.grid
     for node in range(NODES):
         reach[node] = 0
@@ -62,65 +62,65 @@ def expand(world: Any, route: Any, root: int, until: int) -> None:
     reach[root] = 1
     queue[0] = root
     head, tail = 0, 1
-    enough = 32000
+    limit = 32000
     while head < tail:
         node = queue[head]
         head += 1
         steps = reach[node] + 1
-        if steps > enough:
+        if steps > limit:
             return
         if node == until:
-            enough = steps + 3
-        beside = node + 1
-        if reach[beside] == 0 and not grid[beside] & BLOCKED:
-            reach[beside] = steps
-            queue[tail] = beside
+            limit = steps + 3
+        neighbour = node + 1
+        if reach[neighbour] == 0 and not grid[neighbour] & BLOCKED:
+            reach[neighbour] = steps
+            queue[tail] = neighbour
             tail += 1
-        beside = node - 1
-        if reach[beside] == 0 and not grid[beside] & BLOCKED:
-            reach[beside] = steps
-            queue[tail] = beside
+        neighbour = node - 1
+        if reach[neighbour] == 0 and not grid[neighbour] & BLOCKED:
+            reach[neighbour] = steps
+            queue[tail] = neighbour
             tail += 1
-        beside = node + COLUMNS
-        if reach[beside] == 0 and not grid[beside] & BLOCKED:
-            reach[beside] = steps
-            queue[tail] = beside
+        neighbour = node + COLUMNS
+        if reach[neighbour] == 0 and not grid[neighbour] & BLOCKED:
+            reach[neighbour] = steps
+            queue[tail] = neighbour
             tail += 1
-        beside = node - COLUMNS
-        if reach[beside] == 0 and not grid[beside] & BLOCKED:
-            reach[beside] = steps
-            queue[tail] = beside
+        neighbour = node - COLUMNS
+        if reach[neighbour] == 0 and not grid[neighbour] & BLOCKED:
+            reach[neighbour] = steps
+            queue[tail] = neighbour
             tail += 1
 
 
 @kernel
 def descend(route: Any, node: int) -> int:
-    """The neighbour nearest to the root; a diagonal one only where both nodes beside it are free too."""
+    """The neighbour nearest to the root; a diagonal one only if both nodes next to the diagonal are free too."""
     reach = route.reach
-    best, least = node, reach[node]
+    best, steps_left = node, reach[node]
     east, west, south, north = reach[node + 1], reach[node - 1], reach[node + COLUMNS], reach[node - COLUMNS]
-    if east and south and 0 < reach[node + COLUMNS + 1] < least:
-        best, least = node + COLUMNS + 1, reach[node + COLUMNS + 1]
-    if west and south and 0 < reach[node + COLUMNS - 1] < least:
-        best, least = node + COLUMNS - 1, reach[node + COLUMNS - 1]
-    if east and north and 0 < reach[node - COLUMNS + 1] < least:
-        best, least = node - COLUMNS + 1, reach[node - COLUMNS + 1]
-    if west and north and 0 < reach[node - COLUMNS - 1] < least:
-        best, least = node - COLUMNS - 1, reach[node - COLUMNS - 1]
-    if 0 < east < least:
-        best, least = node + 1, east
-    if 0 < west < least:
-        best, least = node - 1, west
-    if 0 < south < least:
-        best, least = node + COLUMNS, south
-    if 0 < north < least:
-        best, least = node - COLUMNS, north
+    if east and south and 0 < reach[node + COLUMNS + 1] < steps_left:
+        best, steps_left = node + COLUMNS + 1, reach[node + COLUMNS + 1]
+    if west and south and 0 < reach[node + COLUMNS - 1] < steps_left:
+        best, steps_left = node + COLUMNS - 1, reach[node + COLUMNS - 1]
+    if east and north and 0 < reach[node - COLUMNS + 1] < steps_left:
+        best, steps_left = node - COLUMNS + 1, reach[node - COLUMNS + 1]
+    if west and north and 0 < reach[node - COLUMNS - 1] < steps_left:
+        best, steps_left = node - COLUMNS - 1, reach[node - COLUMNS - 1]
+    if 0 < east < steps_left:
+        best, steps_left = node + 1, east
+    if 0 < west < steps_left:
+        best, steps_left = node - 1, west
+    if 0 < south < steps_left:
+        best, steps_left = node + COLUMNS, south
+    if 0 < north < steps_left:
+        best, steps_left = node - COLUMNS, north
     return best
 
 
 @kernel
 def update_route(world: Any, route: Any, x: float, y: float) -> None:
-    """Set the point that a robot at (x, y) should drive to now, along its route."""
+    """Set the waypoint for a robot at (x, y), along its route."""
     route.way_x, route.way_y, route.straight = route.goal_x, route.goal_y, 1
     if not route.wanted or is_clear(world, x, y, route.goal_x, route.goal_y, RADIUS + 1.0):
         return
@@ -135,7 +135,7 @@ def update_route(world: Any, route: Any, x: float, y: float) -> None:
     if not near_root(route, root) or route.walls != standing or route.reach[node] == 0:
         route.walls = standing
         expand(world, route, root, node)
-        if route.reach[node] == 0:  # no way there: stay on the straight line
+        if route.reach[node] == 0:  # unreachable: keep the straight line
             return
     route.straight = 0
     route.way_x, route.way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
@@ -151,7 +151,7 @@ def update_route(world: Any, route: Any, x: float, y: float) -> None:
 
 @kernel
 def near_root(route: Any, root: int) -> int:
-    """1 if the field still leads near enough to `root`: at most SLACK nodes away."""
+    """1 if the root of the field is at most SLACK nodes away from `root`."""
     if route.root == 0:
         return 0
     rows = route.root // COLUMNS - root // COLUMNS

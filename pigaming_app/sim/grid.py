@@ -1,7 +1,7 @@
-"""The grid: which nodes, 50 px apart, are free for a robot's centre, and near which there is a wall at all.
+"""Occupancy grid with nodes 50 px apart, for path planning and for skipping wall checks in open space.
 
-Each node counts the walls that keep a robot away (low six bits) and the walls that are near (the bits above). Where
-none is near, contact and bullets need not look at walls.
+Each node counts the walls that block a robot's centre (low six bits) and the walls nearby (the bits above). Where none
+is near, contact and bullets skip all walls.
 """
 
 from math import sqrt
@@ -13,14 +13,14 @@ from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import CELL, COLUMNS, ROWS
 
 SPARE = 4.0  # px between a robot on a free node and the wall
-NEAR = 72.0  # whatever touches the wall now has its node this near: RADIUS + half a cell's diagonal
-BLOCKED = 63  # the bits that count walls in the way
-ONE_NEAR = 64  # a node of at least this has a wall near it
+NEAR = 72.0  # px: the node nearest to anything that touches the wall is within RADIUS + half a cell's diagonal
+BLOCKED = 63  # mask of the bits that count blocking walls
+ONE_NEAR = 64  # one nearby wall: a node of at least this value has a wall near it
 
 
 @kernel
 def node_at(x: float, y: float) -> int:
-    """The node nearest to a point; a point outside the arena counts as on its rim."""
+    """The node nearest to a point; points outside the arena are clamped to its rim."""
     column, row = int(x / CELL + 0.5), int(y / CELL + 0.5)
     if column < 0:
         column = 0
@@ -35,7 +35,7 @@ def node_at(x: float, y: float) -> int:
 
 @kernel
 def wall_on_grid(world: Any, wall: Any, change: int) -> None:
-    """Enter a wall into the grid (change 1) or take it out (-1)."""
+    """Add a wall to the grid (change 1) or remove it (-1)."""
     edge = NEAR + wall.half
     for row in range(ROWS):
         y = row * CELL
@@ -52,7 +52,7 @@ def wall_on_grid(world: Any, wall: Any, change: int) -> None:
 
 @kernel
 def block_rim(world: Any) -> None:
-    """Nodes on the outer walls are never free."""
+    """Block the nodes on the outer walls."""
     for column in range(COLUMNS):
         world.grid[column] += 1
         world.grid[(ROWS - 1) * COLUMNS + column] += 1

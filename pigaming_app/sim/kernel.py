@@ -1,10 +1,10 @@
-"""One function, two bodies: as it stands for plain play, compiled by numba to train.
+"""Functions that run both as plain Python, in the arcade, and compiled by numba, for training.
 
-`@kernel` only notes the function: the arcade never imports numba. The first time something is compiled, every noted
-function becomes callable from compiled code, and the outer loop is compiled and kept on disk.
+`@kernel` only registers a function, so that the arcade never imports numba. The first compilation makes all registered
+functions callable from compiled code; compiled outer loops are cached on disk.
 
-numba's cache does not see an edit in a function that the outer loop calls, so the folder of the cache carries the hash
-of all these sources.
+numba's cache does not detect an edit in a function that the outer loop calls, so the name of the cache folder contains
+a hash of all these sources.
 """
 
 import contextlib
@@ -21,51 +21,51 @@ import platformdirs
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-_noted: list[Callable[..., Any]] = []
+_registered: list[Callable[..., Any]] = []
 
 PACKAGE = Path(__file__).resolve().parent.parent
 COMPILED = ("sim", "games", "ai")  # rooms with kernels
 
 
 def kernel(function: F) -> F:
-    """Note a function that must work in both bodies; the function itself is unchanged."""
-    _noted.append(function)
+    """Register a function that must run both plain and compiled. Returns it unchanged."""
+    _registered.append(function)
     return function
 
 
 def can_compile() -> bool:
-    """Whether the extra `train` (numba) is installed."""
+    """True if the extra `train` (numba) is installed."""
     return find_spec("numba") is not None
 
 
 def compiled(loop: F) -> F:
-    """The compiled twin of an outer loop over NumPy records. Raises ImportError where numba is not installed."""
+    """Compile an outer loop over NumPy records. Raises ImportError if numba is not installed."""
     numba = _numba()
-    while _noted:
-        numba.extending.register_jitable(error_model="numpy")(_noted.pop())
-    twin: F = numba.njit(nogil=True, error_model="numpy")(loop)
-    with contextlib.suppress(RuntimeError):  # there is no folder for the cache
-        twin.enable_caching()  # type: ignore[attr-defined]
-        _save_if_possible(twin)
-    return twin
+    while _registered:
+        numba.extending.register_jitable(error_model="numpy")(_registered.pop())
+    dispatcher: F = numba.njit(nogil=True, error_model="numpy")(loop)
+    with contextlib.suppress(RuntimeError):  # no writable folder for the cache
+        dispatcher.enable_caching()  # type: ignore[attr-defined]
+        _ignore_cache_errors(dispatcher)
+    return dispatcher
 
 
 def compiled_before(loop: Callable[..., Any]) -> bool:
-    """Whether an outer loop's compiled twin lies in the folder that `compiled` keeps, so that it loads in a moment."""
-    kept = Path(os.environ.get("NUMBA_CACHE_DIR") or _cache_folder())
+    """True if the compiled form of an outer loop is in the cache of `compiled`, so that it loads without compiling."""
+    cached = Path(os.environ.get("NUMBA_CACHE_DIR") or _cache_folder())
     name = f"{loop.__module__.rpartition('.')[2]}.{loop.__qualname__}".replace("<locals>", "locals")
-    return any(kept.rglob(f"{name}-*.nbi"))
+    return any(cached.rglob(f"{name}-*.nbi"))
 
 
-def _save_if_possible(twin: Any) -> None:
-    """Let a disk that is full cost only the time to compile again."""
-    save = twin._cache.save_overload
+def _ignore_cache_errors(dispatcher: Any) -> None:
+    """Suppress OSError, such as a full disk, when the cache is written: the loop is then compiled again next time."""
+    save = dispatcher._cache.save_overload
 
     def attempt(signature: Any, compiled_code: Any) -> None:
         with contextlib.suppress(OSError):
             save(signature, compiled_code)
 
-    twin._cache.save_overload = attempt
+    dispatcher._cache.save_overload = attempt
 
 
 @cache
@@ -86,7 +86,7 @@ def _cache_folder() -> Path:
 
 @cache
 def _source_hash() -> str:
-    """SHA-256 over the paths and texts of all modules with kernels."""
+    """SHA-256 over the paths and texts of all modules in rooms with kernels."""
     sha = hashlib.sha256()
     for folder in COMPILED:
         for path in sorted((PACKAGE / folder).rglob("*.py")):

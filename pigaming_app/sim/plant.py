@@ -1,4 +1,4 @@
-"""A plant moves robots; a game never does."""
+"""Plants: the interface through which robots, real or simulated, are moved. Games only request speeds."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ Twist = tuple[float, float]  # px/s, rad/s
 
 
 class Sighting(NamedTuple):
-    """Where a robot is known to be, and how old that knowledge is."""
+    """The last known pose of a robot, px, px, rad, and its age."""
 
     x: float
     y: float
@@ -26,25 +26,25 @@ class Plant(Protocol):
     """Robots, real or simulated, in the order of their seats."""
 
     def sense(self) -> Sequence[Sighting]:
-        """Where every robot is."""
+        """The latest pose of every robot."""
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
-        """Let every robot drive for `dt` seconds with the speeds asked for."""
+        """Drive every robot for `dt` seconds at the requested speeds."""
 
     def place(self, poses: Sequence[Pose]) -> None:
-        """Bring every robot to where it shall begin."""
+        """Move every robot to its start pose."""
 
 
 class SimPlant:
-    """Simulated robots: those of a match's own record, so that a snapshot of the match holds them too.
+    """Simulated robots, stored in the match's own record, so that a snapshot of the match includes them.
 
-    With `drivetrains`, the first robots drive like real ones that were measured: no faster, as lazily, as late.
+    With `drivetrains`, the first robots have the speed limits, lag and dead time of measured real ones.
     """
 
     def __init__(self, world: World, drivetrains: Sequence[Drivetrain] = ()) -> None:
         self.world: Any = world
         self.drivetrains = drivetrains
-        self.waiting = _silence(drivetrains)
+        self._in_flight = _stopped(drivetrains)
         for robot, drivetrain in zip(self.world.robots, drivetrains, strict=False):
             robot.gain = 1.0 - exp(-DT / drivetrain.lag)
 
@@ -52,7 +52,7 @@ class SimPlant:
         return [Sighting(robot.x, robot.y, robot.heading, 0.0) for robot in self.world.robots]
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
-        for robot, (linear, angular) in zip(self.world.robots, self._heard(twists), strict=True):
+        for robot, (linear, angular) in zip(self.world.robots, self._delayed(twists), strict=True):
             robot.ask_linear, robot.ask_angular = linear, angular
         drive(self.world)
 
@@ -60,19 +60,19 @@ class SimPlant:
         for robot, (x, y, heading) in zip(self.world.robots, poses, strict=True):
             robot.x, robot.y, robot.heading = x, y, heading
             robot.linear = robot.angular = 0.0
-        self.waiting = _silence(self.drivetrains)
+        self._in_flight = _stopped(self.drivetrains)
 
-    def _heard(self, twists: Sequence[Twist]) -> Sequence[Twist]:
-        """What the motors are told in this tick."""
+    def _delayed(self, twists: Sequence[Twist]) -> Sequence[Twist]:
+        """The commands that reach the motors in this tick, after dead time and limits of the drivetrains."""
         if not self.drivetrains:
             return twists
-        heard = list(twists)
-        for seat, (drivetrain, waiting) in enumerate(zip(self.drivetrains, self.waiting, strict=True)):
-            waiting.append(twist(drivetrain, *wheel_shares(drivetrain, *twists[seat])))
-            heard[seat] = waiting.popleft()
-        return heard
+        delayed = list(twists)
+        for seat, (drivetrain, queue) in enumerate(zip(self.drivetrains, self._in_flight, strict=True)):
+            queue.append(twist(drivetrain, *wheel_shares(drivetrain, *twists[seat])))
+            delayed[seat] = queue.popleft()
+        return delayed
 
 
-def _silence(drivetrains: Sequence[Drivetrain]) -> list[deque[Twist]]:
-    """For each robot, what it has been told and not yet heard: to stand."""
-    return [deque((0.0, 0.0) for _ in range(round(one.dead_time / DT))) for one in drivetrains]
+def _stopped(drivetrains: Sequence[Drivetrain]) -> list[deque[Twist]]:
+    """A queue of commands in flight for each robot, filled with zero twists over its dead time."""
+    return [deque((0.0, 0.0) for _ in range(round(train.dead_time / DT))) for train in drivetrains]

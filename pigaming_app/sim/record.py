@@ -1,4 +1,4 @@
-"""Declare a state once: as plain objects to play with, as NumPy records to train with.
+"""Game state declared once, usable as plain objects (in the arcade) and as NumPy records (for training).
 
 A record is a class of annotated fields: `float`, `int`, another record, or a list of fixed length,
 `Annotated[list[Robot], 4]`. Lists of small whole numbers may name a narrower type: `Annotated[list[int], 576, "h"]`.
@@ -30,7 +30,7 @@ _LAYOUTS: dict[type, struct.Struct] = {}
 
 
 class Field:
-    """One field of a record: its name, what one element is, how many (None: a single one), and its default."""
+    """One field of a record: name, type of an element, number of elements (None: a single one), default."""
 
     def __init__(self, name: str, hint: Any, default: float = 0) -> None:
         self.name = name
@@ -50,7 +50,7 @@ class Field:
         self.default = default
 
     def fresh(self) -> Any:
-        """The field of a fresh record."""
+        """The initial value of the field."""
         if self.default:
             return self.kind(self.default)
         return self.kind() if self.count is None else [self.kind() for _ in range(self.count)]
@@ -66,50 +66,50 @@ def record(cls: type[T]) -> type[T]:
     inherited = {field.name: field.default for field in getattr(cls, "_fields", ())}
     defaults = {**inherited, **vars(cls)}
     fields = tuple(Field(name, hint, defaults.get(name, 0)) for name, hint in hints.items())
-    makers = tuple((field.name, field.fresh) for field in fields)
+    factories = tuple((field.name, field.fresh) for field in fields)
 
-    def begin(self: Any) -> None:
-        for name, make in makers:
-            setattr(self, name, make())
+    def init(self: Any) -> None:
+        for name, factory in factories:
+            setattr(self, name, factory())
 
     body = {
         "__slots__": tuple(field.name for field in fields),
-        "__init__": begin,
+        "__init__": init,
         "__annotations__": hints,
         "__doc__": cls.__doc__,
         "__module__": cls.__module__,
         "__qualname__": cls.__qualname__,
         "_fields": property(lambda self: fields),
     }
-    made = type(cls.__name__, (), body)
-    made._fields = fields  # type: ignore[attr-defined]
-    return made
+    result = type(cls.__name__, (), body)
+    result._fields = fields  # type: ignore[attr-defined]
+    return result
 
 
 def fields_of(kind: type) -> tuple[Field, ...]:
-    """The fields of a record, in the order in which they lie in memory."""
+    """The fields of a record, in memory order."""
     return kind._fields  # type: ignore[attr-defined, no-any-return]
 
 
 def dtype(kind: Any) -> "np.dtype[Any]":
-    """The NumPy record type of a record: packed, little-endian, every number on its natural boundary."""
+    """The NumPy record type of a record: packed, little-endian, every number aligned to its size. Raises TypeError."""
     import numpy as np
 
     if kind in _DTYPES:
         return _DTYPES[kind]
     parts: list[tuple[Any, ...]] = []
     for field in fields_of(kind):
-        one = _NUMPY[field.code] if field.code else dtype(field.kind)
-        parts.append((field.name, one) if field.count is None else (field.name, one, (field.count,)))
-    made = np.dtype(parts)
-    if made.itemsize % 8:
-        raise TypeError(f"{kind.__name__}: {made.itemsize} bytes; lists of narrow numbers must fill whole 8 bytes")
-    _DTYPES[kind] = made
-    return made
+        element = _NUMPY[field.code] if field.code else dtype(field.kind)
+        parts.append((field.name, element) if field.count is None else (field.name, element, (field.count,)))
+    result = np.dtype(parts)
+    if result.itemsize % 8:
+        raise TypeError(f"{kind.__name__}: {result.itemsize} bytes; lists of narrow numbers must fill whole 8 bytes")
+    _DTYPES[kind] = result
+    return result
 
 
 def numbers(state: Any) -> Iterator[float]:
-    """Every number of a plain record, in the order in which they lie in memory."""
+    """Every number of a plain record, in memory order."""
     for field in state._fields:
         if field.code:
             yield from field.elements(state)
@@ -122,8 +122,8 @@ def _layout(kind: Any) -> struct.Struct:
     def codes(kind: Any) -> str:
         parts = []
         for field in fields_of(kind):
-            one = field.code or codes(field.kind)
-            parts.append(one * (1 if field.count is None else field.count))
+            element = field.code or codes(field.kind)
+            parts.append(element * (1 if field.count is None else field.count))
         return "".join(parts)
 
     if kind not in _LAYOUTS:
@@ -132,7 +132,7 @@ def _layout(kind: Any) -> struct.Struct:
 
 
 def to_bytes(state: Any) -> bytes:
-    """A plain record as the bytes that the NumPy record has in memory."""
+    """The bytes of the equivalent NumPy record."""
     return _layout(type(state)).pack(*numbers(state))
 
 
@@ -145,7 +145,7 @@ def packed(states: Sequence[Any]) -> Any:
 
 
 def unpack(kind: type[T], row: Any) -> T:
-    """A plain record with the numbers of one element of a NumPy array of `dtype(kind)`."""
+    """A plain record from one element of a NumPy array of `dtype(kind)`."""
     stream = iter(_layout(kind).unpack(row.tobytes()))
     state = kind()
     _fill(state, stream)
@@ -164,18 +164,18 @@ def _fill(state: Any, stream: Iterator[float]) -> None:
 
 
 def copy(state: T) -> T:
-    """A snapshot of a plain record that shares nothing with it."""
+    """A deep copy of a plain record."""
     twin = type(state)()
     for field in state._fields:  # type: ignore[attr-defined]
         value = getattr(state, field.name)
         if field.code:
             setattr(twin, field.name, value if field.count is None else list(value))
         else:
-            setattr(twin, field.name, copy(value) if field.count is None else [copy(one) for one in value])
+            setattr(twin, field.name, copy(value) if field.count is None else [copy(element) for element in value])
     return twin
 
 
 def digest(state: Any) -> str:
-    """SHA-256 over every bit of a plain record or of one element of a NumPy array: equal states, equal digests."""
+    """SHA-256 over the bytes of a plain record or of one element of a NumPy array; equal for equal states."""
     raw = to_bytes(state) if hasattr(state, "_fields") else state.tobytes()
     return hashlib.sha256(raw).hexdigest()

@@ -1,7 +1,7 @@
-"""Chance that is alike in both bodies: the generator is a number in the match record.
+"""Random numbers, identical in plain and compiled code: the generator's state is a number in the match record.
 
-A linear congruential step modulo 2**31 (the constants of ISO C's example); only its high bits are used. Products stay
-below 2**62, so that numba's wrapping integers and Python's unbounded ones agree.
+A linear congruential generator modulo 2**31 (constants of the example in ISO C); only its high bits are used. Products
+stay below 2**62, so that numba's wrapping integers and Python's unbounded ones agree.
 """
 
 from typing import Any
@@ -20,12 +20,12 @@ def uniform(owner: Any) -> float:
 
 @kernel
 def bell(owner: Any) -> float:
-    """A draw from about a normal distribution, mean 0, standard deviation 0.5: three uniform ones less their mean."""
+    """An approximately normal number, mean 0, standard deviation 0.5: the sum of three uniform ones less its mean."""
     return float(uniform(owner) + uniform(owner) + uniform(owner) - 1.5)
 
 
 def seeded(seed: int) -> int:
-    """A state of the generator, far from those of neighbouring seeds. Any whole number will do."""
+    """The generator's state for a seed, which may be any whole number; neighbouring seeds give unrelated states."""
     mixed = (seed ^ 0x5DEECE66D) & ((1 << 64) - 1)
     for _ in range(2):
         mixed = ((mixed ^ (mixed >> 31)) * 0x9E3779B97F4A7C15) & ((1 << 64) - 1)

@@ -1,4 +1,4 @@
-"""How a robot drives: two wheels, first-order motor lag, and a turbo meter."""
+"""Motion of a simulated robot: differential drive with first-order motor lag, and a turbo meter."""
 
 from math import cos, exp, sin
 from typing import Any
@@ -7,16 +7,16 @@ from pigaming_app.sim.angles import wrap
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import DT
 
-RADIUS = 36.0
+RADIUS = 36.0  # px
 LAG = 0.08  # s, time constant of the motors
-GAIN = 1.0 - exp(-DT / LAG)
+GAIN = 1.0 - exp(-DT / LAG)  # share of the speed error that the motors remove in one tick
 
 
 @kernel
 def integrate(robot: Any) -> None:
-    """One tick of driving on an empty floor: the motors follow what is asked, the robot follows the motors.
+    """One tick of motion without contact: the motors approach the requested speeds, the robot follows the motors.
 
-    The middle of the arc gives its direction: exact for a straight line, and to 1e-4 px for the tightest bend.
+    Midpoint rule: exact on a straight line, and to 1e-4 px in the tightest bend.
     """
     robot.linear += (robot.ask_linear - robot.linear) * robot.gain
     robot.angular += (robot.ask_angular - robot.angular) * robot.gain
@@ -28,9 +28,9 @@ def integrate(robot: Any) -> None:
 
 @kernel
 def use_turbo(robot: Any, wanted: int, drain: float, refill: float) -> None:
-    """One tick of the turbo meter: it empties while turbo is on and fills while the button is up.
+    """One tick of the turbo meter: it drains while turbo is on and refills while the button is up.
 
-    An empty meter cuts out until the button has been released.
+    Once the meter is empty, turbo stays off until the button has been released.
     """
     if wanted and robot.turbo >= drain and (robot.boosting or robot.turbo >= 10.0 * drain):
         robot.turbo -= drain
@@ -45,12 +45,12 @@ def use_turbo(robot: Any, wanted: int, drain: float, refill: float) -> None:
 
 @kernel
 def stop(robot: Any) -> None:
-    """Ask a robot to stand."""
+    """Request zero speed of a robot."""
     robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
 
 
 @kernel
 def stop_all(world: Any) -> None:
-    """Ask every robot to stand."""
+    """Request zero speed of every robot."""
     for robot in world.robots:
         stop(robot)

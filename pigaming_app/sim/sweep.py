@@ -1,7 +1,7 @@
-"""What a moving circle, or a line of sight, meets first.
+"""Swept collision tests: the first contact of a moving circle, or of a line of sight.
 
-Everything is said as a fraction of the way, 0 at its start, 1 at its end; FAR means: nothing on the way. A circle that
-moves past an obstacle is a point that moves past the obstacle grown by the circle's radius.
+Times of contact are fractions of the displacement, 0 at its start, 1 at its end; FAR: no contact. A moving circle is
+treated as a point moving past the obstacle expanded by the circle's radius (Minkowski sum).
 """
 
 from math import sqrt
@@ -15,7 +15,7 @@ FAR = 2.0
 
 @kernel
 def disc_contact(x: float, y: float, dx: float, dy: float, cx: float, cy: float, reach: float) -> float:
-    """When a point going from (x, y) by (dx, dy) comes within `reach` of (cx, cy); 0 if it starts there.
+    """Time at which a point moving from (x, y) by (dx, dy) comes within `reach` of (cx, cy); 0 if it starts there.
 
     The smaller root of |p + t d - c|^2 = reach^2.
     """
@@ -27,16 +27,16 @@ def disc_contact(x: float, y: float, dx: float, dy: float, cx: float, cy: float,
     a = dx * dx + dy * dy
     if b >= 0.0 or a == 0.0:
         return FAR
-    inside = b * b - a * c
-    if inside < 0.0:
+    discriminant = b * b - a * c
+    if discriminant < 0.0:
         return FAR
-    t = (-b - sqrt(inside)) / a
+    t = (-b - sqrt(discriminant)) / a
     return t if t <= 1.0 else FAR
 
 
 @kernel
 def wall_contact(x: float, y: float, dx: float, dy: float, wall: Any, radius: float) -> float:
-    """When a circle going from (x, y) by (dx, dy) touches a wall: two discs and the strip between them."""
+    """Time at which a circle moving from (x, y) by (dx, dy) touches a wall: two discs and the strip between them."""
     reach = wall.half + radius
     ex, ey = wall.bx - wall.ax, wall.by - wall.ay
     length2 = ex * ex + ey * ey
@@ -66,7 +66,7 @@ def wall_contact(x: float, y: float, dx: float, dy: float, wall: Any, radius: fl
 
 @kernel
 def offset_from_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
-    """The way (dx, dy) to a point from the nearest point of a wall's centre line."""
+    """The vector (dx, dy) from the nearest point of a wall's centre line to a point."""
     ex, ey = wall.bx - wall.ax, wall.by - wall.ay
     px, py = x - wall.ax, y - wall.ay
     length2 = ex * ex + ey * ey
@@ -82,7 +82,7 @@ def offset_from_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
 
 @kernel
 def bounds_contact(x: float, y: float, dx: float, dy: float, width: float, height: float, radius: float) -> float:
-    """When a circle that starts inside the outer walls touches one of them; never FAR if its way ends beyond one."""
+    """Time at which a circle that starts inside the outer walls touches one; never FAR if it would end beyond one."""
     first = FAR
     if dx > 0.0 and x + dx >= width - radius:
         first = (width - radius - x) / dx
@@ -102,11 +102,11 @@ def bounds_contact(x: float, y: float, dx: float, dy: float, width: float, heigh
 
 @kernel
 def is_clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: float) -> int:
-    """1 if a circle can go from one point to the other without touching an inner wall; 0 px: whether one sees it."""
+    """1 if a circle can move from one point to the other without touching an inner wall. Radius 0: line of sight."""
     dx, dy = to_x - x, to_y - y
     left, right = (x, to_x) if dx > 0.0 else (to_x, x)
     top, bottom = (y, to_y) if dy > 0.0 else (to_y, y)
-    slack = RADIUS - radius  # the boxes of walls are as wide as a robot needs
+    slack = RADIUS - radius  # the walls' bounding boxes include RADIUS
     left += slack
     right -= slack
     top += slack

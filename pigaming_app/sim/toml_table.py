@@ -1,6 +1,6 @@
-"""TOML texts that anybody may have edited: every table knows its place in the file, so that errors name the key.
+"""Validated access to untrusted TOML: every table carries its path in the file, so that errors name the full key.
 
-`FieldError` carries the key and the reason; the caller adds the name of the file.
+`FieldError` has the key and the reason; the caller adds the name of the file.
 """
 
 import re
@@ -11,20 +11,20 @@ from typing import Any
 
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
-MOST_DOTS = 64  # in a key: tomllib takes quadratic time for long dotted keys
-MOST_TEXT = 200  # characters of a text in a message
+MAX_DOTS = 64  # in a key: tomllib takes quadratic time for long dotted keys
+MAX_TEXT = 200  # characters of a text in a message
 
 _QUOTE = reprlib.Repr()
-_QUOTE.maxstring = MOST_TEXT
+_QUOTE.maxstring = MAX_TEXT
 
 
 def printable(text: str) -> str:
-    """A text on one line of a message: as it is, or as a shortened literal if it is long or has control characters."""
-    return text if text.isprintable() and len(text) <= MOST_TEXT else _QUOTE.repr(text)
+    """A text for one line of a message: unchanged, or a shortened literal if it is long or has control characters."""
+    return text if text.isprintable() and len(text) <= MAX_TEXT else _QUOTE.repr(text)
 
 
 def quote(value: object) -> str:
-    """A value as a message quotes it: one line, shortened."""
+    """The literal of a value for a message: one line, shortened."""
     try:
         return reprlib.repr(value)
     except ValueError:  # Python does not print whole numbers of more than 4300 digits
@@ -32,7 +32,7 @@ def quote(value: object) -> str:
 
 
 class FieldError(Exception):
-    """Something in a file that cannot be used: the key, such as `wall[2].thick`, and the reason."""
+    """An entry of a file is invalid: the key, such as `wall[2].thick`, and the reason."""
 
     def __init__(self, key: str, reason: str) -> None:
         self.key, self.reason = printable(key), reason
@@ -40,15 +40,15 @@ class FieldError(Exception):
 
 
 class TomlTable:
-    """A table of a file; `path`: where it stands, such as `wall[2].`, empty for the whole file."""
+    """A table of a file; `path`: prefix of its keys, such as `wall[2].`, empty for the whole file."""
 
     def __init__(self, entries: Mapping[str, Any], path: str = "") -> None:
         self.entries, self.path = entries, path
 
     @classmethod
     def parse(cls, text: str) -> "TomlTable":
-        """The whole of a TOML text. Raises FieldError with the key `syntax`."""
-        if any(part.count(".") > MOST_DOTS for part in re.split(r"[\n=,]", text)):
+        """Parse a whole TOML text. Raises FieldError with the key `syntax`."""
+        if any(part.count(".") > MAX_DOTS for part in re.split(r"[\n=,]", text)):
             raise FieldError("syntax", "nested too deep")
         try:
             return cls(tomllib.loads(text))
@@ -61,13 +61,13 @@ class TomlTable:
         return key in self.entries
 
     def only(self, *known: str) -> None:
-        """Raises FieldError for a key that is not one of these."""
+        """Raises FieldError if the table has any other key."""
         for key in self.entries:
             if key not in known:
                 raise FieldError(self.path + key, f"unknown key; possible are {', '.join(known)}")
 
     def error(self, key: str, reason: str) -> FieldError:
-        """What is wrong with a key of this table."""
+        """An error for a key of this table, with its full path."""
         return FieldError(self.path + key, reason)
 
     def number(
@@ -82,7 +82,7 @@ class TomlTable:
         return float(value)
 
     def numbers(self, key: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """A list of so many numbers from `low` to `high`. Raises FieldError."""
+        """A list of `count` numbers from `low` to `high`. Raises FieldError."""
         values = self.entries.get(key)
         if not isinstance(values, list) or len(values) != count:
             raise self.error(key, f"a list of {count} numbers is needed")
@@ -95,13 +95,13 @@ class TomlTable:
         if not isinstance(point, list) or len(point) != 2:
             raise self.error(key, "a point [x, y] is needed")
         pair = TomlTable({key: point[0]}, self.path), TomlTable({key: point[1]}, self.path)
-        x, y = (one.number(key) for one in pair)
+        x, y = (coordinate.number(key) for coordinate in pair)
         if not (0 <= x <= WIDTH and 0 <= y <= HEIGHT):
             raise self.error(key, f"({x:g}, {y:g}) lies outside the arena, 0..{WIDTH:g} x 0..{HEIGHT:g}")
         return x, y
 
     def word(self, key: str, known: Sequence[str]) -> str:
-        """One of these words. Raises FieldError."""
+        """A text that must be one of `known`. Raises FieldError."""
         value = self.entries.get(key)
         if value not in known:
             raise self.error(key, f"{quote(value)}; possible are {', '.join(known)}")
@@ -115,7 +115,7 @@ class TomlTable:
         return TomlTable(entries, f"{self.path}{key}.")
 
     def tables(self, key: str) -> "list[TomlTable]":
-        """The tables [[key]], in the order of the file; none if there are none. Raises FieldError."""
+        """The tables [[key]], in file order; empty if there are none. Raises FieldError."""
         entries = self.entries.get(key, [])
         if not isinstance(entries, list):
             raise self.error(key, f"must be written as [[{key}]]")

@@ -1,18 +1,18 @@
-"""What every game has: a clock, a random generator, robots, walls, and what each seat asks for in this tick."""
+"""Records shared by every game: clock, random generator, robots, walls, and each seat's action in this tick."""
 
 from typing import Annotated
 
 from pigaming_app.sim.record import record
 
-HZ = 50
-DT = 1.0 / HZ
-WIDTH, HEIGHT = 1600.0, 900.0
+HZ = 50  # ticks per second
+DT = 1.0 / HZ  # s
+WIDTH, HEIGHT = 1600.0, 900.0  # px, of the arena
 ROBOTS = 4
 WALLS = 24
 CELL = 50.0  # px between the nodes of the grid
-COLUMNS, ROWS = 33, 19  # nodes at 0, 50 .. 1600 and 0, 50 .. 900; those on the rim are never free
+COLUMNS, ROWS = 33, 19  # nodes at 0, 50 .. 1600 and 0, 50 .. 900 px; those on the rim are never free
 NODES = COLUMNS * ROWS
-NODES_KEPT = NODES + 1  # fills whole 8 bytes
+NODES_KEPT = NODES + 1  # length of the arrays, padded to a multiple of 8 bytes
 
 
 @record
@@ -26,26 +26,26 @@ class Robot:
     x: float
     y: float
     heading: float
-    linear: float  # px/s, as the motors turn now
+    linear: float  # px/s, current speed
     angular: float  # rad/s
-    ask_linear: float  # what the game asks the plant for
+    ask_linear: float  # speeds that the game requests of the plant
     ask_angular: float
-    gain: float  # share of the way to the asked speed that the motors go in one tick
-    turbo: float  # what is left in the meter, 0..1
+    gain: float  # share of the speed error that the motors remove in one tick
+    turbo: float  # charge of the meter, 0..1
 
 
 @record
 class Wall:
-    """A thick segment from (ax, ay) to (bx, by): everything nearer to it than `half` px is wall."""
+    """A capsule: all points within `half` px of the segment from (ax, ay) to (bx, by)."""
 
     ax: float
     ay: float
     bx: float
     by: float
     half: float
-    health: int  # bullets it still takes; SOLID: it takes any number; 0: gone
-    whole: int  # the health it began with
-    left: float  # the box outside which no robot's centre touches it
+    health: int  # bullets it still takes; SOLID: indestructible; 0: gone
+    whole: int  # initial health
+    left: float  # bounding box, expanded by a robot's radius
     right: float
     top: float
     bottom: float
@@ -56,13 +56,13 @@ SOLID = -1
 
 @record
 class Action:
-    """What a seat asks for: stick and buttons. The stick comes in 64ths of full, so that a file holds it exactly."""
+    """Input of one seat: stick and buttons. The stick has steps of 1/64, which a replay file stores exactly."""
 
-    linear: float  # -1..1, ahead positive
+    linear: float  # -1..1, forward positive
     angular: float  # -1..1, clockwise positive
     fire: int
     turbo: int
-    aim: int  # what it says it makes for, as its game counts that from 1, up to 63; 0: it does not say
+    aim: int  # target that the seat declares, numbered 1 to 63 by its game; 0: none
 
 
 @record
@@ -76,4 +76,4 @@ class World:
     actions: Annotated[list[Action], ROBOTS]
     wall_count: int
     walls: Annotated[list[Wall], WALLS]
-    grid: Annotated[list[int], NODES_KEPT, "h"]  # see navigate: walls that block a node, and walls near it
+    grid: Annotated[list[int], NODES_KEPT, "h"]  # see grid.py: walls that block a node, and walls near it

@@ -1,7 +1,7 @@
-"""Exclusive access to a file that several copies of the program may write.
+"""Exclusive access to a file that several instances of the program may write.
 
-The lock is the operating system's: it ends with the process that holds it, even if that is killed. Only the empty lock
-file stays, and means nothing by itself.
+The lock is an operating system lock, released when its process ends, even if killed. The empty lock file remains, which
+is harmless.
 """
 
 import contextlib
@@ -13,8 +13,8 @@ from pathlib import Path
 
 from pigaming_app.storage.safe_files import NotSaved
 
-TIMEOUT = 2.0  # seconds
-RETRY_INTERVAL = 0.01  # seconds
+TIMEOUT = 2.0  # s
+RETRY_INTERVAL = 0.01  # s
 
 if sys.platform == "win32":
     import msvcrt
@@ -22,7 +22,7 @@ if sys.platform == "win32":
     BUSY: tuple[type[OSError], ...] = (OSError,)
 
     def _take(handle: int) -> None:
-        """Lock the first byte; the end of the process or of the handle unlocks it. Raises OSError if it is taken."""
+        """Lock the first byte; closing the handle or ending the process unlocks it. Raises OSError if locked."""
         msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
 else:
     import fcntl
@@ -30,21 +30,21 @@ else:
     BUSY = (BlockingIOError,)
 
     def _take(handle: int) -> None:
-        """Lock the file; the end of the process or of the handle unlocks it. Raises BlockingIOError if it is taken."""
+        """Lock the file; closing the handle or ending the process unlocks it. Raises BlockingIOError if locked."""
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 @contextlib.contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Hold the lock of `path`, the file `.NAME.lock` beside it. Raises NotSaved after TIMEOUT seconds of waiting.
+    """Hold the lock of `path`, the file `.NAME.lock` in its folder. Raises NotSaved after TIMEOUT.
 
-    Where a lock file cannot be written, or the file system has no locks, the block runs without one.
+    If the lock file cannot be written, or the file system has no locks, the block runs without a lock.
     """
-    with contextlib.ExitStack() as held:
+    with contextlib.ExitStack() as stack:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             handle = os.open(path.with_name(f".{path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o666)
-            held.callback(os.close, handle)
+            stack.callback(os.close, handle)
             _wait(handle, time.monotonic() + TIMEOUT)
         except TimeoutError:
             raise NotSaved(f"{path} was not saved: another copy of the arcade is using it.") from None
@@ -53,13 +53,13 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
-def _wait(handle: int, until: float) -> None:
-    """Take the lock as soon as it is free. Raises TimeoutError at `until`, OSError where there are no locks."""
+def _wait(handle: int, deadline: float) -> None:
+    """Take the lock once it is free. Raises TimeoutError at `deadline`, OSError if locks are not supported."""
     while True:
         try:
             _take(handle)
             return
         except BUSY:
-            if time.monotonic() >= until:
+            if time.monotonic() >= deadline:
                 raise TimeoutError from None
             time.sleep(RETRY_INTERVAL)

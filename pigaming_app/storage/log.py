@@ -1,4 +1,4 @@
-"""The log of the arcade and of the jobs of real robots: one file among the user's own, of bounded size."""
+"""Log file of the arcade and of the jobs with real robots, of bounded size."""
 
 import contextlib
 import errno
@@ -9,11 +9,11 @@ from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
 FILE = "pigaming.log"
-LONGEST = 65_536  # bytes at the end of the log in which a torn line is looked for
+MAX_LINE = 65_536  # bytes at the end of the log that are searched for an incomplete line
 
 
 class LogFile(RotatingFileHandler):
-    """Appends whole lines to a file. A full disk costs lines, nothing else."""
+    """A rotating log file of whole lines. Write errors, such as a full disk, lose lines but are not reported."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(path, maxBytes=500_000, backupCount=1, encoding="utf-8", errors="backslashreplace")
@@ -29,7 +29,7 @@ class LogFile(RotatingFileHandler):
             super().close()
 
     def _abandon(self) -> None:
-        """Close the file without what could not be written; the next line opens it again."""
+        """Close the file and remove an incomplete last line; the next line reopens it."""
         stream, self.stream = self.stream, None
         with contextlib.suppress(OSError):
             if stream:
@@ -39,7 +39,7 @@ class LogFile(RotatingFileHandler):
 
 
 def log_file(data: Path) -> LogFile:
-    """The handler that writes the log in the data folder. Raises OSError where that cannot be written."""
+    """A handler for the log in the data folder. Raises OSError if it cannot be written."""
     data.mkdir(parents=True, exist_ok=True)
     require_file(data / FILE)
     handler = LogFile(data / FILE)
@@ -48,7 +48,7 @@ def log_file(data: Path) -> LogFile:
 
 
 def append_line(data: Path, sentence: str) -> None:
-    """Write one sentence into the log; where that cannot be, it stands on the screen only."""
+    """Append a sentence to the log as a warning. Does nothing if the log cannot be written."""
     try:
         handler = log_file(data)
     except OSError:
@@ -58,17 +58,17 @@ def append_line(data: Path, sentence: str) -> None:
 
 
 def require_file(path: Path) -> None:
-    """Raises OSError if something else than a regular file is there: opening a pipe would wait for its reader."""
+    """Raises OSError if `path` exists and is not a regular file: opening a pipe would block until it has a reader."""
     if path.exists() and not path.is_file():
         raise OSError(errno.EINVAL, "it is not a file")
 
 
 def _cut_torn_line(path: str) -> None:
-    """Take away what follows the last end of a line. Raises OSError."""
+    """Remove an incomplete last line. Raises OSError."""
     with open(path, "r+b") as file:
         size = file.seek(0, os.SEEK_END)
-        begin = max(0, size - LONGEST)
+        begin = max(0, size - MAX_LINE)
         file.seek(begin)
-        end = file.read(LONGEST).rfind(b"\n") + 1
+        end = file.read(MAX_LINE).rfind(b"\n") + 1
         if end or not begin:
             file.truncate(begin + end)

@@ -1,6 +1,6 @@
-"""Reading files that anybody may have edited: capped size, regular files only, and one short reason for every failure.
+"""Reading and parsing of untrusted files: capped size, regular files only, a short reason for every failure.
 
-Whole numbers beyond 64 bits come back as an infinity, so that every range check refuses them.
+Whole numbers beyond 64 bits are parsed as infinities, so that every range check rejects them.
 """
 
 import errno
@@ -13,23 +13,23 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-MAX_BYTES = 1_000_000  # bytes of a file, where nothing else is given
+MAX_BYTES = 1_000_000  # default limit for a file
 MAX_DEPTH = 32  # levels of tables and lists
 QUOTE_LENGTH = 60  # characters of a value in a message
 MESSAGE_LENGTH = 400  # characters of a whole message
 _WHOLE = range(-(2**63), 2**63)
-_DIGITS = 400  # from here on a whole number is infinite as a float, too
+_DIGITS = 400  # whole numbers of so many digits overflow a float
 
 
 class ParseError(ValueError):
-    """A text that cannot be parsed; the message is a short reason."""
+    """A text cannot be parsed; the message is a short reason."""
 
 
 def read(path: Path, limit: int = MAX_BYTES) -> bytes:
-    """The content of a regular file of at most `limit` bytes; devices and pipes are refused. Raises OSError."""
+    """Read a regular file of at most `limit` bytes. Raises OSError, also for devices, pipes and larger files."""
     if not stat.S_ISREG(os.stat(path).st_mode):
         raise OSError(errno.EISDIR if path.is_dir() else errno.EINVAL, "it is not a file")
-    with open(path, "rb", opener=_without_waiting) as file:
+    with open(path, "rb", opener=_open_non_blocking) as file:
         opened = os.fstat(file.fileno())
         if not stat.S_ISREG(opened.st_mode):
             raise OSError(errno.EINVAL, "it is not a file")
@@ -40,15 +40,15 @@ def read(path: Path, limit: int = MAX_BYTES) -> bytes:
 
 
 def read_text(path: Path, limit: int = MAX_BYTES) -> str:
-    """The text of a UTF-8 file, without a byte order mark. Raises OSError or ParseError."""
+    """Read a UTF-8 file, without its byte order mark. Raises OSError or ParseError."""
     try:
-        return read(path, limit).decode("utf-8-sig")  # Notepad writes the mark
+        return read(path, limit).decode("utf-8-sig")  # Notepad writes a byte order mark
     except UnicodeDecodeError:
         raise ParseError("it is not text in UTF-8") from None
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """The tables of a TOML text. Raises ParseError."""
+    """Parse a TOML text. Raises ParseError."""
     if any(part.count(".") > 2 * MAX_DEPTH for part in re.split(r"[\n=,]", text)):
         raise ParseError(f"nested more than {MAX_DEPTH} deep")  # tomllib takes quadratic time for long dotted keys
     try:
@@ -64,7 +64,7 @@ def parse_toml(text: str) -> dict[str, Any]:
 
 
 def parse_json(text: str | bytes) -> Any:
-    """The value of a JSON text. NaN and infinities are accepted. Raises ParseError."""
+    """Parse a JSON text. NaN and infinities are accepted. Raises ParseError."""
     try:
         value = json.loads(text, parse_int=_whole)
     except UnicodeDecodeError:
@@ -73,13 +73,13 @@ def parse_json(text: str | bytes) -> Any:
         raise ParseError(one_line(str(error))) from None
     except (RecursionError, MemoryError):
         raise ParseError(f"nested more than {MAX_DEPTH} deep") from None
-    whole = [value]
-    _bound(whole)
-    return whole[0]
+    root = [value]
+    _bound(root)
+    return root[0]
 
 
 def describe_error(error: Exception) -> str:
-    """Why a file could not be read or written, to follow a colon or stand in brackets."""
+    """The reason why a file could not be read or written, as a phrase for a message."""
     if not isinstance(error, OSError):
         return one_line(str(error))
     match error.errno:
@@ -92,19 +92,19 @@ def describe_error(error: Exception) -> str:
 
 
 def quote(value: object) -> str:
-    """A value as a message quotes it: one line, not too long."""
+    """The literal of a value for a message: one line, shortened."""
     return one_line(repr(value), QUOTE_LENGTH)
 
 
-def one_line(text: str, most: int = MESSAGE_LENGTH) -> str:
-    """Text on one line: control characters, line ends and broken Unicode are escaped, a long middle is left out."""
-    if len(text) > most:
-        text = f"{text[: 2 * most // 3]}…{text[-most // 3 :]}"
-    return "".join(one if one.isprintable() else ascii(one)[1:-1] for one in text)
+def one_line(text: str, limit: int = MESSAGE_LENGTH) -> str:
+    """A text on one line: control characters, line ends and invalid Unicode escaped, the middle of long texts cut."""
+    if len(text) > limit:
+        text = f"{text[: 2 * limit // 3]}…{text[-limit // 3 :]}"
+    return "".join(char if char.isprintable() else ascii(char)[1:-1] for char in text)
 
 
-def _without_waiting(path: str, flags: int) -> int:
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))  # a pipe has no writer perhaps
+def _open_non_blocking(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))  # opening a pipe without a writer would block
 
 
 def _whole(digits: str) -> int | float:
@@ -112,7 +112,7 @@ def _whole(digits: str) -> int | float:
 
 
 def _bound(tree: list[Any]) -> None:
-    """Make whole numbers beyond 64 bits infinite. Raises ParseError for a tree that is too deep."""
+    """Replace whole numbers beyond 64 bits by infinities. Raises ParseError if the tree is deeper than MAX_DEPTH."""
     level: list[Any] = [tree]
     for _ in range(MAX_DEPTH + 1):
         deeper: list[Any] = []

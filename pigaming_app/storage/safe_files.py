@@ -1,8 +1,8 @@
-"""Writing files so that a pulled plug, a full disk or a kill leaves each of them whole: the new one or the one before.
+"""Crash-safe writing of files: after a power cut, full disk or kill a file is complete, either the new or the old one.
 
-`write_atomic` and `AtomicFile` replace a file in one step; `write_with_backup` also keeps the version before as `.bak`.
-`read_or_restore` reads one back: a file that cannot be read is put aside under another name and the `.bak` takes its
-place. A killed process leaves its temporary file behind, which `delete_temporary_files` deletes.
+`write_atomic` and `AtomicFile` replace a file in one step; `write_with_backup` also saves the previous version as
+`.bak`. `read_or_restore` reads a file; an unreadable one is renamed and replaced by the `.bak`. A killed process leaves
+its temporary file behind, which `delete_temporary_files` deletes.
 """
 
 import contextlib
@@ -20,59 +20,58 @@ from typing import IO, TypeVar
 from pigaming_app.storage.parsing import MAX_BYTES, describe_error, one_line, read, read_text
 
 T = TypeVar("T")
-LARGEST = 16_000_000  # bytes of a file that gets a `.bak`
-STALE = 86_400.0  # s after which a temporary file is left over, on disks that know no locks
-_TEMPORARY = re.compile(r"\.(pigaming|.+\.(toml|bak|json|npz))-\w{8}(\.tmp)?")  # up to 1.3.0 named after the file
+MAX_BACKUP = 16_000_000  # bytes, largest file that gets a `.bak`
+STALE = 86_400.0  # s, age at which a temporary file counts as abandoned, on file systems without locks
+_TEMPORARY = re.compile(r"\.(pigaming|.+\.(toml|bak|json|npz))-\w{8}(\.tmp)?")  # until 1.3.0 named after the file
 
 
 class NotSaved(OSError):
-    """A file was not written; the one before it is intact. The text is one sentence for the operator."""
+    """A file was not written; the previous version is intact. The text is a sentence for the operator."""
 
 
 class AtomicFile:
-    """A file being written beside `path`, which it replaces in one step when it is finished.
+    """A temporary file in the folder of `path`, which atomically replaces it when finished.
 
-    Every method raises OSError; then the draft is gone and what stood at `path` is intact.
+    Every method raises OSError; the temporary file is then deleted and `path` is intact.
     """
 
     def __init__(self, path: Path) -> None:
-        self._target = Path(os.path.realpath(path))  # a link stays a link
+        self._target = Path(os.path.realpath(path))  # preserves symbolic links
         _require_writable(self._target)
         self._name, self._file = _temporary(self._target.parent)
         self._pending = True
 
     def write(self, raw: bytes) -> None:
-        """Append to it."""
-        with self._or_discarded():
+        with self._discard_on_error():
             self._file.write(raw)
 
     def finish(self) -> None:
-        """Put it in the place of the file."""
-        with self._or_discarded():
+        """Replace `path` with the temporary file."""
+        with self._discard_on_error():
             self._file.flush()
             os.fsync(self._file.fileno())
             with contextlib.suppress(FileNotFoundError):
                 os.chmod(self._name, stat.S_IMODE(os.stat(self._target).st_mode))
             if os.name == "nt":
-                self._file.close()  # Windows renames closed files only
+                self._file.close()  # Windows can rename closed files only
             os.replace(self._name, self._target)
             self._pending = False
             self._file.close()
         _sync_folder(self._target.parent)
 
     def discard(self) -> None:
-        """Delete it; what stood at `path` stays. After `finish` this does nothing."""
+        """Delete the temporary file and leave `path` unchanged. No effect after `finish`."""
         if not self._pending:
             return
         self._pending = False
         if os.name != "nt":
-            _delete(self._name)  # while the lock is held
+            _delete(self._name)  # before the lock is released
         with contextlib.suppress(OSError):
             self._file.close()
         _delete(self._name)
 
     @contextlib.contextmanager
-    def _or_discarded(self) -> Iterator[None]:
+    def _discard_on_error(self) -> Iterator[None]:
         try:
             yield
         except BaseException:
@@ -81,48 +80,52 @@ class AtomicFile:
 
 
 def write_atomic(path: Path, raw: bytes) -> None:
-    """Write a file, whole or not at all; missing folders are made. Raises NotSaved."""
-    with _blamed(path):
+    """Write a file atomically; missing folders are created. Raises NotSaved."""
+    with _as_not_saved(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         _replace(path, raw)
 
 
 def require_writable(path: Path) -> None:
-    """Raises NotSaved if a file at `path` cannot be written; deletes what killed processes left beside it."""
-    with _blamed(path, "cannot be written"):
+    """Raises NotSaved if `path` cannot be written; also deletes abandoned temporary files in its folder."""
+    with _as_not_saved(path, "cannot be written"):
         AtomicFile(path).discard()
         delete_temporary_files(path.absolute().parent)
 
 
 def write_with_backup(path: Path, text: str) -> None:
-    """Write `text` (UTF-8) to `path`, missing folders too; what stood there becomes `.bak`. Raises NotSaved."""
-    with _blamed(path):
+    """Write `text` (UTF-8) atomically and save the previous version as `.bak`. Raises NotSaved."""
+    with _as_not_saved(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         with contextlib.suppress(FileNotFoundError):
-            _replace(_backup(path), read(path, LARGEST))
+            _replace(_backup(path), read(path, MAX_BACKUP))
         _replace(path, text.encode())
 
 
 def read_or_restore(path: Path, parse: Callable[[str], T], limit: int = MAX_BYTES) -> tuple[T | None, list[str]]:
-    """What `parse` (which raises ValueError) makes of the file, and what to tell the operator. No file: None."""
+    """Parse a file, or its backup if that fails. Returns the result and sentences for the operator.
+
+    The result is None if there is no file, or neither can be parsed. `parse` raises ValueError for an invalid text. An
+    unreadable file is renamed and replaced by its backup.
+    """
     try:
         return parse(read_text(path, limit)), []
     except FileNotFoundError:
         return None, []
     except (OSError, ValueError) as error:
-        said = f"{path} cannot be read ({describe_error(error)}); {_put_aside(path)}"
+        message = f"{path} cannot be read ({describe_error(error)}); {_put_aside(path)}"
     backup = _backup(path)
     try:
         restored = parse(read_text(backup, limit))
     except (OSError, ValueError):
-        return None, [f"{said}; starting afresh."]
+        return None, [f"{message}; starting afresh."]
     with contextlib.suppress(OSError):
-        _replace(path, read(backup, LARGEST))
-    return restored, [f"{said}; the version before it is back."]
+        _replace(path, read(backup, MAX_BACKUP))
+    return restored, [f"{message}; the version before it is back."]
 
 
 def delete_temporary_files(*folders: Path) -> None:
-    """Delete the temporary files that killed processes left in these folders; those being written stay."""
+    """Delete abandoned temporary files in these folders; those still being written remain."""
     for folder in folders:
         with contextlib.suppress(OSError):
             for entry in os.scandir(folder):
@@ -131,14 +134,14 @@ def delete_temporary_files(*folders: Path) -> None:
 
 
 @contextlib.contextmanager
-def _blamed(path: Path, what: str = "was not saved") -> Iterator[None]:
-    """Turn what goes wrong with a file meanwhile into NotSaved with its name."""
+def _as_not_saved(path: Path, failure: str = "was not saved") -> Iterator[None]:
+    """Convert errors of the block to NotSaved, with the file's name."""
     try:
         yield
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
-        refused = NotSaved(one_line(f"{path} {what}: {describe_error(error)}."))
-        refused.errno = getattr(error, "errno", None)
-        raise refused from error
+        not_saved = NotSaved(one_line(f"{path} {failure}: {describe_error(error)}."))
+        not_saved.errno = getattr(error, "errno", None)
+        raise not_saved from error
 
 
 def _replace(path: Path, raw: bytes) -> None:
@@ -148,7 +151,7 @@ def _replace(path: Path, raw: bytes) -> None:
 
 
 def _require_writable(target: Path) -> None:
-    """Raises OSError unless a regular file is or can be there."""
+    """Raises OSError if `target` exists and is not a writable regular file."""
     with contextlib.suppress(FileNotFoundError):
         if stat.S_ISDIR(mode := os.stat(target).st_mode):
             raise IsADirectoryError(errno.EISDIR, "it is a folder")
@@ -159,7 +162,7 @@ def _require_writable(target: Path) -> None:
 
 
 def _temporary(folder: Path) -> tuple[str, IO[bytes]]:
-    """An empty file in the folder, open and locked."""
+    """Create an empty file in the folder, open and locked. Raises OSError."""
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0)
     while True:
         name = str(folder / f".pigaming-{os.urandom(4).hex()}.tmp")
@@ -167,17 +170,17 @@ def _temporary(folder: Path) -> tuple[str, IO[bytes]]:
             file = open(os.open(name, flags, 0o666), "wb")  # noqa: SIM115
         except FileExistsError:
             continue
-        with contextlib.suppress(OSError):  # a disk without locks
+        with contextlib.suppress(OSError):  # a file system without locks
             _lock(file, wait=True)
         if os.fstat(file.fileno()).st_nlink:
             return name, file
-        file.close()  # swept away by another process before it was locked
+        file.close()  # deleted by another process before it was locked
 
 
 def _lock(file: IO[bytes], wait: bool) -> bool:
-    """Take the lock, which the system gives back however this process ends; false if another has it. Raises OSError."""
+    """Take the lock, which the system releases when the process ends; False if another has it. Raises OSError."""
     if sys.platform == "win32":
-        return True  # there a file that is open cannot be deleted
+        return True  # Windows does not delete open files
     import fcntl
 
     try:
@@ -207,7 +210,7 @@ def _delete(name: str) -> None:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Make a rename in the folder survive a pulled plug, where the system can."""
+    """Make a rename in the folder survive a power cut, if the system supports it."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:

@@ -1,8 +1,8 @@
-"""What an operator may change, and where the arcade keeps its files.
+"""The operator's settings, and the folders of the arcade's files.
 
-Settings are one TOML file in the platform's own place. It may be edited by hand: whatever in it is wrong is named,
-with file, key and reason, and its default is used instead. Several copies of the arcade may share it: each writes only
-the settings that it has changed itself.
+Settings are one TOML file in the platform's standard folder. It may be edited by hand: every invalid entry is reported
+with file, key and reason, and replaced by its default. Several instances of the arcade may share it: each writes only
+the settings that it has changed.
 """
 
 import logging
@@ -16,10 +16,10 @@ from pigaming_app.storage.parsing import one_line, parse_toml, quote
 from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
 
 FILE = "settings.toml"
-FORMER = ("arena", "minutes", "variant")  # stood alone when there was one game
-LONGEST = 60  # characters of a name
-MOST_GAMES = 64
-MOST_SENTENCES = 5  # about one file
+LEGACY_KEYS = ("arena", "minutes", "variant")  # top-level settings of PiTanks, from when it was the only game
+MAX_NAME = 60  # characters
+MAX_GAMES = 64
+MAX_MESSAGES = 5  # per file
 log = logging.getLogger("pigaming")
 
 
@@ -33,7 +33,7 @@ class Folders:
 
 
 def folders() -> Folders:
-    """The platform's folders; the environment variable PIGAMING_HOME puts all three into one place."""
+    """The platform's standard folders, or subfolders of the environment variable PIGAMING_HOME if set."""
     if home := os.environ.get("PIGAMING_HOME"):
         return Folders(Path(home, "config"), Path(home, "data"), Path(home, "cache"))
     from platformdirs import PlatformDirs
@@ -43,15 +43,15 @@ def folders() -> Folders:
 
 
 class Validator(Protocol):
-    """What may stand in a setting."""
+    """A check of a setting's value."""
 
     def error(self, value: object) -> str | None:
-        """Why the value does not fit, to follow "is", or None."""
+        """The reason why a value is invalid, as a phrase that follows "is"; None if it is valid."""
 
 
 @dataclass(frozen=True)
 class Range:
-    """Whole numbers, or any where `low` is a float, from `low` to `high`, both allowed."""
+    """Numbers from `low` to `high`, both included; whole numbers only if `low` is an int."""
 
     low: float
     high: float
@@ -81,31 +81,31 @@ class Boolean:
 
 
 class ShortText:
-    """A name of something that may have gone since: who uses it looks whether it is there."""
+    """A name of something that may no longer exist; users of the setting must check."""
 
     def error(self, value: object) -> str | None:
-        short = isinstance(value, str) and len(value) <= LONGEST and value.isprintable()
+        short = isinstance(value, str) and len(value) <= MAX_NAME and value.isprintable()
         return None if short else "not a short text"
 
 
 @dataclass(frozen=True)
 class SeatNumbers:
-    """Different whole numbers from 1 to 4: any of them, or, if `all_of_them`, all."""
+    """A list of different whole numbers from 1 to 4; all four if `all_of_them`."""
 
     all_of_them: bool = False
 
     def error(self, value: object) -> str | None:
-        known = isinstance(value, list) and all(type(one) is int and 1 <= one <= 4 for one in value)
-        if not known or len(set(value)) != len(value):  # type: ignore[call-overload, arg-type]
+        valid = isinstance(value, list) and all(type(seat) is int and 1 <= seat <= 4 for seat in value)
+        if not valid or len(set(value)) != len(value):  # type: ignore[call-overload, arg-type]
             return "not a list of different numbers from 1 to 4"
         return "not all of 1, 2, 3, 4" if self.all_of_them and len(value) != 4 else None  # type: ignore[arg-type]
 
 
 class Corners:
-    """Nothing, or eight whole numbers: where the corners of the picture are, px of the canvas."""
+    """An empty list, or eight whole numbers: the corners of the picture, px of the canvas."""
 
     def error(self, value: object) -> str | None:
-        whole = isinstance(value, list) and all(type(one) is int and abs(one) < 10000 for one in value)
+        whole = isinstance(value, list) and all(type(number) is int and abs(number) < 10000 for number in value)
         return None if whole and len(value) in (0, 8) else "neither empty nor eight whole numbers"  # type: ignore[arg-type]
 
 
@@ -115,7 +115,7 @@ def _setting(default: Any, validator: Validator) -> Any:
 
 @dataclass
 class Choice:
-    """What was last chosen in the setup of one game; what is empty or 0 is the game's own."""
+    """The last choices in the setup of one game; empty or 0 is the game's default."""
 
     arena: str = _setting("", ShortText())
     minutes: int = _setting(0, Range(0, 60))
@@ -124,13 +124,13 @@ class Choice:
 
 
 _DEFAULT = Choice()
-Key = tuple[str | None, str]  # game, or None, and name of a setting
+Key = tuple[str | None, str]  # game or None, name of the setting
 Flat = dict[Key, Any]
 
 
 @dataclass
 class Settings:
-    """What the operator chose, and what was last chosen before a match."""
+    """The operator's settings, and the last choices before a match."""
 
     language: str = _setting("en", OneOf(("en", "pt")))
     music: int = _setting(6, Range(0, 10))
@@ -139,19 +139,19 @@ class Settings:
     shake: bool = _setting(True, Boolean())
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Boolean())
-    attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # of nobody pressing anything
+    attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # without input
     corners: list[int] = field(
         default_factory=list, metadata={"validator": Corners()}
     )  # of the picture on the projector
     strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
     camera: int = _setting(0, Range(0, 63))  # over the mat
     arena_mm: float = _setting(2112.0, Range(500.0, 10000.0))  # the arena's width on the mat
-    camera_mm: float = _setting(2500.0, Range(0.0, 10000.0))  # the camera's height above it; 0: a robot tells it
+    camera_mm: float = _setting(2500.0, Range(0.0, 10000.0))  # the camera's height above it; 0: measured with a robot
     lid_mm: float = _setting(70.0, Range(0.0, 300.0))  # the height of the robots' lids
-    port: str = _setting("", ShortText())  # of the radio; empty: the first there is
+    port: str = _setting("", ShortText())  # of the radio; empty: the first one found
     baud: int = _setting(57600, Range(1200, 921600))
-    radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # how it is set
-    mat: bool = _setting(False, Boolean())  # real robots can be chosen
+    radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # its mode
+    mat: bool = _setting(False, Boolean())  # real robots are selectable
     real: list[int] = field(
         default_factory=list, metadata={"validator": SeatNumbers()}
     )  # seats with real robots, last chosen
@@ -161,54 +161,54 @@ class Settings:
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:
-        self._base: Flat | None = None  # as this copy loaded or saved it last; None: all of it is chosen here
-        self._seen: Flat = {}  # the file as it was then
+        self._base: Flat | None = None  # as last loaded or saved; None: never, so all values count as changed
+        self._seen: Flat = {}  # content of the file at that time
 
     @classmethod
     def load(cls, folder: Path) -> "tuple[Settings, list[str]]":
-        """The settings kept in the folder, and one sentence for everything that was wrong with them."""
-        found, said = read_or_restore(folder / FILE, parse_toml)
+        """Load the settings from the folder; returns them with a sentence for every problem."""
+        table, problems = read_or_restore(folder / FILE, parse_toml)
         settings = cls()
-        said += _fill_all(settings, dict(found or {}), folder / FILE)
+        problems += _fill_all(settings, dict(table or {}), folder / FILE)
         settings._base = settings._seen = _flat(settings)
-        return settings, said
+        return settings, problems
 
     def choice(self, game: str) -> Choice:
-        """What was last chosen for a game; write to it what is chosen now."""
+        """The last choices for a game, to be modified in place."""
         return self.games.setdefault(game, Choice())
 
     def choose(self, name: str, value: object) -> None:
-        """Set one setting. Raises ValueError with why the value does not fit."""
-        if error := next(one.metadata["validator"] for one in fields(self) if one.name == name).error(value):
+        """Change a setting. Raises ValueError with the reason if the value is invalid."""
+        if error := next(entry.metadata["validator"] for entry in fields(self) if entry.name == name).error(value):
             raise ValueError(f"{name} = {value!r} is {error}")
         setattr(self, name, value)
 
     def save(self, folder: Path) -> None:
-        """Merge what was changed here into the file. Raises NotSaved; then the settings kept before are intact."""
+        """Merge the changes of this instance into the file. Raises NotSaved; the file is then intact."""
         import tomli_w
 
         path, own = folder / FILE, _flat(self)
         with locked(path):
-            there, said = Settings.load(folder)
-            for sentence in [*said, *self._foreign(_flat(there))]:
+            merged, problems = Settings.load(folder)
+            for sentence in [*problems, *self._foreign(_flat(merged))]:
                 log.warning("%s", sentence)
             for key in self._changed():
-                there._set(key, own[key])
-            write_with_backup(path, tomli_w.dumps(asdict(there)))
-        self._base, self._seen = own, _flat(there)
+                merged._set(key, own[key])
+            write_with_backup(path, tomli_w.dumps(asdict(merged)))
+        self._base, self._seen = own, _flat(merged)
 
     def _changed(self) -> list[Key]:
-        """What was changed here since it was loaded or saved."""
+        """The settings changed by this instance since it last loaded or saved."""
         own = _flat(self)
         return [*own] if self._base is None else _differing(own, self._base)
 
-    def _foreign(self, there: Flat) -> list[str]:
-        """What another copy of the arcade has changed in the file, in sentences for the log."""
-        foreign = _differing(there, self._seen) if self._base is not None else []
+    def _foreign(self, stored: Flat) -> list[str]:
+        """Sentences for the log on changes to the file by other instances of the arcade."""
+        foreign = _differing(stored, self._seen) if self._base is not None else []
         own = self._changed()
         kept, lost = [key for key in foreign if key not in own], [key for key in foreign if key in own]
-        said = [f"settings of another copy of the arcade kept: {_names(kept)}."] if kept else []
-        return [*said, f"settings of another copy of the arcade replaced: {_names(lost)}."] if lost else said
+        messages = [f"settings of another copy of the arcade kept: {_names(kept)}."] if kept else []
+        return [*messages, f"settings of another copy of the arcade replaced: {_names(lost)}."] if lost else messages
 
     def _set(self, key: Key, value: object) -> None:
         game, name = key
@@ -216,7 +216,7 @@ class Settings:
 
 
 def _flat(settings: Settings) -> Flat:
-    """Every setting by its key, those of the games too."""
+    """Every setting by its key, including those of the games."""
     flat: Flat = {(None, name): value for name, value in asdict(settings).items() if name != "games"}
     for game, choice in settings.games.items():
         flat |= {(game, name): value for name, value in asdict(choice).items()}
@@ -224,40 +224,44 @@ def _flat(settings: Settings) -> Flat:
 
 
 def _differing(now: Flat, before: Flat) -> list[Key]:
-    """The keys whose values differ; a game that was not there had its defaults."""
+    """The keys whose values differ; a missing game counts as having the defaults."""
     return [key for key, value in now.items() if before.get(key, getattr(_DEFAULT, key[1], None)) != value]
 
 
 def _names(keys: list[Key]) -> str:
-    return ", ".join(one_line(name if game is None else f"games.{game}.{name}") for game, name in keys[:MOST_SENTENCES])
+    return ", ".join(one_line(name if game is None else f"games.{game}.{name}") for game, name in keys[:MAX_MESSAGES])
 
 
 def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str]:
-    """Set what fits in the tables of a file; sentences for what does not."""
+    """Apply the valid entries of a file; returns sentences on the others."""
     games = table.pop("games", {})
-    former = {key: table.pop(key) for key in FORMER if key in table}
-    said = _fill(settings.choice("pitanks"), former, f"{path}: ") if former else []
-    said += _fill(settings, table, f"{path}: ")
+    legacy = {key: table.pop(key) for key in LEGACY_KEYS if key in table}
+    problems = _fill(settings.choice("pitanks"), legacy, f"{path}: ") if legacy else []
+    problems += _fill(settings, table, f"{path}: ")
     for game, entries in games.items() if isinstance(games, dict) else [("games", games)]:
         if not isinstance(entries, dict):
-            said.append(f"{path}: {one_line(game, LONGEST)} is not a table; it is ignored.")
-        elif len(game) > LONGEST or (game not in settings.games and len(settings.games) >= MOST_GAMES):
-            said.append(f"{path}: games.{one_line(game, LONGEST)} is one game too many, or its name is; it is ignored.")
+            problems.append(f"{path}: {one_line(game, MAX_NAME)} is not a table; it is ignored.")
+        elif len(game) > MAX_NAME or (game not in settings.games and len(settings.games) >= MAX_GAMES):
+            problems.append(
+                f"{path}: games.{one_line(game, MAX_NAME)} is one game too many, or its name is; it is ignored."
+            )
         else:
-            said += _fill(settings.choice(game), entries, f"{path}: games.{one_line(game, LONGEST)}.")
-    more = len(said) - MOST_SENTENCES
-    return said if more <= 1 else [*said[:MOST_SENTENCES], f"{path}: {more} more lines are wrong; they are ignored."]
+            problems += _fill(settings.choice(game), entries, f"{path}: games.{one_line(game, MAX_NAME)}.")
+    more = len(problems) - MAX_MESSAGES
+    if more <= 1:
+        return problems
+    return [*problems[:MAX_MESSAGES], f"{path}: {more} more lines are wrong; they are ignored."]
 
 
 def _fill(target: Any, table: dict[str, Any], where: str) -> list[str]:
-    """Set what fits; a sentence for everything that does not."""
-    said = []
-    validators = {one.name: one.metadata["validator"] for one in fields(target) if "validator" in one.metadata}
+    """Apply the valid entries of a table; returns a sentence for each of the others."""
+    problems = []
+    validators = {entry.name: entry.metadata["validator"] for entry in fields(target) if "validator" in entry.metadata}
     for key, value in table.items():
         if key not in validators:
-            said.append(f"{where}{one_line(key, LONGEST)} is not a setting; it is ignored.")
+            problems.append(f"{where}{one_line(key, MAX_NAME)} is not a setting; it is ignored.")
         elif error := validators[key].error(value):
-            said.append(f"{where}{key} = {quote(value)} is {error}; {getattr(target, key)!r} is used.")
+            problems.append(f"{where}{key} = {quote(value)} is {error}; {getattr(target, key)!r} is used.")
         else:
             setattr(target, key, float(value) if isinstance(getattr(target, key), float) else value)
-    return said
+    return problems

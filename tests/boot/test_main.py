@@ -336,8 +336,8 @@ def test_the_project_file_says_only_what_the_start_understands():
     extras = project["optional-dependencies"]
     for one in [*project["dependencies"], *(one for extra in extras.values() for one in extra)]:
         assert re.fullmatch(r"[a-z0-9-]+>=[\d.]+,<[\d.]+", one)
-    assert {name for groups in (start.NEEDED, start.WISHED) for names in groups.values() for name in names} | set(
-        start.MEANT.values()
+    assert {name for groups in (start.NEEDED, start.OPTIONAL) for names in groups.values() for name in names} | set(
+        start.EXTRA_OF_WORD.values()
     ) <= set(extras)
 
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import settings as runs
 from hypothesis import strategies as st
 
-from pigaming_app.storage.settings import FILE, LONGEST, MOST_GAMES, MOST_SENTENCES, Choice, Settings
+from pigaming_app.storage.settings import FILE, MAX_GAMES, MAX_MESSAGES, MAX_NAME, Choice, Settings
 
 ROOT = Path(__file__).parents[2]
 MUSIC = """
@@ -116,7 +116,7 @@ def test_parallel_processes_keep_the_choices_of_all(tmp_path):
         f'"{"k" * 5000}" = 1',
         "music = 0001-01-01T00:00:00Z",
         'games = ""',
-        f'[games."{"g" * (LONGEST + 1)}"]\ngoal = 3',
+        f'[games."{"g" * (MAX_NAME + 1)}"]\ngoal = 3',
         '[games."a\\nb"]\nvolume = 3',
         "[music]\na = 1",
         "[[games.race]]\ngoal = 3",
@@ -150,6 +150,6 @@ def test_thousands_of_odd_lines_are_summed_up(tmp_path):
     (tmp_path / FILE).write_text("sounds = 1\n" + "\n".join(lines))
     settings, said = Settings.load(tmp_path)
     assert settings.sounds == 1
-    assert len(settings.games) == MOST_GAMES
-    assert len(said) == MOST_SENTENCES + 1
-    assert said[-1].endswith(f"{6000 - MOST_GAMES - MOST_SENTENCES} more lines are wrong; they are ignored.")
+    assert len(settings.games) == MAX_GAMES
+    assert len(said) == MAX_MESSAGES + 1
+    assert said[-1].endswith(f"{6000 - MAX_GAMES - MAX_MESSAGES} more lines are wrong; they are ignored.")

@@ -1,21 +1,21 @@
-"""Robot Factory: what a file holds besides title and four [[start]]: 1st and 3rd are ICE's, 2nd and 4th are FIRE's.
+"""Robot Factory: parsing of floors. Besides the title and four [[start]] (1st and 3rd ICE, 2nd and 4th FIRE) a file has
 
 [aisle]                  # where people walk and rest
 at = [650, 50]           # its upper left corner, px
 size = [300, 800]
 
-[[warehouse]]            # four of them: an entry and an exit for each team
+[[warehouse]]            # four: an entry and an exit for each team
 team = "ice"             # or "fire"
 kind = "entry"           # or "exit"
 at = [66, 96]            # its first slot; three more lie below, 88 px apart
 
-[[machine]]              # four of them, two of each kind; its body is a square of 132 px
+[[machine]]              # four, two of each kind; its body is a square of 132 px
 kind = "A"               # or "B"
 at = [520, 216]
 flow = "down"            # up, down, left or right: from its input slot to its output slot
-worker = "right"         # the side on which its worker stands, across the flow
+worker = "right"         # the side on which its worker stands, perpendicular to the flow
 
-[[worker]]               # three of them: where they rest
+[[worker]]               # three: their resting places
 at = [800, 450]
 """
 
@@ -46,15 +46,15 @@ from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, W
 WAYS = {"right": (1, 0), "left": (-1, 0), "down": (0, 1), "up": (0, -1)}
 TEAM_NAMES = {"ice": ICE, "fire": FIRE}
 KINDS = {"entry": ENTRY, "exit": EXIT}
-BODY = 66.0  # px from a machine's middle to its sides
+BODY = 66.0  # px from a machine's centre to its sides
 ROUND = 36.0  # px, radius of a body's corners
-SLOT_AT, SPOT_AT = 126.0, 114.0  # px from a machine's middle
-SHELF = 88.0  # px from one slot of a warehouse to the next
+SLOT_AT, SPOT_AT = 126.0, 114.0  # px from a machine's centre to its slots, and to its worker
+SHELF = 88.0  # px between slots of a warehouse
 
 
 @dataclass(frozen=True)
 class SlotSpec:
-    """A slot; team or machine is -1."""
+    """A slot, of a team (`machine` is -1) or of a machine (`team` is -1); px."""
 
     kind: int
     team: int
@@ -65,7 +65,7 @@ class SlotSpec:
 
 @dataclass(frozen=True)
 class MachineSpec:
-    """A machine, with the place of its worker; `flow`: from input to output."""
+    """A machine and the position of its worker, px; `flow`: unit vector from input to output."""
 
     kind: int
     x: float
@@ -77,7 +77,7 @@ class MachineSpec:
 
 @dataclass(frozen=True)
 class Floor:
-    """What a floor has besides walls and starts. `slots` in the order of `Factory.slots`."""
+    """The parts of a floor besides walls and starts. `slots` in the order of `Factory.slots`."""
 
     slots: tuple[SlotSpec, ...]
     machines: tuple[MachineSpec, ...]
@@ -86,19 +86,19 @@ class Floor:
 
 
 def read(table: TomlTable) -> Layout:
-    """A floor is warehouses, machines, an aisle and people. Raises FieldError."""
+    """Parse a floor: warehouses, machines, aisle and workers. Raises FieldError."""
     table.only("title", "start", "aisle", "warehouse", "machine", "worker")
     starts = read_starts(table)
     machines = tuple(_machine(entry) for entry in table.tables("machine"))
-    if sorted(one.kind for one in machines) != [A, A, B, B]:
+    if sorted(machine.kind for machine in machines) != [A, A, B, B]:
         raise table.error("machine", "two machines of kind A and two of kind B are needed")
     homes = tuple(_home(entry) for entry in table.tables("worker"))
     if len(homes) != WORKERS:
         raise table.error("worker", f"{len(homes)} workers, but there must be {WORKERS}")
     slots = (*_shelves(table), *_machine_slots(machines))
     floor = Floor(slots, machines, homes, _aisle(table.table("aisle")))
-    layout = Layout(tuple(wall for one in machines for wall in _body(one)), starts, floor)
-    _check_ways(layout, floor)
+    layout = Layout(tuple(wall for machine in machines for wall in _body(machine)), starts, floor)
+    _check_reachable(layout, floor)
     return layout
 
 
@@ -130,20 +130,20 @@ def _aisle(entry: TomlTable) -> tuple[float, float, float, float]:
 
 def _shelves(table: TomlTable) -> tuple[SlotSpec, ...]:
     """The slots of all warehouses, in the order of `Factory.slots`. Raises FieldError."""
-    there: dict[tuple[int, int], tuple[float, float]] = {}
+    first_slots: dict[tuple[int, int], tuple[float, float]] = {}
     for entry in table.tables("warehouse"):
         entry.only("team", "kind", "at")
         key = TEAM_NAMES[entry.word("team", tuple(TEAM_NAMES))], KINDS[entry.word("kind", tuple(KINDS))]
-        if key in there:
+        if key in first_slots:
             raise entry.error("kind", "this team has one already")
         x, y = entry.point("at")
         if y + (SHELVES - 1) * SHELF > HEIGHT - 36:
             raise entry.error("at", "its last slot would lie outside the arena")
-        there[key] = x, y
-    if len(there) != TEAMS * len(KINDS):
+        first_slots[key] = x, y
+    if len(first_slots) != TEAMS * len(KINDS):
         raise table.error("warehouse", "each team needs an entry and an exit")
     return tuple(
-        SlotSpec(kind, team, -1, there[team, kind][0], there[team, kind][1] + i * SHELF)
+        SlotSpec(kind, team, -1, first_slots[team, kind][0], first_slots[team, kind][1] + i * SHELF)
         for team in range(TEAMS)
         for kind in (ENTRY, EXIT)
         for i in range(SHELVES)
@@ -152,23 +152,22 @@ def _shelves(table: TomlTable) -> tuple[SlotSpec, ...]:
 
 def _machine_slots(machines: tuple[MachineSpec, ...]) -> tuple[SlotSpec, ...]:
     return tuple(
-        SlotSpec(kind, -1, m, one.x + sign * SLOT_AT * one.flow[0], one.y + sign * SLOT_AT * one.flow[1])
-        for m, one in enumerate(machines)
-        for kind, sign in ((INPUT, -1), (OUTPUT, 1))
+        SlotSpec(kind, -1, m, machine.x + offset * machine.flow[0], machine.y + offset * machine.flow[1])
+        for m, machine in enumerate(machines)
+        for kind, offset in ((INPUT, -SLOT_AT), (OUTPUT, SLOT_AT))
     )
 
 
-def _body(one: MachineSpec) -> tuple[WallSpec, WallSpec]:
-    """Two thick strokes that fill the square."""
+def _body(machine: MachineSpec) -> tuple[WallSpec, WallSpec]:
+    """Two thick walls that together fill the square of the body."""
     inner = BODY - ROUND
-    upper, lower = (
-        WallSpec(one.x - inner, one.y + dy, one.x + inner, one.y + dy, ROUND, SOLID) for dy in (-inner, inner)
-    )
+    left, right = machine.x - inner, machine.x + inner
+    upper, lower = (WallSpec(left, machine.y + dy, right, machine.y + dy, ROUND, SOLID) for dy in (-inner, inner))
     return upper, lower
 
 
-def _check_ways(layout: Layout, floor: Floor) -> None:
-    """Robots get to every slot, and people to every machine. Raises FieldError."""
+def _check_reachable(layout: Layout, floor: Floor) -> None:
+    """Raises FieldError unless robots can reach every slot, people every machine, and no slots overlap."""
     world = World()
     build(world, Arena("", {}, layout.walls, layout.starts, "", floor))
     field = Route()
@@ -180,10 +179,10 @@ def _check_ways(layout: Layout, floor: Floor) -> None:
         for other in floor.slots[:k]:
             if abs(slot.x - other.x) < 68 and abs(slot.y - other.y) < 68:
                 raise FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies over another")
-        for m, one in enumerate(floor.machines):
-            if slot.machine != m and abs(slot.x - one.x) < BODY + 34 and abs(slot.y - one.y) < BODY + 34:
+        for m, machine in enumerate(floor.machines):
+            if slot.machine != m and abs(slot.x - machine.x) < BODY + 34 and abs(slot.y - machine.y) < BODY + 34:
                 raise FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies in machine[{m + 1}]")
-    places = [(f"machine[{m + 1}].worker", one.spot_x, one.spot_y) for m, one in enumerate(floor.machines)]
+    places = [(f"machine[{m + 1}].worker", spec.spot_x, spec.spot_y) for m, spec in enumerate(floor.machines)]
     places += [(f"worker[{i + 1}].at", x, y) for i, (x, y) in enumerate(floor.homes)]
     for key, x, y in places:
         if in_wall(world, x, y) or not field.reach[free_node(world, x, y)]:

@@ -1,7 +1,7 @@
-"""What a brain sees of a match of Robot Factory: named numbers, as from the robot's own seat.
+"""Robot Factory: a brain's observation of a match, as named numbers relative to its own seat.
 
-Bearings are relative to the own heading, in (-pi, pi], clockwise positive. Others and people are seen as they were
-`delay` seconds ago, by their speed; the own pose is never delayed.
+Bearings are relative to the robot's own heading, in (-pi, pi], clockwise positive. Positions of other robots are
+extrapolated back by `delay` seconds; the own pose is not delayed.
 """
 
 from math import atan2, cos, sin, sqrt
@@ -22,13 +22,13 @@ OTHERS = ROBOTS - 1
 class Senses:
     """Parameters of the observation of one seat, and its route."""
 
-    delay: float  # s by which others are seen late
+    delay: float  # s, age of the poses of others
     route: Route
 
 
 @record
 class Other:
-    """Another robot, in the order of the seats after one's own."""
+    """Another robot, in seat order after the own seat."""
 
     present: int
     mate: int
@@ -36,11 +36,11 @@ class Other:
     y: float
     distance: float
     bearing: float
-    speed: float  # px/s, ahead positive
+    speed: float  # px/s, forward positive
     heading: float  # relative to the own heading
-    carries: int  # 1 + the state of what it carries, 0: nothing
+    carries: int  # 1 + the state of its pallet, 0: none
     frozen: int
-    aim: int  # 1 + the slot that it makes for, 0: it does not say
+    aim: int  # 1 + the slot that it declares as its target, 0: none
 
 
 @record
@@ -52,32 +52,32 @@ class Person:
     distance: float
     bearing: float
     walking: int
-    goal_x: float  # where it walks to
+    goal_x: float  # its destination
     goal_y: float
 
 
 @record
 class SlotView:
-    """A slot."""
+    """A slot, as observed by one robot."""
 
     kind: int
-    mine: int  # 1: of the own team, 0: of a machine, -1: of the others
+    mine: int  # 1: of the own team, 0: of a machine, -1: of the other team
     machine: int
-    makes: int  # kind of the machine, -1: of a warehouse
+    makes: int  # kind of the machine, -1: a warehouse slot
     x: float
     y: float
     holds: int  # 1 + the state of its pallet, 0: empty
-    lift: int  # 1: this robot could lift what lies there, if it were there with its fork empty
-    put: int  # 1: this robot could put there what it carries
-    output_blocked: int  # of an input: 1 while something lies in the output of its machine
-    wait: float  # s until the machine is done; 0: it is not working
-    stalled: float  # of an input: s for which nobody has come to the machine that has work; falls again without work
-    ours: int  # 1: what the machine works on, or has done, is of the own team
+    lift: int  # 1: this robot may lift its pallet, with an empty fork within reach
+    put: int  # 1: this robot may set down its pallet there
+    output_blocked: int  # 1 while the machine's output holds a pallet or is reserved for one
+    wait: float  # s until the machine is done; 0: it is idle
+    stalled: float  # of an input: s for which work has waited for a worker; counts down without work
+    ours: int  # 1: the pallet in process, or in the output, belongs to the own team
 
 
 @record
 class Observation:
-    """What one seat sees."""
+    """The observation of one seat. Positions and distances in px."""
 
     x: float
     y: float
@@ -90,25 +90,25 @@ class Observation:
     fork_y: float
     turbo: float
     frozen: int
-    carries: int  # 1 + the state of what it carries, 0: nothing
+    carries: int  # 1 + the state of its pallet, 0: none
     refused: int
     seconds_left: float
-    lead: int  # own team's deliveries less the others'
+    lead: int  # own team's deliveries less the other team's
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
     slots: Annotated[list[SlotView], SLOTS]
-    way_x: float  # where to drive now, along the route
+    way_x: float  # waypoint of the route
     way_y: float
     way_bearing: float
     way_distance: float
     goal_bearing: float
-    goal_distance: float  # as the crow flies
-    straight: int  # 1: nothing is in the way to the goal
+    goal_distance: float  # straight-line
+    straight: int  # 1: the straight line to the goal is clear
 
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the observation of one seat."""
+    """Fill in the observation of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
     obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, rules.turn_rate
@@ -130,7 +130,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 @kernel
 def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
-    """Robot j as `robot` sees it."""
+    """Fill in robot j, as observed by `robot`."""
     seen, load, motion = match.robots[j], match.loads[j], match.motions[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
     if not seen.present:
@@ -146,7 +146,7 @@ def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> N
 
 @kernel
 def observe_person(match: Any, robot: Any, w: int, person: Any) -> None:
-    """Worker w as `robot` sees it."""
+    """Fill in worker w, as observed by `robot`."""
     worker = match.workers[w]
     person.x, person.y, person.walking = worker.x, worker.y, worker.walking
     dx, dy = worker.x - robot.x, worker.y - robot.y
@@ -156,29 +156,29 @@ def observe_person(match: Any, robot: Any, w: int, person: Any) -> None:
 
 
 @kernel
-def observe_slot(match: Any, seat: int, s: int, place: Any) -> None:
-    """Slot s as the robot of a seat sees it."""
+def observe_slot(match: Any, seat: int, s: int, seen: Any) -> None:
+    """Fill in slot s, as observed by the robot of a seat."""
     slot, team = match.slots[s], match.robots[seat].team
-    place.kind, place.machine, place.x, place.y = slot.kind, slot.machine, slot.x, slot.y
-    place.mine = 0 if slot.machine >= 0 else 1 if slot.team == team else -1
-    place.holds = match.pallets[slot.pallet - 1].state + 1 if slot.pallet else 0
-    place.lift = 1 if may_lift(match, seat, s) else 0
-    place.put = 1 if match.loads[seat].pallet and may_set_down(match, seat, s) else 0
-    place.makes, place.wait, place.stalled, place.output_blocked, place.ours = -1, 0.0, 0.0, 0, 0
+    seen.kind, seen.machine, seen.x, seen.y = slot.kind, slot.machine, slot.x, slot.y
+    seen.mine = 0 if slot.machine >= 0 else 1 if slot.team == team else -1
+    seen.holds = match.pallets[slot.pallet - 1].state + 1 if slot.pallet else 0
+    seen.lift = 1 if may_lift(match, seat, s) else 0
+    seen.put = 1 if match.loads[seat].pallet and may_set_down(match, seat, s) else 0
+    seen.makes, seen.wait, seen.stalled, seen.output_blocked, seen.ours = -1, 0.0, 0.0, 0, 0
     if slot.machine >= 0:
         machine = match.machines[slot.machine]
-        place.makes = machine.kind
-        place.wait = machine.left * 0.02 if machine.pallet else 0.0
+        seen.makes = machine.kind
+        seen.wait = machine.left * 0.02 if machine.pallet else 0.0
         if slot.kind == INPUT:
-            place.stalled = machine.stalled * 0.02
+            seen.stalled = machine.stalled * 0.02
         if machine.keeps:
-            place.output_blocked = 1
-            place.ours = 1 if match.pallets[machine.keeps - 1].team == team else 0
+            seen.output_blocked = 1
+            seen.ours = 1 if match.pallets[machine.keeps - 1].team == team else 0
 
 
 @kernel
 def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
-    """Where to drive now, along the route."""
+    """Fill in the waypoint and goal of the route."""
     route = senses.route
     if not route.wanted:
         obs.way_x, obs.way_y, obs.way_bearing, obs.way_distance = robot.x, robot.y, 0.0, 0.0

@@ -1,4 +1,4 @@
-"""Robot Factory: where pallets are. Nothing else moves one, so that none is ever lost, doubled or in two places."""
+"""Robot Factory: locations of pallets. Only `move` changes them, so that none is lost, duplicated or in two places."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ from pigaming_app.sim.kernel import kernel
 
 @kernel
 def move(match: Any, p: int, place: int, at: int) -> None:
-    """Take pallet p from where it is, and put it into a place that holds nothing."""
+    """Move pallet p from its place to an empty one."""
     pallet = match.pallets[p]
     link(match, pallet.place, pallet.at, 0)
     pallet.place, pallet.at = place, at
@@ -30,47 +30,47 @@ def move(match: Any, p: int, place: int, at: int) -> None:
 
 
 @kernel
-def link(match: Any, place: int, at: int, what: int) -> None:
-    """Write what a place holds: 1 + a pallet, or 0."""
+def link(match: Any, place: int, at: int, content: int) -> None:
+    """Set the content of a place: 1 + a pallet, or 0."""
     if place == IN_SLOT:
-        match.slots[at].pallet = what
+        match.slots[at].pallet = content
     elif place == ON_ROBOT:
-        match.loads[at].pallet = what
+        match.loads[at].pallet = content
     elif place == IN_MACHINE:
-        match.machines[at].pallet = what
+        match.machines[at].pallet = content
     elif place == BY_WORKER:
-        match.workers[at].pallet = what
+        match.workers[at].pallet = content
 
 
 @kernel
 def first_slot(team: int, kind: int) -> int:
-    """The first of the slots of a team's entry or exit."""
+    """Index of the first slot of a team's entry or exit."""
     return team * 2 * SHELVES + (0 if kind == ENTRY else SHELVES)
 
 
 @kernel
 def free_shelf(match: Any, team: int, kind: int) -> int:
-    """A free slot of a team's entry or exit to which no worker is carrying anything, -1 if there is none."""
+    """The first free slot of a team's entry or exit that no worker is carrying a pallet to; -1 if there is none."""
     first = first_slot(team, kind)
     for s in range(first, first + SHELVES):
-        if not match.slots[s].pallet and not bound_for(match, s):
+        if not match.slots[s].pallet and not is_destination(match, s):
             return s
     return -1
 
 
 @kernel
-def bound_for(match: Any, s: int) -> bool:
-    """Whether a worker is carrying a pallet to slot s."""
-    coming = False
+def is_destination(match: Any, s: int) -> bool:
+    """True if a worker is carrying a pallet to slot s."""
+    found = False
     for w in range(WORKERS):
         if match.workers[w].pallet and match.workers[w].shelf == s:
-            coming = True
-    return coming
+            found = True
+    return found
 
 
 @kernel
 def stock_up(match: Any, team: int) -> None:
-    """Bring the pallets that wait outside onto the free slots of their team's entry."""
+    """Move waiting pallets to the free slots of their team's entry."""
     for p in range(team * MOST_PALLETS, (team + 1) * MOST_PALLETS):
         if match.pallets[p].exists and match.pallets[p].place == WAITING:
             s = free_shelf(match, team, ENTRY)
@@ -81,7 +81,7 @@ def stock_up(match: Any, team: int) -> None:
 
 @kernel
 def ship(match: Any, team: int) -> None:
-    """If all slots of a team's exit are full and more will come, the pallet that has lain there longest drives off."""
+    """Ship the oldest pallet of a team's exit if all its slots are full and more pallets are to come."""
     if match.delivered[team] == match.rules.pallets:
         return
     first = first_slot(team, ENTRY) + SHELVES

@@ -1,8 +1,8 @@
-"""People who walk: a flow field leads them round walls; they stop for robots, and step round whoever stands still.
+"""Motion of pedestrians: a flow field leads them around walls; they stop for robots and walk around those at rest.
 
-A walker is any record with x, y, heading, walking (1: on the move), side (on which it goes round somebody: -1, 0 or 1),
-an `route` (see `navigate`), and `least` and `held_up`, by which it is known whether it gets on. The world has a Motion
-for each robot, brought up to date once a tick: people go by how robots move, not by how their motors turn.
+A walker is any record with x, y, heading, walking (1: moving), side (on which it avoids an obstacle: -1, 0 or 1),
+`route` (see flow_field.py), and `least` and `held_up`, which measure its progress. The world has a Motion for each
+robot, updated once a tick: pedestrians react to measured motion, not to motor speeds.
 """
 
 from math import atan2, exp, sqrt
@@ -16,24 +16,24 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import CELL, DT, HZ, ROBOTS
 
-THERE = 6.0  # px from the goal that count as there
-NEARLY = 70.0  # px that do, if somebody stands in the way
-ROOM, CLOSE = 34.0, 8.0  # px that a walker keeps from a robot that drives, and from one that stands
-PAST = 24.0  # px more than that, from which on it has come past somebody
-DRIVING = 20.0  # px/s
-AHEAD = 0.5  # s that it looks ahead at how a robot drives
-SIGHT = 300.0  # px from which no robot comes near in that time
+THERE = 6.0  # px from the goal within which a walker has arrived
+NEARLY = 70.0  # px likewise, if a robot at rest is in the way
+ROOM, CLOSE = 34.0, 8.0  # px of clearance from a moving robot, and from one at rest
+PAST = 24.0  # px beyond that clearance at which an obstacle has been passed
+DRIVING = 20.0  # px/s above which a robot is moving
+AHEAD = 0.5  # s of lookahead at a robot's motion
+SIGHT = 300.0  # px, beyond which no robot can come near within AHEAD
 TURN = 8.0  # rad/s
-NEARER = 10.0  # px that count as getting on
-CARRIED = 40.0  # px in a tick: a robot that moved further was carried
-SMOOTH = 1.0 - exp(-DT / 0.1)  # share of a velocity measured in one tick; to and fro within 0.1 s is no driving
+NEARER = 10.0  # px that count as progress
+CARRIED = 40.0  # px in a tick: a robot that moved further was carried by hand
+SMOOTH = 1.0 - exp(-DT / 0.1)  # weight of one tick in the low-pass filter of velocity, time constant 0.1 s
 
 
 @record
 class Motion:
-    """How a robot moves, by the poses at which it is found."""
+    """A robot's velocity, measured from successive positions."""
 
-    x: float  # px, on the tick before
+    x: float  # px, on the previous tick
     y: float
     vx: float  # px/s
     vy: float
@@ -41,7 +41,7 @@ class Motion:
 
 @kernel
 def track_motion(motion: Any, robot: Any) -> None:
-    """Take in where a robot is now."""
+    """Update a motion with the robot's current position."""
     x, y = robot.x, robot.y
     dx, dy = x - motion.x, y - motion.y
     motion.x, motion.y = x, y
@@ -53,7 +53,7 @@ def track_motion(motion: Any, robot: Any) -> None:
 
 @kernel
 def send(walker: Any, x: float, y: float) -> None:
-    """Send a walker to a place."""
+    """Set a walker's goal, px."""
     route = walker.route
     route.wanted, route.goal_x, route.goal_y = 1, x, y
     walker.least, walker.held_up = 1e9, 0
@@ -61,7 +61,7 @@ def send(walker: Any, x: float, y: float) -> None:
 
 @kernel
 def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
-    """One tick on the way; 1 if the walker is where it was sent, or as near as those who stand there let it."""
+    """One tick of walking. Returns 1 if the walker has reached its goal, or as near as robots at rest permit."""
     route = walker.route
     dx, dy = route.goal_x - walker.x, route.goal_y - walker.y
     left = sqrt(dx * dx + dy * dy)
@@ -71,11 +71,11 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     update_route(world, route, walker.x, walker.y)
     advance(world, walker, left)
     dx, dy = route.way_x - walker.x, route.way_y - walker.y
-    gap = sqrt(dx * dx + dy * dy)
-    if gap < 1e-6:
+    distance = sqrt(dx * dx + dy * dy)
+    if distance < 1e-6:
         return 0
     pace = min(left, speed * DT)
-    ux, uy = pace * dx / gap, pace * dy / gap
+    ux, uy = pace * dx / distance, pace * dy / distance
     block = in_the_way(world, walker, walker.x + ux, walker.y + uy, radius)
     if block < 0 and step(world, walker, ux, uy, radius):
         if in_the_way(world, walker, walker.x + ux, walker.y + uy, radius + PAST) < 0:
@@ -89,7 +89,7 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
 
 @kernel
 def advance(world: Any, walker: Any, left: float) -> None:
-    """Count the ticks since a walker last came nearer to its goal, by the way that it has to go."""
+    """Count the ticks since a walker last came nearer to its goal, by path length."""
     route = walker.route
     if not route.straight:
         left = CELL * route.reach[free_node(world, walker.x, walker.y)]
@@ -101,7 +101,7 @@ def advance(world: Any, walker: Any, left: float) -> None:
 
 @kernel
 def go_round(world: Any, walker: Any, block: int, ux: float, uy: float, radius: float) -> None:
-    """A step along the rim of robot `block` (of a wall if that is negative), on one side as long as that leads on."""
+    """Step around robot `block` (around a wall if negative), keeping to one side until that is blocked."""
     ox, oy = -ux, -uy
     if block >= 0:
         ox, oy = walker.x - world.robots[block].x, walker.y - world.robots[block].y
@@ -117,7 +117,7 @@ def go_round(world: Any, walker: Any, block: int, ux: float, uy: float, radius: 
 
 @kernel
 def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
-    """Take a step, if neither a robot nor a wall is in the way."""
+    """Take a step unless a robot or a wall is in the way. Returns True if taken."""
     x, y = walker.x + dx, walker.y + dy
     if in_the_way(world, walker, x, y, radius) >= 0 or in_wall(world, x, y):
         return False
@@ -128,25 +128,25 @@ def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
 
 @kernel
 def turn_towards(walker: Any, vx: float, vy: float) -> None:
-    """Turn the way it walks, not at once."""
+    """Turn a walker towards its direction of motion, by at most TURN."""
     turn = turn_to(atan2(vy, vx) - walker.heading)
-    most = TURN * DT
-    if turn > most:
-        turn = most
-    elif turn < -most:
-        turn = -most
+    limit = TURN * DT
+    if turn > limit:
+        turn = limit
+    elif turn < -limit:
+        turn = -limit
     walker.heading = wrap(walker.heading + turn)
 
 
 @kernel
 def is_driving(motion: Any) -> bool:
-    """Whether a robot is on the move."""
+    """True if a robot is moving."""
     return motion.vx * motion.vx + motion.vy * motion.vy > DRIVING * DRIVING  # type: ignore[no-any-return]
 
 
 @kernel
 def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> int:
-    """The first robot that is or will soon be in the way of a step to (x, y); -1: none. A step away is free."""
+    """The first robot that blocks a step to (x, y), now or within AHEAD; -1: none. Steps away from it are free."""
     for k in range(ROBOTS):
         robot = world.robots[k]
         if not robot.present:
@@ -155,22 +155,22 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
         if not (-SIGHT < dx < SIGHT and -SIGHT < dy < SIGHT):
             continue
         motion = world.motions[k]
-        looks, reach = (3, RADIUS + radius + ROOM) if is_driving(motion) else (1, RADIUS + radius + CLOSE)
-        for half in range(looks):
+        samples, reach = (3, RADIUS + radius + ROOM) if is_driving(motion) else (1, RADIUS + radius + CLOSE)
+        for half in range(samples):
             ahead = 0.5 * half * AHEAD
             rx, ry = robot.x + ahead * motion.vx, robot.y + ahead * motion.vy
             dx, dy = x - rx, y - ry
-            gap = dx * dx + dy * dy
-            if gap < reach * reach:
+            distance = dx * dx + dy * dy
+            if distance < reach * reach:
                 ox, oy = walker.x - rx, walker.y - ry
-                if gap < ox * ox + oy * oy and arrives(world, robot, motion, half):
+                if distance < ox * ox + oy * oy and path_is_free(world, robot, motion, half):
                     return k
     return -1
 
 
 @kernel
-def arrives(world: Any, robot: Any, motion: Any, half: int) -> bool:
-    """Whether no wall stops a robot in so many halves of AHEAD."""
+def path_is_free(world: Any, robot: Any, motion: Any, half: int) -> bool:
+    """True if no wall stops a robot within `half` halves of AHEAD."""
     for part in range(1, half + 1):
         ahead = 0.5 * part * AHEAD
         if in_wall(world, robot.x + ahead * motion.vx, robot.y + ahead * motion.vy):

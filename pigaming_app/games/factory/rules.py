@@ -1,9 +1,9 @@
-"""Robot Factory, as a player would hear it: bring all your pallets through machine A, machine B and out.
+"""Rules of Robot Factory: bring all your pallets through machine A, machine B and out.
 
-Fire lifts and sets down. A raw pallet goes to a machine A, comes out half done, goes to a machine B, comes out done,
-and goes to your exit; people work the machines. In a wrong machine a pallet is spoiled, and only after ten seconds a
-new one comes. Nobody can lift the other team's pallets. Drive over a person, who is never hurt, and you stand still for
-three seconds. Whoever has delivered everything first wins; both on the same tick is a tie. When the time is up, more
+Fire lifts and sets down. A raw pallet goes into a machine A, comes out half done, goes into a machine B, comes out
+done, and goes to your exit; people work the machines. A pallet in the wrong machine is spoiled, and replaced only after
+ten seconds. Nobody can lift the other team's pallets. If you drive over a person, who is never hurt, you stand still
+for three seconds. The first team to deliver everything wins; both on the same tick is a tie. When the time is up, more
 deliveries win, then more work.
 """
 
@@ -35,12 +35,12 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
 from pigaming_app.sim.world import ROBOTS
 
-APART = 6.0  # px more than a touch at which a touch has ended
+APART = 6.0  # px of hysteresis: a touch ends at this distance beyond contact
 
 
 @kernel
 def judge(match: Any) -> None:
-    """One tick of the rules: forks, pallets, machines and people, then the speeds that robots ask for."""
+    """One tick of the rules: forks, pallets, machines and people, then the requested speeds."""
     if match.over:
         stop_all(match)
         return
@@ -66,7 +66,7 @@ def judge(match: Any) -> None:
 
 @kernel
 def use_fork(match: Any, k: int) -> None:
-    """Each press of fire lifts a pallet or sets one down; none does anything while the robot is frozen."""
+    """Lift a pallet or set one down at each press of fire, unless robot k is frozen."""
     load, fire = match.loads[k], match.actions[k].fire
     pressed = fire and not load.pressed
     load.aim, load.pressed = match.actions[k].aim, fire
@@ -89,20 +89,20 @@ def use_fork(match: Any, k: int) -> None:
 
 @kernel
 def slot_for(match: Any, k: int, x: float, y: float) -> int:
-    """The slot nearest to (x, y) at which robot k could do something, -1 if none is within reach."""
-    best, least = -1, match.rules.reach * match.rules.reach
+    """The slot nearest to (x, y) at which robot k can lift or set down; -1 if none is within reach."""
+    best, nearest2 = -1, match.rules.reach * match.rules.reach
     for s in range(SLOTS):
         slot = match.slots[s]
         dx, dy = x - slot.x, y - slot.y
-        away = dx * dx + dy * dy
-        if away < least and (may_set_down(match, k, s) if match.loads[k].pallet else may_lift(match, k, s)):
-            best, least = s, away
+        distance2 = dx * dx + dy * dy
+        if distance2 < nearest2 and (may_set_down(match, k, s) if match.loads[k].pallet else may_lift(match, k, s)):
+            best, nearest2 = s, distance2
     return best
 
 
 @kernel
 def may_lift(match: Any, k: int, s: int) -> bool:
-    """Whether slot s holds a pallet of robot k's team that is not delivered."""
+    """True if slot s holds an undelivered pallet of robot k's team."""
     p = match.slots[s].pallet - 1
     if p < 0:
         return False
@@ -111,7 +111,7 @@ def may_lift(match: Any, k: int, s: int) -> bool:
 
 @kernel
 def may_set_down(match: Any, k: int, s: int) -> bool:
-    """Whether robot k may put what it carries into slot s."""
+    """True if robot k may set down its pallet in slot s."""
     slot = match.slots[s]
     if slot.kind == OUTPUT:
         return False
@@ -127,7 +127,7 @@ def may_set_down(match: Any, k: int, s: int) -> bool:
 
 @kernel
 def set_down(match: Any, k: int, s: int) -> None:
-    """Robot k puts down what it carries, with all that follows from where."""
+    """Set down robot k's pallet in slot s, and apply the result: spoiled in a wrong machine, delivered at the exit."""
     load, slot = match.loads[k], match.slots[s]
     p = load.pallet - 1
     pallet = match.pallets[p]
@@ -147,7 +147,7 @@ def set_down(match: Any, k: int, s: int) -> None:
 
 @kernel
 def age_pallets(match: Any) -> None:
-    """Pallets that wait grow older; when its time has come a damaged one is replaced by a raw one."""
+    """One tick of the waiting time of pallets; damaged ones are replaced when it is over."""
     for p in range(PALLETS):
         pallet = match.pallets[p]
         if not pallet.exists:
@@ -162,7 +162,7 @@ def age_pallets(match: Any) -> None:
 
 @kernel
 def replace_damaged(match: Any, p: int) -> None:
-    """A raw pallet comes in the place of a damaged one."""
+    """Turn a damaged pallet into a raw one at the entry, or waiting for it."""
     pallet = match.pallets[p]
     pallet.state, pallet.steps = RAW, 0
     s = free_shelf(match, pallet.team, ENTRY)
@@ -174,7 +174,7 @@ def replace_damaged(match: Any, p: int) -> None:
 
 @kernel
 def check_people(match: Any, k: int) -> None:
-    """Freeze robot k when it drives over somebody: once for each time that they touch."""
+    """Freeze robot k when it drives over a person, once per touch."""
     robot, load, rules = match.robots[k], match.loads[k], match.rules
     if load.frozen:
         load.frozen -= 1
@@ -182,20 +182,20 @@ def check_people(match: Any, k: int) -> None:
     for w in range(WORKERS):
         worker = match.workers[w]
         dx, dy = robot.x - worker.x, robot.y - worker.y
-        away = dx * dx + dy * dy
-        if away < reach * reach:
+        distance2 = dx * dx + dy * dy
+        if distance2 < reach * reach:
             drives = robot.linear > rules.driving or robot.linear < -rules.driving
             if drives and not worker.touched[k]:
                 worker.touched[k] = 1
                 load.hits += 1
                 load.frozen = rules.freeze
-        elif worker.touched[k] and away > (reach + APART) * (reach + APART):
+        elif worker.touched[k] and distance2 > (reach + APART) * (reach + APART):
             worker.touched[k] = 0
 
 
 @kernel
 def steer(match: Any, k: int) -> None:
-    """Ask for the speeds that robot k's stick and turbo give; none while it is frozen."""
+    """Request the speeds that result from robot k's stick and turbo; zero while it is frozen."""
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     if match.loads[k].frozen:
         stop(robot)

@@ -1,4 +1,4 @@
-"""Robot Factory: how a match begins, with the numbers of its rules, and what it counts in the end."""
+"""Robot Factory: initial state of a match, its goal, and its statistics."""
 
 from collections.abc import Mapping
 
@@ -19,24 +19,24 @@ from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
-PALLETS = Rules().pallets  # a team, if nobody says otherwise
+PALLETS = Rules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MOST_PALLETS + 1))
-STEPS_BEFORE = 1000.0  # of work done that weigh as much as one delivery: more than a match can have
+STEPS_BEFORE = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
 
 
 def start(match: Factory, arena: Arena, setup: Setup) -> None:
-    """Fill a fresh match: walls, machines, people, robots on their team's starts, pallets, rules, chance."""
+    """Fill a fresh match: walls, machines, people, robots on their team's starts, pallets, rules, random seed."""
     build(match, arena)
     floor: Floor = arena.plan
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
     for seat, robot in zip(setup.seats, match.robots, strict=True):
         robot.present, robot.team = int(seat.brain != "off"), seat.team
-    for i, k in enumerate(_places(setup)):
-        robot, place = match.robots[i], arena.starts[k]
-        robot.x, robot.y, robot.heading = place.x, place.y, place.heading
-        match.motions[i].x, match.motions[i].y = place.x, place.y
-    _furnish(match, floor)
+    for i, k in enumerate(_start_indices(setup)):
+        robot, pose = match.robots[i], arena.starts[k]
+        robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
+        match.motions[i].x, match.motions[i].y = pose.x, pose.y
+    _place_equipment(match, floor)
     for team in (ICE, FIRE):
         for i in range(match.rules.pallets):
             pallet = match.pallets[team * MOST_PALLETS + i]
@@ -45,18 +45,18 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
         stock_up(match, team)
 
 
-def _places(setup: Setup) -> list[int]:
-    """Which start each seat has: the 1st and 3rd are ICE's, the others FIRE's; empty seats take what is left."""
+def _start_indices(setup: Setup) -> list[int]:
+    """The start of each seat: the 1st and 3rd for ICE, the others for FIRE; empty seats take the rest."""
     free = {ICE: [0, 2], FIRE: [1, 3]}
     taken = [free[seat.team].pop(0) if seat.brain != "off" else -1 for seat in setup.seats]
     left = sorted(free[ICE] + free[FIRE])
     return [k if k >= 0 else left.pop(0) for k in taken]
 
 
-def _furnish(match: Factory, floor: Floor) -> None:
-    """Slots, machines, people and the aisle."""
-    for slot, shelf in zip(match.slots, floor.slots, strict=True):
-        slot.kind, slot.team, slot.machine, slot.x, slot.y = shelf.kind, shelf.team, shelf.machine, shelf.x, shelf.y
+def _place_equipment(match: Factory, floor: Floor) -> None:
+    """Place slots, machines, people and the aisle."""
+    for slot, spec in zip(match.slots, floor.slots, strict=True):
+        slot.kind, slot.team, slot.machine, slot.x, slot.y = spec.kind, spec.team, spec.machine, spec.x, spec.y
     for machine, body in zip(match.machines, floor.machines, strict=True):
         machine.kind, machine.x, machine.y = body.kind, body.x, body.y
         machine.spot_x, machine.spot_y = body.spot_x, body.spot_y
@@ -67,15 +67,15 @@ def _furnish(match: Factory, floor: Floor) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """Fit fresh rules to a setup."""
+    """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.pallets = setup.goal or rules.pallets
 
 
 def ranking_key(match: Factory, seat: int) -> float:
-    """Deliveries of a seat's team, then the work that its robots have fed to machines.
+    """Deliveries of a seat's team, then the work done on pallets that its robots fed to machines.
 
-    Work counts only while something is left to deliver: who delivers everything on the same tick as the others ties.
+    Work is ignored once a team has delivered everything, so that two teams finishing on the same tick tie.
     """
     team = match.robots[seat].team
     if match.delivered[team] == match.rules.pallets:
@@ -85,17 +85,17 @@ def ranking_key(match: Factory, seat: int) -> float:
 
 
 def stats(match: Factory, seat: int) -> Mapping[str, float]:
-    """What one seat did: pallets delivered, pallets fed to the right machines, people driven over."""
+    """Statistics of a seat: pallets delivered, steps of work on pallets it fed to machines, people driven over."""
     load = match.loads[seat]
     return {"delivered": load.delivered, "steps": load.steps, "bumps": load.hits}
 
 
 def records(match: Factory, seat: int) -> Mapping[str, int]:
-    """How long the seat's team took to deliver everything, in ms, if it did."""
+    """Time in which the seat's team delivered everything, in ms; empty if it did not."""
     done = match.delivered[match.robots[seat].team] == match.rules.pallets
     return {"time": round(1000 * DT * match.tick)} if done else {}
 
 
 def times(match: Factory, seat: int) -> tuple[float, ...]:
-    """There are no laps."""
+    """Always empty: the game has no laps."""
     return ()

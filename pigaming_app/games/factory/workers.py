@@ -1,8 +1,8 @@
-"""Robot Factory: machines and the people who work at them.
+"""Robot Factory: machines and the workers who operate them.
 
-A worker who rests is sent to the machine that has something for it: a fitting pallet in the input while the output is
-free, or a finished pallet that its owner has not collected for too long, which it carries to the owner's entry. One who
-gets no nearer for a while gives up: another who rests is sent, and other machines come first.
+A resting worker is sent to a machine that has work: a suitable pallet in the input while the output is free, or a
+processed pallet that its owner has not collected in time, which the worker carries to the owner's entry. A worker
+without progress gives up: another resting worker is sent, and other machines take precedence.
 """
 
 from typing import Any
@@ -31,18 +31,18 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import WIDTH
 
-BESIDE = 96.0  # px from a slot at which a worker stands to take or put down
+BESIDE = 96.0  # px from a slot at which a worker stands to pick up or put down
 
 
 @kernel
 def fits(kind: int, state: int) -> bool:
-    """Whether a machine of a kind can work on a pallet in a state."""
+    """True if a machine of this kind can process a pallet in this state."""
     return bool(state == (RAW if kind == A else HALF))
 
 
 @kernel
 def run_machines_and_workers(match: Any) -> None:
-    """One tick of all machines and people."""
+    """One tick of all machines and workers."""
     for m in range(MACHINES):
         run_machine(match, m)
     call_worker(match)
@@ -52,7 +52,7 @@ def run_machines_and_workers(match: Any) -> None:
 
 @kernel
 def run_machine(match: Any, m: int) -> None:
-    """Process, and put what is done into the output, which has been kept free for it."""
+    """One tick of processing; a finished pallet moves to the output, which was reserved for it."""
     machine = match.machines[m]
     if not machine.pallet and match.slots[MACHINE_SLOTS + 2 * m].pallet and has_work(match, m):
         machine.stalled += 1
@@ -75,28 +75,28 @@ def run_machine(match: Any, m: int) -> None:
 
 @kernel
 def has_work(match: Any, m: int) -> bool:
-    """Whether a machine could begin with what lies in its input."""
+    """True if a machine can start processing the pallet in its input."""
     machine = match.machines[m]
-    p, done = match.slots[MACHINE_SLOTS + 2 * m].pallet, match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
-    return bool(p and not done and not machine.pallet and fits(machine.kind, match.pallets[p - 1].state))
+    p, output = match.slots[MACHINE_SLOTS + 2 * m].pallet, match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
+    return bool(p and not output and not machine.pallet and fits(machine.kind, match.pallets[p - 1].state))
 
 
 @kernel
 def is_overdue(match: Any, m: int) -> bool:
-    """Whether a finished pallet has waited too long in a machine's output."""
+    """True if a processed pallet has waited too long in a machine's output."""
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
     return bool(p and match.pallets[p - 1].waited >= match.rules.collect)
 
 
 @kernel
 def call_worker(match: Any) -> None:
-    """Send a worker who rests to the machine at which something has waited longest: one of them a tick."""
+    """Send a resting worker to the machine at which a pallet has waited longest; at most one a tick."""
     m, longest = -1, -1
     for i in range(MACHINES):
         machine = match.machines[i]
         if not machine.worker and (has_work(match, i) or is_overdue(match, i)):
-            lies = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
-            waited = match.pallets[match.slots[lies].pallet - 1].waited
+            slot = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
+            waited = match.pallets[match.slots[slot].pallet - 1].waited
             if machine.refused:
                 waited = min(waited, match.tick - machine.refused_at)
             if waited > longest:
@@ -112,25 +112,25 @@ def call_worker(match: Any) -> None:
         send(worker, machine.spot_x, machine.spot_y)
     else:
         worker.task = FETCHING
-        send_beside(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
+        send_next_to(worker, match.slots[MACHINE_SLOTS + 2 * m + 1], machine)
 
 
 @kernel
 def nearest_resting(match: Any, machine: Any) -> int:
-    """The worker who rests nearest to a machine, preferably not the one who could not get there; -1: nobody rests."""
-    best, least = -1, 1e18
+    """The resting worker nearest to a machine, preferably not one who failed to reach it; -1: none is resting."""
+    best, nearest2 = -1, 1e18
     for w in range(WORKERS):
         worker = match.workers[w]
         dx, dy = worker.x - machine.spot_x, worker.y - machine.spot_y
-        away = dx * dx + dy * dy + (1e12 if machine.refused == w + 1 else 0.0)
-        if worker.task == RESTING and away < least:
-            best, least = w, away
+        distance2 = dx * dx + dy * dy + (1e12 if machine.refused == w + 1 else 0.0)
+        if worker.task == RESTING and distance2 < nearest2:
+            best, nearest2 = w, distance2
     return best
 
 
 @kernel
-def send_beside(worker: Any, slot: Any, machine: Any) -> None:
-    """Send a worker to the side of a machine's slot on which its own place is."""
+def send_next_to(worker: Any, slot: Any, machine: Any) -> None:
+    """Send a worker next to a machine's slot, on the side of the machine's spot."""
     dx, dy = machine.spot_x - machine.x, machine.spot_y - machine.y
     side = BESIDE / 114.0
     send(worker, slot.x + side * dx, slot.y + side * dy)
@@ -138,28 +138,28 @@ def send_beside(worker: Any, slot: Any, machine: Any) -> None:
 
 @kernel
 def run_worker(match: Any, w: int) -> None:
-    """One tick of one person."""
+    """One tick of a worker."""
     worker, rules = match.workers[w], match.rules
     if worker.task == WORKING:
         work(match, w)
         return
-    there = walk(match, worker, rules.walk, rules.worker_radius)
+    arrived = walk(match, worker, rules.walk, rules.worker_radius)
     if worker.machine >= 0 and worker.held_up >= rules.patience:
         give_up(match, w)
     elif worker.task == GOING:
         if not has_work(match, worker.machine):
             go_home(match, worker)
-        elif there:
+        elif arrived:
             begin(match, w)
     elif worker.task == FETCHING:
-        fetch(match, w, there)
-    elif worker.task == CARRYING and there:
+        fetch(match, w, arrived)
+    elif worker.task == CARRYING and arrived:
         put_down(match, w)
 
 
 @kernel
 def give_up(match: Any, w: int) -> None:
-    """Leave a machine that this worker cannot get to, to others."""
+    """Mark a worker's machine as refused, and go home."""
     machine = match.machines[match.workers[w].machine]
     machine.refused, machine.refused_at = w + 1, match.tick
     go_home(match, match.workers[w])
@@ -167,7 +167,7 @@ def give_up(match: Any, w: int) -> None:
 
 @kernel
 def begin(match: Any, w: int) -> None:
-    """Take what lies in the input into the machine."""
+    """Move the pallet from the input into the machine and start processing."""
     worker = match.workers[w]
     m = worker.machine
     machine, p = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1
@@ -179,7 +179,7 @@ def begin(match: Any, w: int) -> None:
 
 @kernel
 def work(match: Any, w: int) -> None:
-    """Stand at the machine, face it, and go on or go home when it is done."""
+    """Face the machine, and go home when it is done."""
     worker = match.workers[w]
     machine = match.machines[worker.machine]
     turn_towards(worker, machine.x - worker.x, machine.y - worker.y)
@@ -188,14 +188,14 @@ def work(match: Any, w: int) -> None:
 
 
 @kernel
-def fetch(match: Any, w: int, there: int) -> None:
-    """Take a pallet that waits too long out of the output, unless its owner came after all."""
+def fetch(match: Any, w: int, arrived: int) -> None:
+    """Take an overdue pallet out of the output on arrival; go home if it is no longer overdue."""
     worker = match.workers[w]
     m = worker.machine
     if not is_overdue(match, m):
         go_home(match, worker)
         return
-    if not there:
+    if not arrived:
         return
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet - 1
     team = match.pallets[p].team
@@ -209,7 +209,7 @@ def fetch(match: Any, w: int, there: int) -> None:
 
 @kernel
 def put_down(match: Any, w: int) -> None:
-    """Put a pallet onto the shelf; if there is no room, to those that wait outside for a shelf."""
+    """Put a worker's pallet into its slot; if that is taken, add it to the waiting ones."""
     worker = match.workers[w]
     p = worker.pallet - 1
     if match.slots[worker.shelf].pallet:
@@ -221,14 +221,14 @@ def put_down(match: Any, w: int) -> None:
 
 @kernel
 def send_to_shelf(match: Any, worker: Any) -> None:
-    """Send a worker to the front of the shelf for which it carries something."""
+    """Send a worker to the front of the slot to which it carries a pallet."""
     slot = match.slots[worker.shelf]
     send(worker, slot.x + (BESIDE if slot.x < 0.5 * WIDTH else -BESIDE), slot.y)
 
 
 @kernel
 def go_home(match: Any, worker: Any) -> None:
-    """Send a worker to where it rests; the machine it was busy with is free for another."""
+    """Send a worker to its resting place and release its machine."""
     if worker.machine >= 0:
         match.machines[worker.machine].worker = 0
     worker.machine, worker.task = -1, RESTING

@@ -1,4 +1,4 @@
-"""PiTanks: pick-ups and mines; and what a hit counts, by a mine or a bullet."""
+"""PiTanks: pick-ups, mines, and the scoring of hits by mines and bullets."""
 
 from typing import Any
 
@@ -14,7 +14,7 @@ KINDS = len(POWERS)
 
 @kernel
 def lay_mine(match: Any, k: int) -> int:
-    """Lay a mine of robot k behind it; 0 if two lie already."""
+    """Lay a mine at the position of robot k. Returns 0 if it already has OWN_MINES of them."""
     robot = match.robots[k]
     for i in range(k * OWN_MINES, (k + 1) * OWN_MINES):
         mine = match.mines[i]
@@ -27,7 +27,7 @@ def lay_mine(match: Any, k: int) -> int:
 
 @kernel
 def update_mines(match: Any) -> None:
-    """Mines arm, go off under an opponent, and vanish in the end."""
+    """One tick of all mines: they arm, explode under an opponent, and expire."""
     rules = match.rules
     reach = RADIUS + rules.mine_radius
     for i in range(MINES):
@@ -51,7 +51,7 @@ def update_mines(match: Any) -> None:
 
 @kernel
 def update_pickups(match: Any) -> None:
-    """Pick-ups appear, are taken by whoever touches them, and vanish in the end."""
+    """One tick of all pick-ups: they appear, are collected by touch, and expire."""
     rules = match.rules
     reach = RADIUS + rules.pickup_reach
     match.next_pickup -= 1
@@ -72,7 +72,7 @@ def update_pickups(match: Any) -> None:
 
 @kernel
 def drop_pickup(match: Any) -> None:
-    """Put a pick-up of any kind on a free node, away from robots and other pick-ups; not if three lie already."""
+    """Put a random pick-up on a free node, away from robots and other pick-ups, unless PICKUPS of them exist."""
     free = -1
     for i in range(PICKUPS):
         if not match.pickups[i].alive:
@@ -83,7 +83,7 @@ def drop_pickup(match: Any) -> None:
         column = 2 + int(uniform(match) * (COLUMNS - 4))
         row = 2 + int(uniform(match) * (ROWS - 4))
         x, y = column * CELL, row * CELL
-        if not match.grid[row * COLUMNS + column] & BLOCKED and lonely(match, x, y):
+        if not match.grid[row * COLUMNS + column] & BLOCKED and is_isolated(match, x, y):
             pickup = match.pickups[free]
             pickup.kind = int(uniform(match) * KINDS)
             pickup.alive = match.rules.pickup_life
@@ -92,8 +92,8 @@ def drop_pickup(match: Any) -> None:
 
 
 @kernel
-def lonely(match: Any, x: float, y: float) -> int:
-    """1 if no robot is within 200 px and no pick-up within 300 px."""
+def is_isolated(match: Any, x: float, y: float) -> int:
+    """1 if no robot is within 200 px of (x, y) and no pick-up within 300 px."""
     for robot in match.robots:
         dx, dy = robot.x - x, robot.y - y
         if robot.present and dx * dx + dy * dy < 200.0 * 200.0:
@@ -107,7 +107,7 @@ def lonely(match: Any, x: float, y: float) -> int:
 
 @kernel
 def score(match: Any, k: int, victim: int) -> int:
-    """Robot k has hit robot `victim`. 1 if it counts; a shield takes it and is gone."""
+    """Score a hit of robot k on robot `victim`. Returns 1 if it counts, 0 if a shield absorbs it."""
     tank = match.tanks[victim]
     tank.protected = match.rules.protection
     if tank.powers[SHIELD]:

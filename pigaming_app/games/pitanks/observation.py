@@ -1,7 +1,7 @@
-"""What a brain sees of a match of PiTanks: named numbers, as from the robot's own seat.
+"""PiTanks: a brain's observation of a match, as named numbers relative to its own seat.
 
-Bearings are relative to the own heading, in (-pi, pi], clockwise positive. Others are seen as they were `delay` seconds
-ago, by their speed; the own pose is never delayed. `is_clear` says that nothing stands between.
+Bearings are relative to the robot's own heading, in (-pi, pi], clockwise positive. Poses of others are extrapolated
+back by `delay` seconds; the own pose is not delayed.
 """
 
 from math import atan2, cos, sin, sqrt
@@ -25,13 +25,13 @@ BESIDE = 22.0  # px between a robot in cover and the wall
 class Senses:
     """Parameters of the observation of one seat, and its route."""
 
-    delay: float  # s by which others are seen late
+    delay: float  # s, age of the poses of others
     route: Route
 
 
 @record
 class Other:
-    """Another robot, in the order of the seats after one's own. Team mates are seen too."""
+    """Another robot, in seat order after the own seat. Includes team mates."""
 
     present: int
     mate: int
@@ -39,16 +39,16 @@ class Other:
     y: float
     distance: float
     bearing: float
-    aim: float  # bearing at which to fire to meet it
-    facing: float  # where it points, relative to the way from it to here: 0: straight at me
-    clear: int
+    aim: float  # bearing at which a bullet fired now would meet it
+    facing: float  # its heading, relative to the direction from it to the observer; 0: it faces the observer
+    clear: int  # 1: a bullet would meet no inner wall
     protected: int
     score: int
 
 
 @record
 class Observation:
-    """What one seat sees."""
+    """The observation of one seat. Positions and distances in px."""
 
     x: float
     y: float
@@ -56,7 +56,7 @@ class Observation:
     linear: float
     angular: float
     turn_rate: float
-    lead: int  # own (team's) score less the best other's
+    lead: int  # own team's score less the best other team's
     seconds_left: float
     loaded: int  # 1: the gun is ready
     turbo: float
@@ -64,28 +64,28 @@ class Observation:
     shield: int
     mine: int
     others: Annotated[list[Other], OTHERS]
-    cover: int  # 1: there is one, from the nearest opponent, behind the inner wall that is nearest to go to
+    cover: int  # 1: cover from the nearest opponent exists; the position is behind the nearest such inner wall
     cover_x: float
     cover_y: float
     cover_distance: float
-    threat: float  # s until the soonest bullet hits, if nobody moves; 9: none
-    threat_bearing: float  # where it comes from
-    threat_side: float  # px by which its path passes this robot's centre; positive: on the right of the bullet
-    prize: int  # 1: a pick-up lies there
+    threat: float  # s until the first bullet hits, if nobody moves; 9: none
+    threat_bearing: float  # direction from which it comes
+    threat_side: float  # px by which its path misses this robot's centre; positive: the robot is right of the path
+    prize: int  # 1: a pick-up exists; the nearest one
     prize_x: float
     prize_y: float
     prize_distance: float
-    way_x: float  # where to drive now, along the route
+    way_x: float  # waypoint of the route
     way_y: float
     way_bearing: float
     way_distance: float
-    goal_distance: float  # as the crow flies
-    straight: int  # 1: nothing is in the way to the goal
+    goal_distance: float  # straight-line
+    straight: int  # 1: the straight line to the goal is clear
 
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the observation of one seat."""
+    """Fill in the observation of one seat."""
     robot, tank = match.robots[seat], match.tanks[seat]
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
     obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
@@ -113,7 +113,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 @kernel
 def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
-    """Robot j as `robot` sees it."""
+    """Fill in robot j, as observed by `robot`."""
     seen = match.robots[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
     if not seen.present:
@@ -124,8 +124,8 @@ def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> N
     other.distance = sqrt(dx * dx + dy * dy)
     way = atan2(dy, dx)
     other.bearing = turn_to(way - robot.heading)
-    soon = other.distance / match.rules.bullet_speed + delay
-    other.aim = turn_to(atan2(dy + soon * vy, dx + soon * vx) - robot.heading)
+    flight_time = other.distance / match.rules.bullet_speed + delay
+    other.aim = turn_to(atan2(dy + flight_time * vy, dx + flight_time * vx) - robot.heading)
     other.facing = turn_to(seen.heading - delay * seen.angular - way - 3.141592653589793)
     other.clear = is_clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
     other.protected = match.tanks[j].protected
@@ -134,7 +134,7 @@ def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> N
 
 @kernel
 def lead(match: Any, seat: int) -> int:
-    """The score of the seat's team less that of the best other team."""
+    """Score of the seat's team less that of the best other team."""
     own, best = 0, -1000000
     for j in range(ROBOTS):
         robot = match.robots[j]
@@ -153,8 +153,8 @@ def lead(match: Any, seat: int) -> int:
 
 @kernel
 def observe_cover(match: Any, robot: Any, from_x: float, from_y: float, obs: Any) -> None:
-    """The nearest place from which an inner wall hides this robot from (from_x, from_y)."""
-    least = 1e9
+    """Fill in the nearest position at which an inner wall hides this robot from (from_x, from_y)."""
+    nearest2 = 1e9
     for i in range(match.wall_count):
         wall = match.walls[i]
         if not wall.health:
@@ -170,22 +170,22 @@ def observe_cover(match: Any, robot: Any, from_x: float, from_y: float, obs: Any
             nx, ny = -nx, -ny
         x, y = mx + nx, my + ny
         dx, dy = x - robot.x, y - robot.y
-        away = dx * dx + dy * dy
+        distance2 = dx * dx + dy * dy
         if (
-            away < least
+            distance2 < nearest2
             and RADIUS < x < WIDTH - RADIUS
             and RADIUS < y < HEIGHT - RADIUS
             and not match.grid[node_at(x, y)] & BLOCKED
         ):
-            least = away
+            nearest2 = distance2
             obs.cover, obs.cover_x, obs.cover_y = 1, x, y
     if obs.cover:
-        obs.cover_distance = sqrt(least)
+        obs.cover_distance = sqrt(nearest2)
 
 
 @kernel
 def observe_threat(match: Any, seat: int, robot: Any, delay: float, obs: Any) -> None:
-    """The soonest bullet that would hit if nobody moved; those fired less than `delay` ago are not seen yet."""
+    """Fill in the first bullet that would hit if nobody moved; those fired less than `delay` ago are not visible."""
     obs.threat, obs.threat_bearing, obs.threat_side = 9.0, 0.0, 0.0
     reach = RADIUS + match.rules.bullet_radius
     speed2 = match.rules.bullet_speed * match.rules.bullet_speed
@@ -211,21 +211,21 @@ def observe_threat(match: Any, seat: int, robot: Any, delay: float, obs: Any) ->
 
 @kernel
 def observe_pickup(match: Any, robot: Any, obs: Any) -> None:
-    """The nearest pick-up."""
-    least = 1e9
+    """Fill in the nearest pick-up."""
+    nearest2 = 1e9
     for pickup in match.pickups:
         dx, dy = pickup.x - robot.x, pickup.y - robot.y
-        away = dx * dx + dy * dy
-        if pickup.alive and away < least:
-            least = away
+        distance2 = dx * dx + dy * dy
+        if pickup.alive and distance2 < nearest2:
+            nearest2 = distance2
             obs.prize, obs.prize_x, obs.prize_y = 1, pickup.x, pickup.y
     if obs.prize:
-        obs.prize_distance = sqrt(least)
+        obs.prize_distance = sqrt(nearest2)
 
 
 @kernel
 def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
-    """Where to drive now, along the route."""
+    """Fill in the waypoint and goal of the route."""
     route = senses.route
     if not route.wanted:
         obs.way_bearing, obs.way_distance, obs.goal_distance, obs.straight = 0.0, 0.0, 0.0, 1

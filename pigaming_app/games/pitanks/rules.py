@@ -1,10 +1,10 @@
-"""PiTanks, as a player would hear it: hit the others, don't get hit.
+"""Rules of PiTanks: hit the others, don't get hit.
 
-Every hit you make is a point, every hit you take costs one; a team adds up. Nobody is out: when the time is up, the
-most points win. Bullets stop at walls; an inner wall takes five and is gone. They pass your team mates and yourself.
-After a hit you blink and cannot be hit again for three quarters of a second. Turbo makes you faster while its meter
-lasts. Pick-ups: a shield takes the next hit for you; speed; rapid fire; three bullets at once; bullets that bounce off
-walls; a mine, which your next shot lays behind you.
+Every hit you make scores a point, every hit you take costs one; team mates add their points up. Nobody is out: when the
+time is up, the most points win. Bullets stop at walls; an inner wall takes five and is gone. They pass through you and
+your team mates. After a hit you blink and cannot be hit again for three quarters of a second. Turbo makes you faster
+while its meter lasts. Pick-ups: a shield, which takes the next hit for you; speed; rapid fire; three bullets at once;
+bullets that bounce off walls; a mine, which your next shot lays behind you.
 """
 
 from math import cos, sin
@@ -19,18 +19,18 @@ from pigaming_app.sim.sweep import bounds_contact, disc_contact, offset_from_wal
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
 ALL_POWERS = len(POWERS)
-TOUCH = 1e-6  # px from an outer wall that count as touching it
+TOUCH = 1e-6  # px from an outer wall within which a bullet touches it
 
 
 @kernel
 def judge(match: Any) -> None:
-    """One tick of the rules: shots, bullets, mines and pick-ups, then the speeds that robots ask for."""
+    """One tick of the rules: shots, bullets, mines and pick-ups, then the requested speeds."""
     if match.over:
         stop_all(match)
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
-            wear_off(match.tanks[k])
+            count_down(match.tanks[k])
             use_gun(match, k)
     if move_bullets(match):
         resolve_hits(match)
@@ -46,8 +46,8 @@ def judge(match: Any) -> None:
 
 
 @kernel
-def wear_off(tank: Any) -> None:
-    """One tick less of everything that lasts."""
+def count_down(tank: Any) -> None:
+    """One tick of a tank's timers: gun cooldown, protection, powers."""
     if tank.cooldown:
         tank.cooldown -= 1
     if tank.protected:
@@ -59,7 +59,7 @@ def wear_off(tank: Any) -> None:
 
 @kernel
 def steer(match: Any, k: int) -> None:
-    """Ask for the speeds that robot k's stick, turbo and powers give."""
+    """Request the speeds that result from robot k's stick, turbo and powers."""
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     speed = rules.speed
     if rules.turbo:
@@ -77,7 +77,7 @@ def steer(match: Any, k: int) -> None:
 
 @kernel
 def use_gun(match: Any, k: int) -> None:
-    """Fire, or lay a mine, if robot k's button is down and its gun is ready."""
+    """Fire, or lay a mine, if robot k's button is pressed and its gun is ready."""
     rules, tank = match.rules, match.tanks[k]
     if not match.actions[k].fire or tank.cooldown:
         return
@@ -85,26 +85,26 @@ def use_gun(match: Any, k: int) -> None:
         tank.powers[MINE] = 0
         tank.cooldown = rules.cooldown
         return
-    most = rules.boosted_alive if tank.powers[RAPID] or tank.powers[TRIPLE] else rules.bullets_alive
+    max_alive = rules.boosted_alive if tank.powers[RAPID] or tank.powers[TRIPLE] else rules.bullets_alive
     heading, bounces = match.robots[k].heading, rules.bounces if tank.powers[RICOCHET] else 0
-    if not fire_bullet(match, k, most, heading, bounces):
+    if not fire_bullet(match, k, max_alive, heading, bounces):
         return
     if tank.powers[TRIPLE]:
-        fire_bullet(match, k, most, heading - rules.triple_spread, bounces)
-        fire_bullet(match, k, most, heading + rules.triple_spread, bounces)
+        fire_bullet(match, k, max_alive, heading - rules.triple_spread, bounces)
+        fire_bullet(match, k, max_alive, heading + rules.triple_spread, bounces)
     tank.cooldown = rules.rapid_cooldown if tank.powers[RAPID] else rules.cooldown
 
 
 @kernel
-def fire_bullet(match: Any, k: int, most: int, heading: float, bounces: int) -> int:
-    """Put a bullet of robot k into the barrel, unless `most` are alive; 1 if it did."""
+def fire_bullet(match: Any, k: int, max_alive: int, heading: float, bounces: int) -> int:
+    """Fire a bullet of robot k, unless it has `max_alive` already. Returns 1 if fired."""
     free, alive = -1, 0
     for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
         if match.bullets[i].alive:
             alive += 1
         elif free < 0:
             free = i
-    if free < 0 or alive >= most:
+    if free < 0 or alive >= max_alive:
         return 0
     bullet, robot, speed = match.bullets[free], match.robots[k], match.rules.bullet_speed
     bullet.alive, bullet.fresh, bullet.bounces = 1, 1, bounces
@@ -116,9 +116,9 @@ def fire_bullet(match: Any, k: int, most: int, heading: float, bounces: int) -> 
 
 @kernel
 def move_bullets(match: Any) -> int:
-    """Move every bullet to where its tick ends, and note what it struck; nothing is damaged yet. How many struck.
+    """Move every bullet to its position at the end of the tick and record its hit, without damage. Returns the hits.
 
-    All bullets see robots and walls as the tick began, so that their order does not matter.
+    All bullets meet robots and walls as they were at the beginning of the tick, so that their order is irrelevant.
     """
     muzzle = match.rules.muzzle / match.rules.bullet_speed
     strikes = 0
@@ -136,7 +136,7 @@ def move_bullets(match: Any) -> int:
 
 @kernel
 def move_bullet(match: Any, k: int, bullet: Any, seconds: float) -> None:
-    """Move one bullet of robot k to its first contact, or to the end of its way."""
+    """Move a bullet of robot k to its first contact, or by its full displacement."""
     x, y, radius = bullet.x, bullet.y, match.rules.bullet_radius
     dx, dy = bullet.vx * seconds, bullet.vy * seconds
     first = bounds_contact(x, y, dx, dy, WIDTH, HEIGHT, radius)
@@ -172,7 +172,7 @@ def move_bullet(match: Any, k: int, bullet: Any, seconds: float) -> None:
 
 @kernel
 def moves_into(wall: Any, x: float, y: float, dx: float, dy: float) -> bool:
-    """Whether a bullet that touches a wall at (x, y) moves into it: one that has just bounced off moves away."""
+    """True if a bullet that touches a wall at (x, y) moves into it; one that has just bounced moves away."""
     nx, ny = offset_from_wall(wall, x, y)
     return bool(dx * nx + dy * ny < 0.0 or (nx == 0.0 and ny == 0.0))
 
@@ -185,7 +185,7 @@ def clamp(value: float, low: float, high: float) -> float:
 
 @kernel
 def resolve_hits(match: Any) -> None:
-    """What the bullets of this tick do to what they struck."""
+    """Apply the hits of this tick: score, damage walls, bounce."""
     for k in range(ROBOTS):
         if not match.robots[k].present:
             continue
@@ -208,7 +208,7 @@ def resolve_hits(match: Any) -> None:
 
 @kernel
 def hit_wall(match: Any, wall: Any) -> None:
-    """One bullet less that the wall takes."""
+    """Take one health from a wall, and remove it from the grid at zero."""
     if wall.health > 0:
         wall.health -= 1
         if wall.health == 0:
@@ -217,7 +217,7 @@ def hit_wall(match: Any, wall: Any) -> None:
 
 @kernel
 def bounce(match: Any, bullet: Any) -> None:
-    """Reflect a bullet at the surface that it struck; in a corner of the arena, at both."""
+    """Reflect a bullet off the surface that it hit; in a corner of the arena, off both."""
     bullet.bounces -= 1
     if bullet.struck == OUTER:
         edge = match.rules.bullet_radius + TOUCH
@@ -228,15 +228,15 @@ def bounce(match: Any, bullet: Any) -> None:
         return
     nx, ny = offset_from_wall(match.walls[-1 - bullet.struck], bullet.x, bullet.y)
     n2 = nx * nx + ny * ny
-    into_it = bullet.vx * nx + bullet.vy * ny
-    if n2 > 0.0 and into_it < 0.0:
-        bullet.vx -= 2.0 * into_it / n2 * nx
-        bullet.vy -= 2.0 * into_it / n2 * ny
+    approach = bullet.vx * nx + bullet.vy * ny
+    if n2 > 0.0 and approach < 0.0:
+        bullet.vx -= 2.0 * approach / n2 * nx
+        bullet.vy -= 2.0 * approach / n2 * ny
 
 
 @kernel
 def hit_robot(match: Any, k: int, victim: int, shot: int) -> None:
-    """Bullet `shot` of robot k has struck robot `victim`: a point, unless blinking, shielded, or another came first."""
+    """Score bullet `shot` of robot k on robot `victim`, unless protected, shielded, or hit earlier in the tick."""
     tank = match.tanks[victim]
     if match.rules.protection:
         if tank.protected:

@@ -1,4 +1,4 @@
-"""PiTanks: how a match begins, with the numbers of its rules, and what it counts in the end."""
+"""PiTanks: initial state of a match, its variants, and its statistics."""
 
 from collections.abc import Mapping
 
@@ -13,13 +13,13 @@ VARIANTS = ("pickups", "plain", "classic")
 
 
 def read(table: TomlTable) -> Layout:
-    """An arena is walls and starts. Raises Wrong."""
+    """Parse an arena: walls and starts. Raises FieldError."""
     table.only("title", "start", "wall")
     return Layout(read_walls(table), read_starts(table))
 
 
 def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
-    """Fill a fresh match: walls, robots on their starts, rules, chance."""
+    """Fill a fresh match: walls, robots on their starts, rules, random seed."""
     build(match, arena)
     match.random = seeded(setup.seed)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
@@ -30,7 +30,7 @@ def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """Fit fresh rules to a setup. `plain`: no pick-ups; `classic`: no turbo and no protection either."""
+    """Adapt fresh rules to a setup. `plain`: no pick-ups; `classic`: no turbo and no protection either."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     if setup.variant != "pickups":
         rules.pickups = 0
@@ -39,7 +39,7 @@ def set_rules(rules: Rules, setup: Setup) -> None:
 
 
 def stats(match: PiTanks, seat: int) -> Mapping[str, float]:
-    """What one seat did: hits made, hits taken, and the share of its bullets that scored."""
+    """Statistics of a seat: hits made, hits taken, share of its bullets that scored."""
     tank = match.tanks[seat]
     return {
         "hits": tank.hits,
@@ -55,10 +55,10 @@ def ranking_key(match: PiTanks, seat: int) -> float:
 
 
 def records(match: PiTanks, seat: int) -> Mapping[str, int]:
-    """The own points."""
+    """The seat's own points."""
     return {"points": match.robots[seat].score}
 
 
 def times(match: PiTanks, seat: int) -> tuple[float, ...]:
-    """There is no way to a goal."""
+    """Always empty: the game has no goal."""
     return ()

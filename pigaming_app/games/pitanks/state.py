@@ -1,4 +1,4 @@
-"""PiTanks: the records of a match and the numbers of its rules."""
+"""PiTanks: records of a match, and the parameters of the rules."""
 
 from typing import Annotated
 
@@ -7,8 +7,8 @@ from pigaming_app.sim.world import HZ, ROBOTS, World
 
 SHIELD, SPEED, RAPID, TRIPLE, RICOCHET, MINE = range(6)
 POWERS = ("shield", "speed", "rapid", "triple", "ricochet", "mine")
-OWN_BULLETS = 8  # places for each robot's bullets
-OUTER = 100
+OWN_BULLETS = 8  # capacity for each robot's bullets
+OUTER = 100  # `Bullet.struck` at an outer wall
 BULLETS = ROBOTS * OWN_BULLETS
 PICKUPS = 3
 OWN_MINES = 2
@@ -17,12 +17,12 @@ MINES = ROBOTS * OWN_MINES
 
 @record
 class Rules:
-    """Every number of the game that can be tuned. Distances in px, times in ticks, speeds in px/s and rad/s."""
+    """Tunable parameters. Distances in px, times in ticks, speeds in px/s and rad/s."""
 
     ticks: int  # of the match
     speed: float = 260.0
     turn_rate: float = 3.0
-    turbo: int = 1  # 0: there is none
+    turbo: int = 1  # 0: disabled
     turbo_factor: float = 1.3
     turbo_drain: float = 1.0 / (2 * HZ)  # of the meter, per tick
     turbo_refill: float = 1.0 / (4 * HZ)
@@ -32,7 +32,7 @@ class Rules:
     cooldown: int = HZ // 2
     bullets_alive: int = 5
     protection: int = round(0.75 * HZ)
-    pickups: int = 1  # 0: there are none
+    pickups: int = 1  # 0: disabled
     pickup_every: int = 7 * HZ
     pickup_life: int = 12 * HZ
     pickup_reach: float = 40.0
@@ -49,35 +49,35 @@ class Rules:
 
 @record
 class Tank:
-    """What PiTanks adds to a robot."""
+    """State of a robot that only PiTanks has."""
 
     cooldown: int
     protected: int
     shots: int  # bullets fired
-    landed: int  # of them, how many scored
-    hits: int  # made, by bullet or mine
-    taken: int
-    powers: Annotated[list[int], 6]  # ticks left of each; 0: not held
+    landed: int  # bullets that scored
+    hits: int  # hits made, by bullet or mine
+    taken: int  # hits taken
+    powers: Annotated[list[int], 6]  # ticks left of each; 0: inactive
 
 
 @record
 class Bullet:
-    """Owner k has the places k * OWN_BULLETS onwards. A dead bullet stays where it died."""
+    """A bullet; those of robot k begin at index k * OWN_BULLETS. A dead bullet keeps its last position."""
 
     alive: int
     x: float
     y: float
     vx: float
     vy: float
-    bounces: int  # left
-    fresh: int  # 1 until it has left the barrel: it is then still at the robot's centre
-    struck: int  # in this tick: 0 nothing, 1.. a robot, -1.. a wall, OUTER an outer wall
-    when: float  # the share of the tick's way after which it struck
+    bounces: int  # remaining
+    fresh: int  # 1 before its first tick, while it is still at the robot's centre
+    struck: int  # hit in this tick: 0 nothing, 1.. a robot, -1.. a wall, OUTER an outer wall
+    when: float  # time of the hit, as a fraction of the tick's displacement
 
 
 @record
 class Pickup:
-    """Something lying on the floor."""
+    """A pick-up on the floor."""
 
     alive: int  # ticks left
     kind: int
@@ -87,7 +87,7 @@ class Pickup:
 
 @record
 class Mine:
-    """Owner k has the places k * OWN_MINES onwards."""
+    """A mine; those of robot k begin at index k * OWN_MINES."""
 
     alive: int  # ticks left
     age: int
@@ -97,11 +97,11 @@ class Mine:
 
 @record
 class PiTanks(World):
-    """A match of PiTanks, whole."""
+    """The complete state of a match of PiTanks."""
 
     rules: Rules
     tanks: Annotated[list[Tank], ROBOTS]
     bullets: Annotated[list[Bullet], BULLETS]
-    next_pickup: int  # ticks until one appears
+    next_pickup: int  # ticks until the next one appears
     pickups: Annotated[list[Pickup], PICKUPS]
     mines: Annotated[list[Mine], MINES]

@@ -1,4 +1,4 @@
-"""Robot Race: first round the course wins."""
+"""Robot Race: the first to finish wins."""
 
 from pigaming_app.games.game import ALONE, Game, RecordKind
 from pigaming_app.games.race.observation import Observation, Senses, observe

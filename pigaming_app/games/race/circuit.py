@@ -1,7 +1,6 @@
-"""Making a closed course of corners: straights joined by arcs, so that every corner has exactly its radius.
+"""Construction of a closed course from corners: straights joined by arcs of exactly the given radii.
 
-Everything is checked here, so that a course that exists can be driven: it is closed, lies inside the arena, is wide
-enough, and no stretch of it lies over another.
+Validation guarantees that a course is drivable: closed, inside the arena, wide enough, without overlaps.
 """
 
 from collections.abc import Sequence
@@ -14,14 +13,14 @@ from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH
 
 WIDEST, NARROWEST = 400.0, 150.0  # px; two robots side by side are 144
-EASE = 150.0  # px before and after over which a width becomes the next
-REACH = CELL * 0.7072  # px from a node to whatever belongs to it
-RIDGE = 2.0  # px further away, between two stretches that are near: the middle of an arc has all of it at one distance
-FINE = 4.0  # px between the points of which the ring is chosen
+EASE = 150.0  # px either way over which the width is smoothed
+REACH = CELL * 0.7072  # px, largest distance from a node to a point that is nearest to it: half a cell's diagonal
+RIDGE = 2.0  # px of extra distance that separates two stretches; the centre of an arc is equally far from all of it
+FINE = 4.0  # px between the points from which the ring is resampled
 
 
 class Corner(NamedTuple):
-    """A corner of the line, rounded by an arc; px."""
+    """A corner of the centre line, rounded by an arc; px."""
 
     x: float
     y: float
@@ -30,18 +29,18 @@ class Corner(NamedTuple):
 
 
 class Bend(NamedTuple):
-    """The arc of a corner: where it begins and ends, its middle, its angle, clockwise positive; px, rad."""
+    """The arc of a corner: start, end, centre, radius (px) and angle (rad, clockwise positive)."""
 
     start: tuple[float, float]
     end: tuple[float, float]
     middle: tuple[float, float]
     radius: float
     angle: float
-    cut: float  # px from the corner to where the arc begins
+    cut: float  # px from the corner to the start of the arc
 
 
 def read_course(table: TomlTable) -> Course:
-    """The course of the tables [[corner]]; it is shared, copy it before you change it. Raises FieldError."""
+    """The course of the tables [[corner]]. It is cached: copy it before changing it. Raises FieldError."""
     corners = tuple(_corner(entry) for entry in table.tables("corner"))
     if len(corners) < 3:
         raise table.error("corner", f"{len(corners)} corners, but at least 3 are needed to close a course")
@@ -50,15 +49,15 @@ def read_course(table: TomlTable) -> Course:
 
 @lru_cache(maxsize=32)
 def course_of(corners: tuple[Corner, ...]) -> Course:
-    """The course of these corners, beginning where the arc of the first does. Raises FieldError."""
+    """The course of these corners, beginning at the start of the first arc. Raises FieldError."""
     course = Course()
     xs, ys, widths, length = _line(corners, _bends(corners))
     course.count, course.step, course.length = POINTS, length / POINTS, length
     course.xs[:], course.ys[:] = xs, ys
-    course.half[:] = _eased([width / 2 for width in widths], max(1, round(EASE / course.step)))
+    course.half[:] = _smoothed([width / 2 for width in widths], max(1, round(EASE / course.step)))
     _check_inside(course)
     _check_apart(course)
-    _enter(course)
+    _index_nodes(course)
     return course
 
 
@@ -71,14 +70,16 @@ def _corner(entry: TomlTable) -> Corner:
 
 
 def _bends(corners: Sequence[Corner]) -> list[Bend]:
-    """The arc of every corner. Raises FieldError where one does not fit."""
+    """The arc of every corner. Raises FieldError if one does not fit."""
     bends = [_bend(i, corners[i - 1], corner, corners[(i + 1) % len(corners)]) for i, corner in enumerate(corners)]
     for i, bend in enumerate(bends):
         before = (i - 1) % len(corners)
-        way = hypot(corners[i].x - corners[before].x, corners[i].y - corners[before].y)
-        if bends[before].cut + bend.cut > way + 0.5:
+        distance = hypot(corners[i].x - corners[before].x, corners[i].y - corners[before].y)
+        if bends[before].cut + bend.cut > distance + 0.5:
             need = bends[before].cut + bend.cut
-            reason = f"its arc and that of corner[{before + 1}] need {need:.0f} px, but they are {way:.0f} px apart"
+            reason = (
+                f"its arc and that of corner[{before + 1}] need {need:.0f} px, but they are {distance:.0f} px apart"
+            )
             raise FieldError(f"corner[{i + 1}].radius", reason)
     return bends
 
@@ -105,36 +106,36 @@ def _bend(i: int, before: Corner, corner: Corner, after: Corner) -> Bend:
 
 
 def _line(corners: Sequence[Corner], bends: Sequence[Bend]) -> tuple[list[float], list[float], list[float], float]:
-    """POINTS equally spaced points of the line, x and y, the width at each, and the length of the line."""
+    """POINTS equally spaced points of the centre line: x, y, width at each (px), and the length of the line (px)."""
     fine: list[tuple[float, float, float, float]] = []  # px along, x, y, width
     along = 0.0
     for i, bend in enumerate(bends):
         after, width = bends[(i + 1) % len(bends)], corners[i].width
         way = bend.radius * abs(bend.angle)
         begin = atan2(bend.start[1] - bend.middle[1], bend.start[0] - bend.middle[0])
-        for share in _shares(way):
+        for share in _subdivisions(way):
             angle = begin + share * bend.angle
             x, y = bend.middle[0] + bend.radius * cos(angle), bend.middle[1] + bend.radius * sin(angle)
             fine.append((along + share * way, x, y, width))
         along += way
         dx, dy = after.start[0] - bend.end[0], after.start[1] - bend.end[1]
-        way, wider = hypot(dx, dy), corners[(i + 1) % len(corners)].width - width
-        for share in _shares(way):
+        way, widening = hypot(dx, dy), corners[(i + 1) % len(corners)].width - width
+        for share in _subdivisions(way):
             fine.append(
-                (along + share * way, bend.end[0] + share * dx, bend.end[1] + share * dy, width + share * wider)
+                (along + share * way, bend.end[0] + share * dx, bend.end[1] + share * dy, width + share * widening)
             )
         along += way
     fine.append((along, *fine[0][1:]))
-    return *_spaced(fine, along), along
+    return *_resampled(fine, along), along
 
 
-def _shares(way: float) -> list[float]:
-    """Shares of a way, from 0 to below 1, at most FINE px apart."""
+def _subdivisions(way: float) -> list[float]:
+    """Fractions from 0 to below 1 that divide `way` px into steps of at most FINE px."""
     pieces = ceil(way / FINE)
     return [i / pieces for i in range(pieces)]
 
 
-def _spaced(
+def _resampled(
     fine: Sequence[tuple[float, float, float, float]], length: float
 ) -> tuple[list[float], list[float], list[float]]:
     xs, ys, widths = [], [], []
@@ -151,15 +152,15 @@ def _spaced(
     return xs, ys, widths
 
 
-def _eased(ring: Sequence[float], reach: int) -> list[float]:
-    """A ring of numbers, each the mean of those up to `reach` places away."""
+def _smoothed(ring: Sequence[float], reach: int) -> list[float]:
+    """Moving average of a ring of numbers, over `reach` elements either way."""
     return [
         sum(ring[(i + k) % len(ring)] for k in range(-reach, reach + 1)) / (2 * reach + 1) for i in range(len(ring))
     ]
 
 
 def _check_inside(course: Course) -> None:
-    """Both edges lie inside the arena."""
+    """Raises FieldError unless both edges lie inside the arena."""
     for i in range(POINTS):
         x, y, half = course.xs[i], course.ys[i], course.half[i]
         ex, ey = course.xs[(i + 1) % POINTS] - course.xs[i - 1], course.ys[(i + 1) % POINTS] - course.ys[i - 1]
@@ -173,7 +174,7 @@ def _check_inside(course: Course) -> None:
 
 
 def _check_apart(course: Course) -> None:
-    """No stretch lies over another; what is nearer along the line than a half turn belongs together."""
+    """Raises FieldError if stretches overlap; points closer along the line than a half turn are the same stretch."""
     for i in range(POINTS):
         x, y, half = course.xs[i], course.ys[i], course.half[i]
         for j in range(i + 1, POINTS):
@@ -183,25 +184,25 @@ def _check_apart(course: Course) -> None:
                 raise FieldError("corner", f"the course lies over itself near ({x + dx / 2:.0f}, {y + dy / 2:.0f})")
 
 
-def _enter(course: Course) -> None:
-    """For each node of the grid, the points to look at from there. Raises FieldError where three stretches meet."""
+def _index_nodes(course: Course) -> None:
+    """Set `near` and `other` of a course for each node of the grid. Raises FieldError if three stretches meet."""
     for node in range(NODES):
         x, y = node % COLUMNS * CELL, node // COLUMNS * CELL
-        away = [sqrt((a - x) * (a - x) + (b - y) * (b - y)) for a, b in zip(course.xs, course.ys, strict=True)]
-        least = [i for i in range(POINTS) if away[i] <= away[i - 1] and away[i] < away[(i + 1) % POINTS]]
+        gaps = [sqrt((a - x) * (a - x) + (b - y) * (b - y)) for a, b in zip(course.xs, course.ys, strict=True)]
+        minima = [i for i in range(POINTS) if gaps[i] <= gaps[i - 1] and gaps[i] < gaps[(i + 1) % POINTS]]
         near: list[int] = []
-        for i in sorted(least, key=lambda i: away[i] - course.half[i]):
-            if all(_parted(away, i, j) for j in near):
+        for i in sorted(minima, key=lambda i: gaps[i] - course.half[i]):
+            if all(_separate(gaps, i, j) for j in near):
                 near.append(i)
-        depths = [away[i] - course.half[i] for i in near]
+        depths = [gaps[i] - course.half[i] for i in near]
         course.near[node] = near[0]
         course.other[node] = near[1] if len(near) > 1 and depths[1] < depths[0] + 2 * REACH else -1
         if len(near) > 2 and depths[2] < REACH:
             raise FieldError("corner", f"three stretches of the course meet near ({x:g}, {y:g})")
 
 
-def _parted(away: list[float], i: int, j: int) -> bool:
-    """Whether i and j are stretches of their own: one gets further away on the way from one to the other, both ways."""
+def _separate(gaps: list[float], i: int, j: int) -> bool:
+    """True if i and j are on separate stretches: between them, both ways round, the distance rises above both."""
     low, high = min(i, j), max(i, j)
-    ridge = max(away[i], away[j]) + RIDGE
-    return max(away[low:high]) > ridge and max(away[high:] + away[:low]) > ridge
+    ridge = max(gaps[i], gaps[j]) + RIDGE
+    return max(gaps[low:high]) > ridge and max(gaps[high:] + gaps[:low]) > ridge

@@ -1,8 +1,8 @@
-"""A closed course: a centre line with a width, and where along it something is.
+"""A closed course, a centre line with a width, and the location of robots along it. circuit.py constructs courses.
 
-The line is a ring of points, equally far apart. For each node of the grid (see `grid`) the course knows which of its
-points is nearest, and which point of another stretch of it is near as well, so that asking where a robot is takes a few
-steps whatever it did before: nothing is remembered, and nothing can slip. How a course is made: see `circuit`.
+The line is a ring of equally spaced points. For each node of the grid (see grid.py) the course stores its nearest point
+and, if near, the nearest point of another stretch. Locating a robot therefore takes a few steps and depends on its
+position only, so that tracking cannot be lost.
 """
 
 from math import sqrt
@@ -18,33 +18,33 @@ POINTS = 320
 
 @record
 class Course:
-    """A ring of `count` points `step` px apart; from the last it is one step to the first."""
+    """A ring of `count` points `step` px apart, closed from the last to the first."""
 
     count: int
     step: float
-    length: float  # px, once round
+    length: float  # px, of a lap
     xs: Annotated[list[float], POINTS]
     ys: Annotated[list[float], POINTS]
     half: Annotated[list[float], POINTS]  # px from the line to either edge
-    near: Annotated[list[int], NODES_KEPT, "h"]  # for each node of the grid its nearest point
+    near: Annotated[list[int], NODES_KEPT, "h"]  # the nearest point to each node of the grid
     other: Annotated[list[int], NODES_KEPT, "h"]  # the nearest point of another stretch, -1 if none is near
 
 
 @record
 class CoursePosition:
-    """Where something is along a course."""
+    """A position relative to a course."""
 
     along: float  # px from the first point, in [0, length)
-    aside: float  # px from the line, positive on the right hand of the way
+    aside: float  # px from the line, positive to the right of the driving direction
     half: float  # px from the line to the edge there
-    on: int  # 1: its centre is on the course
-    tangent_x: float  # the way of the course there, of length 1
+    on: int  # 1: the point is on the course
+    tangent_x: float  # unit tangent of the course there
     tangent_y: float
 
 
 @kernel
 def locate(course: Any, x: float, y: float, place: Any) -> None:
-    """Find the place of (x, y): on the stretch it is on, else on the one whose edge is nearest."""
+    """Locate (x, y): on the stretch that it is on, else on the one whose edge is nearest. Fills in `place`."""
     node = node_at(x, y)
     k, share, gap = project(course, x, y, nearest_point(course, x, y, course.near[node]))
     half = half_width_at(course, k, share)
@@ -69,31 +69,31 @@ def locate(course: Any, x: float, y: float, place: Any) -> None:
 
 @kernel
 def nearest_point(course: Any, x: float, y: float, k: int) -> int:
-    """From point k on to the nearest to (x, y) that is reached by coming nearer with every step."""
+    """The point nearest to (x, y), found by descent from point k: a local minimum of the distance."""
     last = course.count - 1
     dx, dy = course.xs[k] - x, course.ys[k] - y
-    least = dx * dx + dy * dy
+    nearest2 = dx * dx + dy * dy
     moved = 0
     while True:
         after = k + 1 if k < last else 0
         dx, dy = course.xs[after] - x, course.ys[after] - y
-        gap = dx * dx + dy * dy
-        if gap >= least:
+        distance2 = dx * dx + dy * dy
+        if distance2 >= nearest2:
             break
-        k, least, moved = after, gap, 1
+        k, nearest2, moved = after, distance2, 1
     while not moved:
         before = k - 1 if k > 0 else last
         dx, dy = course.xs[before] - x, course.ys[before] - y
-        gap = dx * dx + dy * dy
-        if gap >= least:
+        distance2 = dx * dx + dy * dy
+        if distance2 >= nearest2:
             break
-        k, least = before, gap
+        k, nearest2 = before, distance2
     return k
 
 
 @kernel
 def project(course: Any, x: float, y: float, k: int) -> tuple[int, float, float]:
-    """The nearest point on the two legs that meet at point k: the leg, the share of it, and the distance in px."""
+    """Project (x, y) onto the two segments that meet at point k: nearest segment, fraction of it, distance in px."""
     last = course.count - 1
     before, after = k - 1 if k > 0 else last, k + 1 if k < last else 0
     share, gap = project_on_segment(course, x, y, k, after)
@@ -105,7 +105,7 @@ def project(course: Any, x: float, y: float, k: int) -> tuple[int, float, float]
 
 @kernel
 def project_on_segment(course: Any, x: float, y: float, a: int, b: int) -> tuple[float, float]:
-    """The share of the leg from point a to b that is nearest to (x, y), and the square of the distance."""
+    """Project (x, y) onto the segment from point a to b: fraction of it in [0, 1], and squared distance, px^2."""
     ax, ay = course.xs[a], course.ys[a]
     ex, ey = course.xs[b] - ax, course.ys[b] - ay
     dx, dy = x - ax, y - ay
@@ -121,7 +121,7 @@ def project_on_segment(course: Any, x: float, y: float, a: int, b: int) -> tuple
 
 @kernel
 def half_width_at(course: Any, k: int, share: float) -> float:
-    """Half the width at a share of the leg from point k."""
+    """Half the width, px, at a fraction of the segment from point k."""
     after = k + 1 if k + 1 < course.count else 0
     half: float = course.half[k] + share * (course.half[after] - course.half[k])
     return half
@@ -129,7 +129,7 @@ def half_width_at(course: Any, k: int, share: float) -> float:
 
 @kernel
 def segment_at(course: Any, along: float) -> tuple[int, float]:
-    """The leg on which a place lies, by its first point, and the share of it; `along` in px, at most a lap out."""
+    """Segment (by its first point) at `along` px, and the fraction of it; `along` is at most a lap out of range."""
     if along < 0.0:
         along += course.length
     elif along >= course.length:
@@ -143,7 +143,7 @@ def segment_at(course: Any, along: float) -> tuple[int, float]:
 
 @kernel
 def point_at(course: Any, along: float, aside: float) -> tuple[float, float]:
-    """The point so many px along the course, and so many to the right of its line."""
+    """The point `along` px along the course and `aside` px to the right of its line."""
     k, share = segment_at(course, along)
     after = k + 1 if k + 1 < course.count else 0
     ax, ay = course.xs[k], course.ys[k]
@@ -154,7 +154,7 @@ def point_at(course: Any, along: float, aside: float) -> tuple[float, float]:
 
 @kernel
 def distance_ahead(course: Any, start: float, end: float) -> float:
-    """The px from one place along the course to another, forwards, in [0, length)."""
+    """Forward distance between two positions along the course, px, in [0, length)."""
     way = end - start
     if way < 0.0:
         way += course.length

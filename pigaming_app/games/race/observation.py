@@ -1,7 +1,7 @@
-"""What a brain sees of a race: named numbers, as from the robot's own seat.
+"""Robot Race: a brain's observation of a match, as named numbers relative to its own seat.
 
-Bearings are relative to the own heading, in (-pi, pi], clockwise positive; ways along the course are in px, forwards
-positive. Others are seen as they were `delay` seconds ago, by their speed; the own pose is never delayed.
+Bearings are relative to the robot's own heading, in (-pi, pi], clockwise positive; distances along the course are in
+px, forward positive. Positions of others are extrapolated back by `delay` seconds; the own pose is not delayed.
 """
 
 from math import atan2, cos, sin, sqrt
@@ -14,18 +14,18 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.world import ROBOTS
 
 OTHERS = ROBOTS - 1
-BACK = 160.0  # px at a time that lead back to a missed line
-PACE = 40.0  # px for which the pace of the fastest line must be kept
-RUN_UP = 70.0  # px before a line from which it can be crossed well
+BACK = 160.0  # px, longest step on the way back to a missed line
+PACE = 40.0  # px of lookahead for the pace of the fastest line
+RUN_UP = 70.0  # px before a line, as a run-up to cross it
 
 
 @record
 class Senses:
     """Parameters of the observation of one seat."""
 
-    delay: float  # s by which others are seen late
-    look: float  # px along the course to what it drives for
-    place: CoursePosition  # for working things out
+    delay: float  # s, age of the poses of others
+    look: float  # lookahead along the course, px
+    place: CoursePosition  # scratch space
 
 
 @record
@@ -34,7 +34,7 @@ class TrackPoint:
 
     x: float
     y: float
-    right_x: float  # of length 1, across the course to the right
+    right_x: float  # unit vector across the course, to the right
     right_y: float
     ideal: float  # px aside of the centre line
     half: float  # px from the centre line to the edges
@@ -42,14 +42,14 @@ class TrackPoint:
 
 @record
 class Other:
-    """Another robot, in the order of the seats after one's own."""
+    """Another robot, in seat order after the own seat."""
 
     present: int
     x: float
     y: float
     distance: float
     bearing: float
-    ahead: float  # px along the course, the short way round
+    ahead: float  # px along the course, by the shorter way round
     aside: float  # px from the centre line
     speed: float  # px/s along the course
     sideways: float  # px/s across it, to the right
@@ -58,7 +58,7 @@ class Other:
 
 @record
 class Observation:
-    """What one seat sees."""
+    """The observation of one seat."""
 
     x: float
     y: float
@@ -67,30 +67,30 @@ class Observation:
     angular: float
     speed: float  # full speed, px/s
     turn_rate: float
-    turbo: float  # what is left in the meter, 0..1
+    turbo: float  # charge of the meter, 0..1
     turbo_factor: float  # of speed, while it is on
     boosting: int
-    along: float  # share of the way round
+    along: float  # fraction of the lap
     aside: float
     half: float
     on: int
-    lean: float  # heading, relative to the way of the course
-    ideal: float  # where the fastest line is here, px aside of the centre line
-    pace: float  # least speed of that line in the next PACE px, as a share of full speed
-    turn: float  # sine of the angle by which the course turns from here to twice as far ahead, positive to the right
+    lean: float  # heading relative to the course
+    ideal: float  # offset of the fastest line from the centre line here, px
+    pace: float  # lowest speed on that line within the next PACE px, as a share of full speed
+    turn: float  # sine of the angle by which the course turns within twice the lookahead, positive to the right
     left: float  # px to the finish
-    past: float  # px by which it is past the line that it must cross next; negative: the way to it
-    return_x: float  # where to drive to get back before that line, if it is past it
+    past: float  # px by which it is past its next line; negative: before it
+    return_x: float  # waypoint on the way back before that line
     return_y: float
     rank: int
     finished: int
-    ahead: TrackPoint  # as far ahead as the eyes look
+    ahead: TrackPoint  # at the lookahead distance
     others: Annotated[list[Other], OTHERS]
 
 
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
-    """Fill the observation of one seat."""
+    """Fill in the observation of one seat."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     course, place = match.course, senses.place
     locate(course, robot.x, robot.y, place)
@@ -113,7 +113,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 @kernel
 def observe_way(match: Any, place: Any, look: float, obs: Any) -> None:
-    """The fastest line from here on, and how the course turns."""
+    """Fill in the fastest line at this position, and the turn of the course ahead."""
     course = match.course
     k, _ = segment_at(course, place.along)
     obs.ideal, obs.pace = match.ideal[k], match.pace[k]
@@ -121,13 +121,13 @@ def observe_way(match: Any, place: Any, look: float, obs: Any) -> None:
         pace = match.pace[i % course.count]
         if pace < obs.pace:
             obs.pace = pace
-    x, y = leg_way(course, k + int(2.0 * look / course.step))
+    x, y = segment_direction(course, k + int(2.0 * look / course.step))
     obs.turn = place.tangent_x * y - place.tangent_y * x
 
 
 @kernel
-def leg_way(course: Any, k: int) -> tuple[float, float]:
-    """The way of the leg from point k on, of about length 1."""
+def segment_direction(course: Any, k: int) -> tuple[float, float]:
+    """Direction of the segment from point k, of approximately unit length."""
     a = k % course.count
     b = (k + 1) % course.count
     return (course.xs[b] - course.xs[a]) / course.step, (course.ys[b] - course.ys[a]) / course.step
@@ -135,7 +135,7 @@ def leg_way(course: Any, k: int) -> tuple[float, float]:
 
 @kernel
 def observe_mark(match: Any, along: float, mark: Any) -> None:
-    """A point of the fastest line."""
+    """Fill in the point of the fastest line at `along` px."""
     course = match.course
     k, share = segment_at(course, along)
     after = k + 1 if k + 1 < course.count else 0
@@ -151,7 +151,7 @@ def observe_mark(match: Any, along: float, mark: Any) -> None:
 
 @kernel
 def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
-    """How far it is to the line that the robot must cross next, or past it, and where to go then."""
+    """Fill in the distance past the robot's next line, and the waypoint back to it."""
     racer, course = match.racers[seat], match.course
     behind = racer.passed - 1 - racer.back
     here = match.lines[(seat + behind) % ROBOTS].along
@@ -168,7 +168,7 @@ def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
 
 @kernel
 def observe_other(match: Any, robot: Any, j: int, along: float, senses: Any, other: Any) -> None:
-    """Robot j as `robot`, at `along`, sees it."""
+    """Fill in robot j, as observed by `robot` at `along` px."""
     seen, place = match.robots[j], senses.place
     other.present = seen.present
     if not seen.present:

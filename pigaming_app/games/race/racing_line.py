@@ -1,9 +1,9 @@
-"""The fastest line round a course, and the speed it allows.
+"""The fastest line around a course, and the speed it permits.
 
-A robot has no grip to lose: it may turn at its full rate whatever its speed. So a piece of a line takes as long as its
-length at full speed or its turn at the full rate, whichever is more, and the fastest line is short where it can be, and
-wide where it would else have to wait for its own turning. It is found by pushing the line aside in bumps, broad ones
-first, on a coarse ring of points and then on finer ones, for as long as that saves time.
+Robots do not slip: they can turn at the full rate at any speed. A piece of a line therefore takes the longer of its
+length at full speed and its turn at full rate; the fastest line is short where possible, and wide where turning would
+limit the speed. It is found by local search: bumps, broad ones first, displace the line on a coarse ring of points,
+then on finer ones, as long as they save time.
 """
 
 from collections.abc import Sequence
@@ -14,33 +14,33 @@ from pigaming_app.games.race.course import POINTS, Course
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
-MARGIN = 3.0  # px that the line keeps from the edges
-WALL = RADIUS + 6.0  # px that it keeps from the outer walls
-LEVELS = (  # points of the course to one of the line; how broad bumps are, in points; how high, in px; rounds at most
+MARGIN = 3.0  # px between the line and the edges
+WALL = RADIUS + 6.0  # px between the line and the outer walls
+LEVELS = (  # course points per line point; widths of bumps, in points; heights, in px; limit on rounds
     (4, (8, 4, 2, 1), (32.0, 16.0, 8.0, 4.0, 2.0, 1.0), 6),
     (2, (8, 4, 2, 1), (4.0, 2.0, 1.0, 0.5), 6),
     (1, (8, 4, 2), (2.0, 1.0, 0.5), 2),
 )
-ENOUGH = 1e-3  # s saved in a round, below which it stops
-EASE = 2  # points over which a slower pace begins and ends
+MIN_GAIN = 1e-3  # s saved in a round, below which the search stops
+EASE = 2  # points over which a lower pace is widened
 
 
 @lru_cache(maxsize=32)
 def fastest_line(course: Course, speed: float, turn_rate: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """For each point of the course how many px aside of it the line lies, and the share of full speed there."""
+    """For each point of the course: offset of the line in px, positive to the right, and the share of full speed."""
     band: list[float] = []
     for every, breadths, heights, rounds in LEVELS:
-        rope = ElasticBand(course, every, speed, turn_rate)
-        rope.begin(band)
+        line = ElasticBand(course, every, speed, turn_rate)
+        line.initialise(band)
         for _ in range(rounds):
-            if sum(rope.push(breadth, height) for breadth in breadths for height in heights) < ENOUGH:
+            if sum(line.push(breadth, height) for breadth in breadths for height in heights) < MIN_GAIN:
                 break
-        band = rope.aside
-    return tuple(band), _pace(rope, speed, turn_rate)
+        band = line.aside
+    return tuple(band), _pace(line, speed, turn_rate)
 
 
 class ElasticBand:
-    """A line round the course, held at every so manieth of its points."""
+    """A line around the course, with a control point (post) at every `every`-th point of the course."""
 
     def __init__(self, course: Course, every: int, speed: float, turn_rate: float) -> None:
         self.count = POINTS // every
@@ -51,15 +51,15 @@ class ElasticBand:
         self.xs, self.ys = [0.0] * self.count, [0.0] * self.count
         self.costs = [0.0] * self.count
 
-    def begin(self, band: Sequence[float]) -> None:
-        """Lie where a coarser line lay; none: in the middle."""
-        more = self.count // len(band) if band else 1
+    def initialise(self, band: Sequence[float]) -> None:
+        """Start from the offsets of a coarser line; empty: from the centre line."""
+        factor = self.count // len(band) if band else 1
         for i in range(self.count):
-            self.set(i, _between(band, i // more, i % more / more) if band else 0.0)
+            self.set(i, _interpolate(band, i // factor, i % factor / factor) if band else 0.0)
         self.costs = [self.cost(i) for i in range(self.count)]
 
     def set(self, i: int, aside: float) -> None:
-        """Move the line at post i, as far as there is room."""
+        """Set the offset at post i, clamped to the course, px."""
         low, high = self.room[i]
         aside = low if aside < low else high if aside > high else aside
         x, y, right_x, right_y = self.posts[i]
@@ -67,7 +67,7 @@ class ElasticBand:
         self.xs[i], self.ys[i] = x + aside * right_x, y + aside * right_y
 
     def cost(self, i: int) -> float:
-        """About the s that the line takes round post i: the more of driving and turning, the corner of it rounded."""
+        """Approximate time around post i, s: a smooth maximum (8-norm) of the times to drive and to turn."""
         after = i + 1 - self.count
         x, y = self.xs[i], self.ys[i]
         ax, ay, bx, by = x - self.xs[i - 1], y - self.ys[i - 1], self.xs[after] - x, self.ys[after] - y
@@ -76,13 +76,13 @@ class ElasticBand:
         return float((drive**8 + turn**8) ** 0.125)
 
     def push(self, breadth: int, height: float) -> float:
-        """Try bumps of that breadth and height, to either side, all the way round; the s saved."""
+        """Try bumps of this breadth (posts) and height (px), to either side, all around. Returns the s saved."""
         saved = 0.0
         for middle in range(0, self.count, max(1, breadth // 2)):
             posts = [(middle + k) % self.count for k in range(-breadth, breadth + 1)]
             before = sum([self.costs[i] for i in posts])
             for side in (height, -height):
-                kept = [self.aside[i] for i in posts]
+                previous = [self.aside[i] for i in posts]
                 for i, k in zip(posts, range(-breadth, breadth + 1), strict=True):
                     self.set(i, self.aside[i] + side * (1 - abs(k) / breadth))
                 costs = [self.cost(i) for i in posts]
@@ -91,13 +91,13 @@ class ElasticBand:
                     for i, cost in zip(posts, costs, strict=True):
                         self.costs[i] = cost
                     break
-                for i, aside in zip(posts, kept, strict=True):
+                for i, aside in zip(posts, previous, strict=True):
                     self.set(i, aside)
         return saved
 
 
 def _post(course: Course, i: int) -> tuple[float, float, float, float]:
-    """A point of the course, and the way to its right."""
+    """A point of the course, and the unit vector to its right."""
     after = (i + 1) % POINTS
     ex, ey = course.xs[after] - course.xs[i - 1], course.ys[after] - course.ys[i - 1]
     way = hypot(ex, ey)
@@ -105,7 +105,7 @@ def _post(course: Course, i: int) -> tuple[float, float, float, float]:
 
 
 def _room(half: float, post: tuple[float, float, float, float]) -> tuple[float, float]:
-    """How far the line may go to the left and to the right of a post."""
+    """Limits of the offset at a post, to the left and to the right, px."""
     x, y, right_x, right_y = post
     sides = []
     for side in (-1.0, 1.0):
@@ -118,20 +118,20 @@ def _room(half: float, post: tuple[float, float, float, float]) -> tuple[float, 
     return sides[0], sides[1]
 
 
-def _between(band: Sequence[float], i: int, share: float) -> float:
-    """A ring of numbers between its places, without corners (after Catmull and Rom)."""
+def _interpolate(band: Sequence[float], i: int, share: float) -> float:
+    """Catmull-Rom interpolation of a ring of numbers, a fraction `share` after element i."""
     a, b, c, d = (band[(i + k) % len(band)] for k in (-1, 0, 1, 2))
     cubic = 2.0 * a - 5.0 * b + 4.0 * c - d + share * (3.0 * (b - c) + d - a)
     return b + 0.5 * share * (c - a + share * cubic)
 
 
-def _pace(rope: ElasticBand, speed: float, turn_rate: float) -> tuple[float, ...]:
-    """The share of full speed at which the line can be turned along, eased so that the motors can follow."""
+def _pace(line: ElasticBand, speed: float, turn_rate: float) -> tuple[float, ...]:
+    """The share of full speed that the line's curvature permits, widened by EASE so that the motors can follow."""
     turns = []
-    for i in range(rope.count):
-        a, b, c = ((rope.xs[(i + k) % rope.count], rope.ys[(i + k) % rope.count]) for k in (-2, 0, 2))
+    for i in range(line.count):
+        a, b, c = ((line.xs[(i + k) % line.count], line.ys[(i + k) % line.count]) for k in (-2, 0, 2))
         ux, uy, vx, vy = b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]
         angle = abs(atan2(ux * vy - uy * vx, ux * vx + uy * vy))
         turns.append(2.0 * angle * speed / turn_rate / (hypot(ux, uy) + hypot(vx, vy)))
     shares = [1.0 / max(1.0, turn) for turn in turns]
-    return tuple(min(shares[(i + k) % rope.count] for k in range(-EASE // 2, EASE // 2 + 1)) for i in range(rope.count))
+    return tuple(min(shares[(i + k) % line.count] for k in range(-EASE // 2, EASE // 2 + 1)) for i in range(line.count))

@@ -1,10 +1,10 @@
-"""Robot Race, as a player would hear it: first round the course so many times wins.
+"""Rules of Robot Race: the first to complete all laps wins.
 
-Everybody has a start and finish line of their own; the lines of the others are checkpoints. Cross all four in their
-order and in the right direction, beginning with your own, else the lap does not count: a missed line must be gone back
-to. Driving back over a line counts nothing and takes nothing away. Off the course is mud: a third of the speed. Turbo
-makes you faster while its meter lasts. When the first has finished, the others have half a minute to do so too; who has
-not is ranked by how far they came.
+Each robot has its own start and finish line; the lines of the others are checkpoints. Cross all four in order and in
+the right direction, beginning with your own, or the lap does not count: if you miss a line, you must go back to it.
+Driving back over a line gains and costs nothing. Off the course is mud: a third of the speed. Turbo makes you faster
+while its meter lasts. After the first has finished, the others have half a minute left; those who do not finish are
+ranked by distance.
 """
 
 from math import cos, floor, sin
@@ -16,12 +16,12 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import stop, stop_all, use_turbo
 from pigaming_app.sim.world import ROBOTS
 
-AGAINST = 40.0  # px/s from which driving against the way counts
+AGAINST = 40.0  # px/s above which driving against the direction of the course counts
 
 
 @kernel
 def judge(match: Any) -> None:
-    """One tick of the rules: where everybody is, what they have crossed, who leads, then the speeds they ask for."""
+    """One tick of the rules: positions, crossings, ranks, then the requested speeds."""
     if match.over:
         stop_all(match)
         return
@@ -33,13 +33,13 @@ def judge(match: Any) -> None:
             match.racers[k].rank = rank(match, k)
             steer(match, k)
     match.tick += 1
-    if ended(match):
+    if is_over(match):
         match.over = 1
 
 
 @kernel
 def track_progress(match: Any, k: int) -> None:
-    """See where robot k is, and what it has crossed on its way there."""
+    """Locate robot k, and process the lines it has crossed since the previous tick."""
     robot, racer = match.robots[k], match.racers[k]
     locate(match.course, robot.x, robot.y, racer.place)
     if not racer.finished:
@@ -64,16 +64,16 @@ def track_progress(match: Any, k: int) -> None:
 
 @kernel
 def crossing(line: Any, x: float, y: float, to_x: float, to_y: float) -> float:
-    """How much of the way from (x, y) had been driven at the line, in (0, 1]; negative: over it backwards; 0: not.
+    """Fraction of the step from (x, y) at which it crosses a line, in (0, 1]; less 2 if backwards; 0: no crossing.
 
-    What lies on the line itself counts as behind it, so that nothing is ever crossed twice in the same direction.
+    A point on the line counts as past it, so that no line is crossed twice in the same direction.
     """
     ex, ey = line.bx - line.ax, line.by - line.ay
     after = (to_x - line.ax) * ey - (to_y - line.ay) * ex
-    before = (x - line.ax) * ey - (y - line.ay) * ex
-    if (before < 0.0) == (after < 0.0):
+    is_ahead = (x - line.ax) * ey - (y - line.ay) * ex
+    if (is_ahead < 0.0) == (after < 0.0):
         return 0.0
-    share = before / (before - after)
+    share = is_ahead / (is_ahead - after)
     across: float = (x + share * (to_x - x) - line.ax) * ex + (y + share * (to_y - y) - line.ay) * ey
     if across < 0.0 or across > ex * ex + ey * ey:
         return 0.0
@@ -82,9 +82,9 @@ def crossing(line: Any, x: float, y: float, to_x: float, to_y: float) -> float:
 
 @kernel
 def cross_forward(match: Any, k: int, i: int, when: float) -> None:
-    """Robot k has crossed line i in the right direction: the next one, one it had gone back over, or a wrong one.
+    """Process a forward crossing of line i by robot k: its next line, one it had gone back over, or a wrong one.
 
-    The line crossed last, again, is a wrong one too: the robot has come round without the others.
+    The line that it crossed last is a wrong one too: the robot has gone round without crossing the others.
     """
     racer = match.racers[k]
     expected = (k + racer.passed) % LINES
@@ -100,14 +100,14 @@ def cross_forward(match: Any, k: int, i: int, when: float) -> None:
 
 @kernel
 def cross_backward(racer: Any, k: int, i: int) -> None:
-    """Robot k has crossed line i in the wrong direction: nothing is undone, but the way back is remembered."""
+    """Process a backward crossing of line i by robot k: it counts lines to be crossed again, and undoes nothing."""
     if i == (k + racer.passed - 1 - racer.back) % LINES:
         racer.back += 1
 
 
 @kernel
 def pass_line(match: Any, k: int, when: float) -> None:
-    """Robot k has crossed the line that was next."""
+    """Process robot k's crossing of its next line: split time, or the end of a lap."""
     racer = match.racers[k]
     racer.missed, racer.back = 0, 0
     i = racer.passed % LINES
@@ -126,7 +126,7 @@ def pass_line(match: Any, k: int, when: float) -> None:
 
 @kernel
 def end_lap(match: Any, k: int, when: float) -> None:
-    """Robot k is back at its own line, with all the others behind it."""
+    """End a lap of robot k: lap times, best lap, and the finish after the last."""
     racer, robot = match.racers[k], match.robots[k]
     lap = when - racer.lap_began
     racer.laps[robot.score], racer.last_lap = lap, lap
@@ -148,9 +148,9 @@ def end_lap(match: Any, k: int, when: float) -> None:
 
 @kernel
 def progress(match: Any, k: int) -> float:
-    """How far robot k has come: between the line that lies behind it and the next, whatever it has driven round.
+    """Distance that robot k has covered, px, clamped between its last line and the next.
 
-    To 1/64 px, so that rounding decides no order.
+    Rounded to 1/64 px, so that rounding errors do not affect the order.
     """
     racer, length = match.racers[k], match.course.length
     own = match.lines[k].along
@@ -163,29 +163,29 @@ def progress(match: Any, k: int) -> float:
     if way > gap:
         way = gap if racer.missed or way - gap < length - way else 0.0
     laps = behind // LINES
-    came: float = laps * length + distance_ahead(match.course, own, here) + way
-    return floor(came * 64.0 + 0.5) / 64.0
+    covered: float = laps * length + distance_ahead(match.course, own, here) + way
+    return floor(covered * 64.0 + 0.5) / 64.0
 
 
 @kernel
 def rank(match: Any, k: int) -> int:
-    """1 more than there are robots before this one; of equals the first seat is before."""
+    """Rank of robot k, from 1; ties go to the lower seat."""
     place = 1
     for j in range(ROBOTS):
-        if match.robots[j].present and j != k and before(match.racers[j], match.racers[k], j < k):
+        if match.robots[j].present and j != k and is_ahead(match.racers[j], match.racers[k], j < k):
             place += 1
     return place
 
 
 @kernel
-def before(one: Any, other: Any, if_equal: bool) -> bool:
-    """Whether one racer is before the other."""
-    if one.finished != other.finished:
-        return bool(one.finished > other.finished)
-    if one.finished and one.finish != other.finish:
-        return bool(one.finish < other.finish)
-    if one.progress != other.progress:
-        return bool(one.progress > other.progress)
+def is_ahead(racer: Any, other: Any, if_equal: bool) -> bool:
+    """True if a racer ranks ahead of the other: by finish time, then by progress."""
+    if racer.finished != other.finished:
+        return bool(racer.finished > other.finished)
+    if racer.finished and racer.finish != other.finish:
+        return bool(racer.finish < other.finish)
+    if racer.progress != other.progress:
+        return bool(racer.progress > other.progress)
     return if_equal
 
 
@@ -194,7 +194,7 @@ def before(one: Any, other: Any, if_equal: bool) -> bool:
 
 @kernel
 def steer(match: Any, k: int) -> None:
-    """Ask for the speeds that robot k's stick, its turbo and the ground give."""
+    """Request the speeds that result from robot k's stick, turbo and the ground."""
     rules, robot, action, racer = match.rules, match.robots[k], match.actions[k], match.racers[k]
     if racer.finished and match.tick - racer.finish > rules.roll_on:
         stop(robot)
@@ -210,8 +210,8 @@ def steer(match: Any, k: int) -> None:
 
 
 @kernel
-def ended(match: Any) -> bool:
-    """Whether everybody has finished, or the time for it is up."""
+def is_over(match: Any) -> bool:
+    """True if everybody has finished, or a time limit has passed."""
     late = match.first and match.tick - match.first >= match.rules.patience
     racing = 0
     for k in range(ROBOTS):

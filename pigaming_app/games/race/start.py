@@ -1,11 +1,11 @@
-"""Robot Race: how a race begins, with the numbers of its rules, and what it counts in the end.
+"""Robot Race: parsing of tracks, initial state of a match, and its statistics.
 
-What a track's file holds besides its title:
+A track file has, besides its title:
 
 [track]
-lines = [0.2, 0.46, 0.71, 0.97]  # the four lines, in the order of the players, as shares of the way round
+lines = [0.2, 0.46, 0.71, 0.97]  # the four lines, in the order of the seats, as fractions of a lap
 
-[[corner]]               # of the centre line, in driving order; the way round begins where the first one's arc does
+[[corner]]               # of the centre line, in driving order; a lap begins at the start of the first arc
 at = [112, 116]          # px
 radius = 215             # px, of the arc that rounds it
 width = 200              # px, of the course
@@ -26,22 +26,22 @@ from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import DT, HZ
 
-LAPS = Rules().laps  # if nobody says otherwise
+LAPS = Rules().laps  # the default goal
 GOALS = tuple(range(1, MOST_LAPS + 1))
 BEHIND = 55.0  # px between a robot's start and its line
-APART = 300.0  # px that must lie between two lines
+APART = 300.0  # px, least distance between two lines
 
 
 @dataclass(frozen=True)
 class TrackPlan:
-    """What a track is besides its title: its course, and its lines in px along it."""
+    """A track: its course, and the positions of its lines, px along it."""
 
     course: Course
     lines: tuple[float, ...]
 
 
 def read(table: TomlTable) -> Layout:
-    """A track is a course and four lines. Raises Wrong."""
+    """Parse a track: a course and four lines. Raises FieldError."""
     table.only("title", "track", "corner")
     course = read_course(table)
     lines = _lines(table.table("track"), course)
@@ -50,7 +50,7 @@ def read(table: TomlTable) -> Layout:
 
 
 def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
-    """Where along the course the lines lie, in px. Raises Wrong."""
+    """Positions of the lines, px along the course. Raises FieldError."""
     table.only("lines")
     shares = table.numbers("lines", LINES, 0.0, 1.0)
     gaps = [(shares[(i + 1) % LINES] - shares[i]) % 1.0 for i in range(LINES)]
@@ -66,7 +66,7 @@ def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
 
 
 def _start(course: Course, line: float) -> StartPose:
-    """Where the robot of a line begins: behind it, heading along the course."""
+    """Start pose for a line at `line` px: behind it, heading along the course."""
     k, _ = segment_at(course, line - BEHIND)
     x, y = point_at(course, line - BEHIND, 0.0)
     after = (k + 1) % POINTS
@@ -74,7 +74,7 @@ def _start(course: Course, line: float) -> StartPose:
 
 
 def start(match: Race, arena: Arena, setup: Setup) -> None:
-    """Fill a fresh match: course, lines, robots on their starts, rules, chance."""
+    """Fill a fresh match: course, lines, robots on their starts, rules, random seed."""
     build(match, arena)
     track: TrackPlan = arena.plan
     match.course = copy(track.course)
@@ -82,7 +82,7 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     set_rules(match.rules, setup)
     match.ideal[:], match.pace[:] = fastest_line(track.course, match.rules.speed, match.rules.turn_rate)
     for line, along in zip(match.lines, track.lines, strict=True):
-        _draw(line, match.course, along)
+        _place_line(line, match.course, along)
     for i, (robot, racer, seat) in enumerate(zip(match.robots, match.racers, setup.seats, strict=True)):
         robot.present, robot.team = int(seat.brain != "off"), seat.team
         racer.last_x, racer.last_y, racer.rank = robot.x, robot.y, i + 1
@@ -90,8 +90,8 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
         locate(match.course, robot.x, robot.y, racer.place)
 
 
-def _draw(line: TimingLine, course: Course, along: float) -> None:
-    """A line across the course, from edge to edge."""
+def _place_line(line: TimingLine, course: Course, along: float) -> None:
+    """Place a line across the course at `along` px, from edge to edge."""
     half = half_width_at(course, *segment_at(course, along))
     line.along = along
     line.ax, line.ay = point_at(course, along, -half)
@@ -99,30 +99,30 @@ def _draw(line: TimingLine, course: Course, along: float) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """Fit fresh rules to a setup."""
+    """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.laps = setup.goal or rules.laps
 
 
 def ranking_key(match: Race, seat: int) -> float:
-    """Who has finished is before who has not, and earlier is better; else what counts is how far one came."""
+    """Finishers first, by time; then by progress."""
     racer = match.racers[seat]
     return 1e9 - racer.finish if racer.finished else racer.progress
 
 
 def stats(match: Race, seat: int) -> Mapping[str, float]:
-    """What one seat drove: laps, its best lap and the whole race in s, 0 where there is none."""
+    """Statistics of a seat: laps, best lap and whole race in s, 0 if there is none."""
     racer = match.racers[seat]
     return {"laps": match.robots[seat].score, "best": racer.best_lap * DT, "total": racer.finish * DT}
 
 
 def records(match: Race, seat: int) -> Mapping[str, int]:
-    """The best lap, and the race if it was finished, in ms."""
+    """Best lap, and the race if finished, in ms."""
     racer = match.racers[seat]
     done = {"lap": racer.best_lap, "race": racer.finish}
     return {name: round(1000 * DT * ticks) for name, ticks in done.items() if ticks > 0.0}
 
 
 def times(match: Race, seat: int) -> tuple[float, ...]:
-    """The laps, in s."""
+    """Lap times, in s."""
     return tuple(lap * DT for lap in match.racers[seat].laps[: match.robots[seat].score])

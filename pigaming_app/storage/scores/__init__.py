@@ -1,4 +1,4 @@
-"""High scores: the tables, their file, and the rows carried over from the file of version 1.3.0."""
+"""High scores: the tables, their file, and migration from the file of version 1.3.0."""
 
 from pigaming_app.storage.scores.book import FILE, Scores, migrations
 from pigaming_app.storage.scores.table import DAYS, LENGTH, LETTERS, Score, ScoreTable

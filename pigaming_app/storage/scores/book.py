@@ -1,7 +1,7 @@
-"""All tables of scores, and how several copies of the arcade share their file.
+"""All high-score tables, in a file shared by several instances of the arcade.
 
-A copy writes only its own changes: under the lock of the file it reads what is there now, clears it if it was told to,
-and adds its new rows. Then a row of another copy is never lost, and a table that another copy cleared stays cleared.
+An instance merges its own changes: under the file lock it reads the current file, clears it if requested, and adds its
+new rows. So no row of another instance is lost, and tables cleared by another instance remain cleared.
 """
 
 import logging
@@ -17,72 +17,72 @@ from pigaming_app.storage.scores.file_format import Content, Migrated, Problems,
 from pigaming_app.storage.scores.migration import back_up, migrate, pending
 from pigaming_app.storage.scores.table import LENGTH, Score, ScoreTable, are_initials, day, local, worth_keeping
 
-FILE = "scores2.toml"  # version 1.3.0 has no use for it and leaves it alone
-LARGEST = 16_000_000  # bytes
+FILE = "scores2.toml"  # not read or written by version 1.3.0
+MAX_BYTES = 16_000_000
 Stamp = tuple[int, int, int]
 log = logging.getLogger("pigaming")
 
 
 class Scores:
-    """The tables of all games. A new row is in memory only, until `save`."""
+    """The tables of all games. New rows are in memory only, until `save`."""
 
     def __init__(self) -> None:
-        self._content = Content()  # with the own changes
-        self._seen = Content()  # the file as it was read or written last
-        self._stamp: Stamp | None = None  # of that file
+        self._content = Content()  # including unsaved changes
+        self._seen = Content()  # the file as last read or written
+        self._stamp: Stamp | None = None  # of the file at that time
         self._added: list[tuple[ScoreTable, Score]] = []
         self._cleared = False
 
     @classmethod
     def load(cls, folder: Path) -> "tuple[Scores, list[str]]":
-        """The tables kept in the folder, and one sentence for everything that was wrong with them.
+        """Load the tables from the folder; returns them with a sentence for every problem.
 
-        What version 1.3.0 kept is backed up and carried over.
+        A file of version 1.3.0 is backed up and migrated.
         """
         scores = cls()
-        if not os.path.isdir(folder):  # which never raises
+        if not os.path.isdir(folder):  # unlike Path.is_dir, never raises
             return scores, []
         try:
             with locked(folder / FILE):
-                said = scores._refresh(folder)
+                problems = scores._refresh(folder)
                 try:
                     scores._write(folder)
-                except NotSaved as trouble:
-                    said.append(str(trouble))
-        except NotSaved:  # another copy hangs while it writes; the file is whole all the same
-            said = scores._refresh(folder)
-        return scores, said
+                except NotSaved as error:
+                    problems.append(str(error))
+        except NotSaved:  # another instance holds the lock; the file is complete nevertheless
+            problems = scores._refresh(folder)
+        return scores, problems
 
     @property
     def unsaved(self) -> bool:
-        """Whether `save` has something to write."""
+        """True if `save` has something to write."""
         return self._cleared or bool(self._added)
 
     def save(self, folder: Path) -> None:
-        """Merge the own changes into the file. Raises NotSaved; then the file is intact and the changes are kept."""
+        """Merge the changes into the file. Raises NotSaved; the file is then intact and the changes remain unsaved."""
         with locked(folder / FILE):
             if _stamp(folder / FILE) != self._stamp:
                 before = self._seen
-                said = self._refresh(folder)
-                for sentence in [*said, *_merged(before, self._seen)]:
+                problems = self._refresh(folder)
+                for sentence in [*problems, *_merged(before, self._seen)]:
                     log.warning("%s", sentence)
             self._write(folder)
 
     def tables(self) -> list[ScoreTable]:
-        """The tables that have rows, in order."""
+        """The tables that have rows, sorted."""
         return sorted(table for table, rows in self._content.tables.items() if rows)
 
     def add(self, table: ScoreTable, initials: str, score: int, when: datetime | None = None) -> Score:
-        """Note a score; `when`: now, if not given. Raises ValueError unless the initials are three of A to Z."""
+        """Add a row; `when` defaults to now. Raises ValueError unless the initials are three letters A to Z."""
         if not are_initials(initials):
             raise ValueError(f"initials are three of A to Z, not {initials!r}")
         row = Score(initials, score, local(when))
         self._added.append((table, row))
-        self._enter([(table, row)])
+        self._insert([(table, row)])
         return row
 
     def best(self, table: ScoreTable, days: int | None = None, now: datetime | None = None) -> list[Score]:
-        """The table, best first, at most LENGTH rows: of all time, or of the last `days` (1: today; at most DAYS)."""
+        """At most LENGTH rows of a table, best first: of all time, or of the last `days` (1: today; at most DAYS)."""
         rows = self._content.tables.get(table, [])
         if days is not None:
             today = local(now).date()
@@ -91,7 +91,7 @@ class Scores:
         return rows[:LENGTH]
 
     def place(self, table: ScoreTable, score: int, days: int | None = None, now: datetime | None = None) -> int | None:
-        """The place of a new score in that table, from 1; None: not in it. It stands behind its equals."""
+        """The place of a new score in a table, from 1, after equal ones; None if it does not enter it."""
         ahead = sum(table.at_least(row.score, score) for row in self.best(table, days, now))
         return ahead + 1 if ahead < LENGTH else None
 
@@ -101,37 +101,35 @@ class Scores:
         self._added.clear()
         self._cleared = True
 
-    # ---- inside
-
     def _refresh(self, folder: Path) -> list[str]:
-        """Take over the file as it is now, with the own changes on top; what to report."""
+        """Read the current file and apply the unsaved changes. Returns sentences for the operator."""
         path = folder / FILE
-        self._stamp = _stamp(path)  # before it is read: if it is replaced meanwhile, it is read again
-        found, said = read_or_restore(path, parse, LARGEST)
-        self._seen, faults = found or (Content(), Problems())
-        said += faults.sentences(path)
+        self._stamp = _stamp(path)  # before reading: if the file is replaced meanwhile, it is read again
+        parsed, messages = read_or_restore(path, parse, MAX_BYTES)
+        self._seen, problems = parsed or (Content(), Problems())
+        messages += problems.sentences(path)
         self._content = self._seen.copy()
-        said += migrate(folder, self._content)
+        messages += migrate(folder, self._content)
         self._content.trim(local(None).date())
         if self._cleared:
             self._content.clear()
-        self._enter(self._added)
-        return said
+        self._insert(self._added)
+        return messages
 
     def _write(self, folder: Path) -> None:
-        """Write the file if it changes; the backups of what was carried over come first. Raises NotSaved."""
-        carried = self._content.migrated[len(self._seen.migrated) :]
-        if not (self._cleared or self._added or carried):
+        """Write the file if it has changed, after the backups of newly migrated files. Raises NotSaved."""
+        new = self._content.migrated[len(self._seen.migrated) :]
+        if not (self._cleared or self._added or new):
             return
-        for migrated in carried:
+        for migrated in new:
             back_up(folder, migrated)
         write_with_backup(folder / FILE, to_text(self._content))
         self._added.clear()
         self._cleared = False
         self._seen, self._stamp = self._content.copy(), _stamp(folder / FILE)
 
-    def _enter(self, rows: Iterable[tuple[ScoreTable, Score]]) -> None:
-        """Put rows in their places."""
+    def _insert(self, rows: Iterable[tuple[ScoreTable, Score]]) -> None:
+        """Insert rows into the sorted tables."""
         today = local(None).date()
         for table, row in rows:
             tables = self._content.tables
@@ -139,31 +137,31 @@ class Scores:
 
 
 def _stamp(path: Path) -> Stamp | None:
-    """What changes whenever the file is replaced; None: there is no file."""
+    """Inode, modification time and size, which differ once the file is replaced; None if there is no file."""
     try:
-        found = path.stat()
+        status = path.stat()
     except OSError:
         return None
-    return found.st_ino, found.st_mtime_ns, found.st_size
+    return status.st_ino, status.st_mtime_ns, status.st_size
 
 
 def migrations(folder: Path) -> tuple[list[Migrated], bool]:
-    """The files of version 1.3.0 carried over so far, and whether one waits for the next start. It changes nothing."""
+    """The migrated files of version 1.3.0, and True if another will be migrated at the next start. Read-only."""
     try:
-        content, _ = parse(read_text(folder / FILE, LARGEST))
+        content, _ = parse(read_text(folder / FILE, MAX_BYTES))
     except (OSError, ValueError):
         content = Content()
     return content.migrated, pending(folder, content)
 
 
 def _merged(before: Content, now: Content) -> list[str]:
-    """What other copies have changed in the file, in sentences for the log."""
+    """Sentences for the log on changes to the file by other instances."""
     rows = now.rows()
-    said = []
+    messages = []
     if now.resets != before.resets:
-        said.append("another copy of the arcade has cleared the scores.")
+        messages.append("another copy of the arcade has cleared the scores.")
     else:
         rows -= before.rows()
     if more := rows.total():
-        said.append(f"scores of another copy of the arcade merged: {more} {'row' if more == 1 else 'rows'}.")
-    return said
+        messages.append(f"scores of another copy of the arcade merged: {more} {'row' if more == 1 else 'rows'}.")
+    return messages

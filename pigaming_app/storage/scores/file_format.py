@@ -1,7 +1,7 @@
-"""The text of the scores file, TOML, and what is checked when it is read.
+"""The TOML format of the scores file: writing, parsing and validation.
 
 format = 2
-resets = 0                       # how often all tables were cleared
+resets = 0                       # number of times that all tables were cleared
 
 [[migrated]]                     # a file of version 1.3.0
 file = "scores.toml"
@@ -29,17 +29,17 @@ from datetime import date, datetime
 from typing import Any
 
 from pigaming_app.storage.parsing import QUOTE_LENGTH, one_line, parse_toml
-from pigaming_app.storage.scores.table import LONGEST, Score, ScoreTable, is_score, local, worth_keeping
+from pigaming_app.storage.scores.table import MAX_NAME, Score, ScoreTable, is_score, local, worth_keeping
 
 FORMAT = 2
-MOST_RESETS = 10**9
-MOST_PEOPLE = 99
-MOST_LENGTH = 1000
+MAX_RESETS = 10**9
+MAX_PEOPLE = 99
+MAX_LENGTH = 1000
 
 
 @dataclass(frozen=True)
 class Migrated:
-    """A file of version 1.3.0 that was carried over: its name, its backup's, when, and the new rows of each game."""
+    """A migrated file of version 1.3.0: its name, its backup's name, time, and number of new rows per game."""
 
     file: str
     backup: str
@@ -57,36 +57,36 @@ class Content:
     migrated: list[Migrated] = field(default_factory=list)
 
     def copy(self) -> "Content":
-        """A copy with lists of its own."""
+        """A copy that shares no lists."""
         return Content({table: [*rows] for table, rows in self.tables.items()}, self.resets, [*self.migrated])
 
     def clear(self) -> None:
-        """Empty every table."""
+        """Empty every table, and count it as a reset."""
         self.tables, self.resets = {}, self.resets + 1
 
     def trim(self, today: date) -> None:
-        """Sort every table, and drop the rows that no table shows."""
+        """Sort every table, and drop rows that are never displayed."""
         self.tables = {table: worth_keeping(table, rows, today) for table, rows in self.tables.items() if rows}
 
     def rows(self) -> Counter[tuple[ScoreTable, Score]]:
-        """How often each row is there."""
+        """The number of occurrences of each row."""
         return Counter((table, row) for table, rows in self.tables.items() for row in rows)
 
 
 @dataclass
 class Problems:
-    """Entries that were ignored: how many, and where the first one was."""
+    """Invalid entries that were ignored: their number, and the location of the first."""
 
     count: int = 0
     first: str = ""
 
     def add(self, where: str, count: int = 1) -> None:
-        """Count faulty entries."""
+        """Count invalid entries."""
         self.count += count
         self.first = self.first or where
 
     def sentences(self, path: object) -> list[str]:
-        """One sentence for all of them, none if there are none."""
+        """A sentence on all entries; empty if there are none."""
         if not self.count:
             return []
         entries = "1 entry is not a score" if self.count == 1 else f"{self.count} entries are not scores"
@@ -94,19 +94,19 @@ class Problems:
 
 
 def parse(text: str) -> tuple[Content, Problems]:
-    """The content of a file and what had to be ignored in it. Raises ValueError for a file that is no scores file."""
-    found = parse_toml(text)
-    if type(found.get("format")) is not int or found["format"] != FORMAT:
+    """Parse a file into its content and the ignored entries. Raises ValueError if it is not a scores file."""
+    document = parse_toml(text)
+    if type(document.get("format")) is not int or document["format"] != FORMAT:
         raise ValueError(f"its format is not {FORMAT}")
-    content, faults = Content(resets=_resets(found.get("resets"))), Problems()
-    for i, entry in enumerate(_list(found.get("table", []), "table", faults), 1):
+    content, faults = Content(resets=_resets(document.get("resets"))), Problems()
+    for i, entry in enumerate(_list(document.get("table", []), "table", faults), 1):
         table = _table(entry)
         if table is None:
             faults.add(f"table {i}")
             continue
         rows = content.tables.setdefault(table, [])
         rows += read_rows(table, entry.get("rows"), one_line(f"{table.game}.{table.arena}", QUOTE_LENGTH), faults)
-    for entry in _list(found.get("migrated", []), "migrated", faults):
+    for entry in _list(document.get("migrated", []), "migrated", faults):
         if migrated := _migrated(entry):
             content.migrated.append(migrated)
         else:
@@ -115,7 +115,7 @@ def parse(text: str) -> tuple[Content, Problems]:
 
 
 def to_text(content: Content) -> str:
-    """The text of the file."""
+    """The text of a scores file."""
     import tomli_w
 
     tables = [
@@ -123,12 +123,12 @@ def to_text(content: Content) -> str:
         for table, rows in sorted(content.tables.items())
         if rows
     ]
-    migrated = [asdict(one) for one in content.migrated]
+    migrated = [asdict(entry) for entry in content.migrated]
     return tomli_w.dumps({"format": FORMAT, "resets": content.resets, "migrated": migrated, "table": tables})
 
 
 def read_rows(table: ScoreTable, entries: object, where: str, faults: Problems) -> list[Score]:
-    """The valid rows of a list; the others are added to `faults`."""
+    """The valid rows of a list; invalid ones are added to `faults`."""
     rows = []
     for entry in _list(entries, where, faults):
         if row := row_of(table, entry):
@@ -139,7 +139,7 @@ def read_rows(table: ScoreTable, entries: object, where: str, faults: Problems) 
 
 
 def row_of(table: ScoreTable, entry: object) -> Score | None:
-    """The row of an entry, None if it is not one of this table."""
+    """The row of an entry; None if it is not valid in this table."""
     match entry:
         case {"initials": str(initials), "when": datetime() as when, **rest}:
             pass
@@ -155,9 +155,9 @@ def row_of(table: ScoreTable, entry: object) -> Score | None:
     return row if is_score(table, row) else None
 
 
-def _list(found: object, where: str, faults: Problems) -> Iterable[Any]:
-    if isinstance(found, list):
-        return found
+def _list(value: object, where: str, faults: Problems) -> Iterable[Any]:
+    if isinstance(value, list):
+        return value
     faults.add(where)
     return []
 
@@ -179,10 +179,10 @@ def _table(entry: object) -> ScoreTable | None:
             pass
         case _:
             return None
-    short = max(map(len, (game, arena, feat, rules))) <= LONGEST
-    counted = all(type(one) is int and 0 <= one <= MOST_PEOPLE for one in (people, side))
-    measured = not isinstance(length, bool) and 0 <= length <= MOST_LENGTH
-    return ScoreTable(game, arena, feat, timed, rules, length, people, side) if short and counted and measured else None
+    short = max(map(len, (game, arena, feat, rules))) <= MAX_NAME
+    counts = all(type(count) is int and 0 <= count <= MAX_PEOPLE for count in (people, side))
+    plausible = not isinstance(length, bool) and 0 <= length <= MAX_LENGTH
+    return ScoreTable(game, arena, feat, timed, rules, length, people, side) if short and counts and plausible else None
 
 
 def _migrated(entry: object) -> Migrated | None:
@@ -198,20 +198,20 @@ def _migrated(entry: object) -> Migrated | None:
         case _:
             return None
     try:
-        counted = all(type(one) is int and one >= 0 for one in rows.values())
-        good = counted and _is_plain(file) and _is_plain(backup)
-        return Migrated(file, backup, digest, local(when), rows) if good else None
+        counts = all(type(count) is int and count >= 0 for count in rows.values())
+        valid = counts and _is_file_name(file) and _is_file_name(backup)
+        return Migrated(file, backup, digest, local(when), rows) if valid else None
     except ValueError:
         return None
 
 
-def _is_plain(file: str) -> bool:
-    """Whether it is the name of a file, without a folder."""
-    return 0 < len(file) <= LONGEST and file.isprintable() and not set(file) & set("/\\:")
+def _is_file_name(file: str) -> bool:
+    """True if `file` is a file name without a folder."""
+    return 0 < len(file) <= MAX_NAME and file.isprintable() and not set(file) & set("/\\:")
 
 
-def _resets(found: object) -> int:
-    return found if type(found) is int and 0 <= found <= MOST_RESETS else 0
+def _resets(value: object) -> int:
+    return value if type(value) is int and 0 <= value <= MAX_RESETS else 0
 
 
 def _entry(table: ScoreTable, row: Score) -> Mapping[str, Any]:

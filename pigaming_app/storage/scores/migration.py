@@ -1,8 +1,8 @@
-"""The scores file of version 1.3.0: how it is read, backed up and carried over.
+"""Migration of the scores file of version 1.3.0: parsing, backup, import.
 
-It stays where it is, so that version 1.3.0 still finds it. Its tables were named after the arena alone, or after the
-arena, the feat and perhaps the goal: "classic", "classic lap", "classic race 3". Neither rules nor people were kept.
-Rows that version 1.3.0 adds later are carried over at the next start.
+The file remains in place for version 1.3.0. Its tables are named after the arena alone, or the arena, the feat and
+perhaps the goal: "classic", "classic lap", "classic race 3". Rules and number of people are not recorded. Rows that
+version 1.3.0 adds later are imported at the next start.
 """
 
 import os
@@ -17,37 +17,37 @@ from pathlib import Path
 from pigaming_app.storage.parsing import QUOTE_LENGTH, describe_error, one_line, parse_toml, read, read_text
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_atomic
 from pigaming_app.storage.scores.file_format import Content, Migrated, Problems, row_of
-from pigaming_app.storage.scores.table import LONGEST, Score, ScoreTable, local
+from pigaming_app.storage.scores.table import MAX_NAME, Score, ScoreTable, local
 
 FILE = "scores.toml"
-LARGEST = 16_000_000  # bytes
+MAX_BYTES = 16_000_000
 _TIMED = re.compile(r"(?P<arena>.+) (?P<feat>[a-z]+)(?: (?P<goal>\d{1,2}))?", re.DOTALL)
 
 Rows = Counter[tuple[ScoreTable, Score]]
 
 
 def migrate(folder: Path, content: Content) -> list[str]:
-    """Add the rows of version 1.3.0 that are not in `content` yet, and a note of it; what to report."""
+    """Add new rows of version 1.3.0 to `content`, with an entry for the file. Returns sentences for the operator."""
     path = folder / FILE
     if not pending(folder, content):
         return []
-    found, said = read_or_restore(path, parse, LARGEST)
-    if found is None:
-        return said
-    rows, faults = found
+    parsed, messages = read_or_restore(path, parse, MAX_BYTES)
+    if parsed is None:
+        return messages
+    rows, faults = parsed
     new = rows - _known(folder, content)
     for (table, row), times in new.items():
         content.tables.setdefault(table, []).extend([row] * times)
     games = Counter(table.game for table, _ in new.elements())
     content.migrated.append(Migrated(FILE, _backup(path), _digest(path), local(None), dict(games)))
-    return [*said, *faults.sentences(path)]
+    return [*messages, *faults.sentences(path)]
 
 
 def back_up(folder: Path, migrated: Migrated) -> None:
-    """Copy the file that was carried over to its backup. Raises NotSaved."""
+    """Copy a migrated file to its backup. Raises NotSaved."""
     path = folder / migrated.file
     try:
-        raw = read(path, LARGEST)
+        raw = read(path, MAX_BYTES)
     except OSError as error:
         raise NotSaved(f"{path} was not backed up: {describe_error(error)}.") from error
     if sha256(raw).hexdigest() != migrated.digest:
@@ -57,17 +57,17 @@ def back_up(folder: Path, migrated: Migrated) -> None:
 
 
 def pending(folder: Path, content: Content) -> bool:
-    """Whether there is a file of version 1.3.0 that has not been carried over yet. It changes nothing."""
+    """True if there is a file of version 1.3.0 that has not been migrated in its current state. Read-only."""
     path = folder / FILE
-    return os.path.lexists(path) and _digest(path) not in {one.digest for one in content.migrated}
+    return os.path.lexists(path) and _digest(path) not in {migrated.digest for migrated in content.migrated}
 
 
 def parse(text: str) -> tuple[Rows, Problems]:
-    """The rows of a file of version 1.3.0, and what is wrong in it. Raises ParseError."""
+    """Parse a file of version 1.3.0 into its rows and the ignored entries. Raises ParseError."""
     rows, faults = Rows(), Problems()
     for game, arena, entries in _tables(parse_toml(text)):
         where = one_line(f"{game}.{arena}", QUOTE_LENGTH)
-        if not isinstance(entries, list) or max(len(game), len(arena)) > LONGEST:
+        if not isinstance(entries, list) or max(len(game), len(arena)) > MAX_NAME:
             faults.add(where)
             continue
         for entry in entries:
@@ -79,8 +79,8 @@ def parse(text: str) -> tuple[Rows, Problems]:
     return rows, faults
 
 
-def _tables(found: dict[str, object]) -> Iterator[tuple[str, str, object]]:
-    for game, arenas in found.items():
+def _tables(document: dict[str, object]) -> Iterator[tuple[str, str, object]]:
+    for game, arenas in document.items():
         if isinstance(arenas, dict):
             yield from ((game, arena, entries) for arena, entries in arenas.items())
         else:
@@ -88,23 +88,23 @@ def _tables(found: dict[str, object]) -> Iterator[tuple[str, str, object]]:
 
 
 def _table(game: str, arena: str, entry: object) -> ScoreTable | None:
-    """The table of a row: its name tells arena, feat and goal of a time, the arena alone of points."""
+    """The table of a row. A table of times is named by arena, feat and goal, one of points by its arena."""
     if not isinstance(entry, dict) or "ms" not in entry:
         return ScoreTable(game, arena, "points")
-    told = _TIMED.fullmatch(arena)
-    return ScoreTable(game, told["arena"], told["feat"], True, length=int(told["goal"] or 0)) if told else None
+    name = _TIMED.fullmatch(arena)
+    return ScoreTable(game, name["arena"], name["feat"], True, length=int(name["goal"] or 0)) if name else None
 
 
 def _digest(path: Path) -> str:
-    """SHA-256 of a file; empty where it cannot be read."""
+    """SHA-256 of a file; empty if it cannot be read."""
     try:
-        return sha256(read(path, LARGEST)).hexdigest()
+        return sha256(read(path, MAX_BYTES)).hexdigest()
     except OSError:
         return ""
 
 
 def _backup(path: Path) -> str:
-    """The name of the backup: one that is free, or that has the same content already."""
+    """The first backup name that is unused, or whose file has the same content."""
     for number in count(1):
         backup = path.with_name(f"{path.stem}-1.3.0{f'-{number}' * (number > 1)}{path.suffix}")
         if not os.path.lexists(backup) or _digest(backup) == _digest(path):
@@ -113,9 +113,9 @@ def _backup(path: Path) -> str:
 
 
 def _known(folder: Path, content: Content) -> Rows:
-    """The rows that were carried over before: those of the backups, and those still in the tables."""
+    """The rows already migrated: those of the backups, and those still in the tables."""
     known = Rows((table, row) for table, rows in content.tables.items() for row in rows if table.older)
-    for one in content.migrated:
+    for migrated in content.migrated:
         with suppress(OSError, ValueError):
-            known |= parse(read_text(folder / one.backup, LARGEST))[0]
+            known |= parse(read_text(folder / migrated.backup, MAX_BYTES))[0]
     return known

@@ -1,37 +1,37 @@
-"""A table of scores: the conditions that make its rows comparable, the rows themselves, and which of them are kept."""
+"""A high-score table: the conditions that make its rows comparable, its rows, and their retention."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta
 
 LENGTH = 10  # rows of a table
-DAYS = 7  # days whose own tables are kept, back from today; as many after it, for a clock that was wrong
+DAYS = 7  # retention of daily tables, back from today; as many future days, in case the clock was wrong
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 MOST_POINTS, MOST_MS = 1_000_000, 100_000_000
 YEARS = range(1970, 3000)  # a clock without a battery starts in 1970
-LONGEST = 200  # characters of a name
+MAX_NAME = 200  # characters of a name
 
 
 @dataclass(frozen=True, order=True)
 class ScoreTable:
-    """Under which conditions the rows of a table were scored. `people` 0: unknown, a table of version 1.3.0."""
+    """The conditions under which a table's rows were scored. `people` 0: unknown, a table of version 1.3.0."""
 
     game: str
     arena: str
     feat: str  # points, lap, race, time …
-    timed: bool = False  # milliseconds, fewer are better; otherwise points, more are better
+    timed: bool = False  # milliseconds, lower is better; else points, higher is better
     rules: str = ""
-    length: float = 0  # minutes; laps or pallets in a game that is played for them
+    length: float = 0  # minutes; laps or pallets in a game with a goal
     people: int = 0  # in the match
     side: int = 0  # people on the own team; 0: everyone played alone
 
     @property
     def older(self) -> bool:
-        """Whether its conditions are unknown; no row is added to it."""
+        """True if the conditions are unknown; no rows are added to such a table."""
         return self.people == 0
 
     def at_least(self, score: int, other: int) -> bool:
-        """Whether `score` is as good as `other`, or better."""
+        """True if `score` is as good as `other`, or better."""
         return score <= other if self.timed else score >= other
 
 
@@ -45,18 +45,18 @@ class Score:
 
 
 def is_score(table: ScoreTable, row: Score) -> bool:
-    """Whether a row can stand in a table: initials, a plausible value, a plausible year."""
+    """True if a row is valid in a table: initials, a plausible value, a plausible year."""
     plausible = 0 < row.score <= MOST_MS if table.timed else abs(row.score) <= MOST_POINTS
     return plausible and are_initials(row.initials) and row.when.year in YEARS
 
 
 def are_initials(text: str) -> bool:
-    """Whether a text is three of LETTERS."""
+    """True if a text is three of LETTERS."""
     return len(text) == 3 and all(letter in LETTERS for letter in text)
 
 
 def local(when: datetime | None) -> datetime:
-    """The time in the local zone, whole seconds; None: now. Raises ValueError for a year that is not in YEARS."""
+    """A time in the local zone, in whole seconds; None: now. Raises ValueError if the year is not in YEARS."""
     when = when or datetime.now()
     if when.year not in YEARS:
         raise ValueError(f"the year {when.year}")
@@ -65,16 +65,16 @@ def local(when: datetime | None) -> datetime:
     except (OverflowError, OSError) as error:
         raise ValueError(str(error)) from None
     whole = (here.utcoffset() or timedelta()) % timedelta(minutes=1) == timedelta()
-    return here if whole else here.astimezone(UTC)  # TOML has no seconds in an offset, as Liberia's was until 1972
+    return here if whole else here.astimezone(UTC)  # TOML offsets have no seconds, as Liberia's had until 1972
 
 
 def day(row: Score) -> date:
-    """The local day of a row."""
+    """The local date of a row."""
     return row.when.date()
 
 
 def worth_keeping(table: ScoreTable, rows: Iterable[Score], today: date) -> list[Score]:
-    """The rows that the table of all time or of a day shows, best first; of equals the earlier one."""
+    """The rows that the all-time table or a daily table displays, best first; ties by time."""
     sign = 1 if table.timed else -1
     ordered = sorted(rows, key=lambda row: (sign * row.score, row.when))
     if len(ordered) <= LENGTH:
@@ -82,15 +82,15 @@ def worth_keeping(table: ScoreTable, rows: Iterable[Score], today: date) -> list
     days = [day(row) for row in ordered]
     room = dict.fromkeys(_near(set(days), today), LENGTH)
     kept = []
-    for place, (row, its) in enumerate(zip(ordered, days, strict=True)):
-        left = room.get(its, 0)
-        if place < LENGTH or left > 0:
+    for rank, (row, date_of_row) in enumerate(zip(ordered, days, strict=True)):
+        left = room.get(date_of_row, 0)
+        if rank < LENGTH or left > 0:
             kept.append(row)
         if left > 0:
-            room[its] = left - 1
+            room[date_of_row] = left - 1
     return kept
 
 
 def _near(days: set[date], today: date) -> list[date]:
-    """The last days up to today, and the first ones after it: neither pushes the other out."""
-    return [*sorted(one for one in days if one <= today)[-DAYS:], *sorted(one for one in days if one > today)[:DAYS]]
+    """The last DAYS days up to today, and the first DAYS days after it."""
+    return [*sorted(day for day in days if day <= today)[-DAYS:], *sorted(day for day in days if day > today)[:DAYS]]
