@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
-from pigaming_app.ai.brain.unstick import PATIENCE, Reflex
+from pigaming_app.ai.brain.unstick import PUSHING, Reflex
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.qlearning.learner import MOVES, LearnerMind, Move
 from pigaming_app.ai.qlearning.player import Learned, player
@@ -69,7 +69,7 @@ def test_by_the_rules_of_the_measured_results_it_only_comes_off_the_wall_now_and
 
 
 def test_whoever_gets_on_never_feels_it():
-    assert PATIENCE / HZ > 1.0  # a second's push against something that gives way is none of its business
+    assert PUSHING / HZ > 1.0  # a second's push against something that gives way is none of its business
     match = Match(training.training_setup(1, minutes=0.02))
     brain = BrainPlayer(single_minded(AHEAD, reflex=True), 1)
     match.sit(0, brain)
