@@ -245,7 +245,7 @@ from tests.hardware.sentences import sentence
 from tests.hardware import robot_packets
 
 link = Link(serial_port(sys.argv[1]), time.monotonic, Air(Mode.TRANSPARENT)).start()
-while link._dialect.broadcasts < 3:
+while link._protocol.broadcasts < 3:
     link.send([WheelCommand(1.0, 1.0)])
     time.sleep(0.001)
 link.send([WheelCommand(1.0, 1.0)])

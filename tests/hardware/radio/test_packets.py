@@ -168,7 +168,7 @@ def test_after_any_noise_our_packets_are_found(noise, crew, report, sizes):
 def test_a_line_stuck_at_the_escape_fills_no_memory():
     decoder = FrameDecoder(True)
     decoder.feed(b"\x7e" + b"\x7d" * 1000)
-    assert len(decoder._line) == 0
+    assert len(decoder._buffer) == 0
 
 
 @given(st.binary(max_size=400), st.booleans())
@@ -177,8 +177,8 @@ def test_noise_never_raises_and_is_never_kept(noise, escaped):
     for data in frames.feed(noise):
         decode(data)
     ours.feed(noise)
-    assert len(frames._line) <= 2 * (packets.LONGEST + 4)
-    assert len(ours._line) < 12
+    assert len(frames._buffer) <= 2 * (packets.LONGEST + 4)
+    assert len(ours._buffer) < 12
 
 
 def test_a_packet_of_a_flipped_bit_is_refused():

@@ -94,7 +94,7 @@ def test_a_jump_is_not_believed_before_the_third_time_and_then_the_robot_stands_
     believed = [robot.correct(fix(900.0, 700.0, 2.0, (i + 1) / 30.0)) for i in range(3)]
     assert believed == [False, False, True]
     assert robot.at(0.1)[:3] == pytest.approx((900.0, 700.0, 2.0))
-    assert robot._rolling.left == 0.0
+    assert robot._motion.left == 0.0
 
 
 def test_jumps_here_and_there_are_never_believed():
@@ -220,8 +220,8 @@ def test_a_robot_that_stands_still_teaches_nothing():
         robot.correct(fix(x, y, heading, frame / 30.0))
         robot.told(frame / 30.0, (0.0, 0.0))
     assert robot.wear == pytest.approx(FRESH, abs=1e-6)
-    assert np.isfinite(robot._spread).all()
-    assert np.linalg.eigvalsh(robot._spread).min() > -1e-12
+    assert np.isfinite(robot._covariance).all()
+    assert np.linalg.eigvalsh(robot._covariance).min() > -1e-12
 
 
 def test_a_robot_whose_cells_are_empty_is_not_thought_to_have_lost_its_wheels():
