@@ -53,7 +53,7 @@ class PoseFilter:
         self._seen = self._surprised = -inf
         self._implausible: list[Fix] = []  # fixes rejected lately, consistent with each other
 
-    def told(self, time: float, twist: Twist) -> None:
+    def record_command(self, time: float, twist: Twist) -> None:
         """Record a command: the twist (px/s, rad/s) sent to the robot at `time`."""
         turn = 0.5 * self.drivetrain.base * twist[1]
         self._commands.append((time, twist[0] + turn, twist[0] - turn))

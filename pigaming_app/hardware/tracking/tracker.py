@@ -52,7 +52,7 @@ class Tracker:
     def sent(self, time: float, twists: Sequence[Twist | None]) -> None:
         """Record the twists sent to the robots at a time, px/s and rad/s; None: stop."""
         for pose_filter, twist in zip(self._filters, twists, strict=True):
-            pose_filter.told(time, (0.0, 0.0) if twist is None else twist)
+            pose_filter.record_command(time, (0.0, 0.0) if twist is None else twist)
 
     def see(self, frame: CameraFrame) -> list[Fix]:
         """Process a frame; returns the accepted fixes."""

@@ -30,7 +30,7 @@ def follower(x=500.0, y=400.0, heading=0.0, train=PROMPT):
 def drive(robot, twist, begin, end):
     """Commands 50 times a second."""
     for tick in range(round(begin * 50), round(end * 50)):
-        robot.told(tick / 50, twist)
+        robot.record_command(tick / 50, twist)
 
 
 def test_the_motors_follow_exactly_whatever_the_steps():
@@ -177,7 +177,7 @@ def errors(stranger, seconds, seed=1, noise=(0.7, 0.012), fps=30, late=0.06):
             if random.random() < 0.04:
                 twist = (260.0 * random.integers(-1, 2), 3.0 * random.integers(-1, 2))
             told.append((now, twist))
-            robot.told(now, twist)
+            robot.record_command(now, twist)
         acting = [one for sent, one in told[-10:] if sent + stranger.dead <= now]
         stranger.step(acting[-1] if acting else (0.0, 0.0))
         x, y, heading = stranger.pose
@@ -218,7 +218,7 @@ def test_a_robot_that_stands_still_teaches_nothing():
     for frame in range(3000):
         x, y, heading = random.normal((500.0, 400.0, 1.0), (0.7, 0.7, 0.012)).tolist()
         robot.correct(fix(x, y, heading, frame / 30.0))
-        robot.told(frame / 30.0, (0.0, 0.0))
+        robot.record_command(frame / 30.0, (0.0, 0.0))
     assert robot.wear == pytest.approx(FRESH, abs=1e-6)
     assert np.isfinite(robot._covariance).all()
     assert np.linalg.eigvalsh(robot._covariance).min() > -1e-12
@@ -228,7 +228,7 @@ def test_a_robot_whose_cells_are_empty_is_not_thought_to_have_lost_its_wheels():
     """It is told to drive and stands: its pose stays where it is seen."""
     robot = follower()
     for frame in range(1, 60):
-        robot.told(frame / 30.0 - 0.033, (260.0, 0.0))
+        robot.record_command(frame / 30.0 - 0.033, (260.0, 0.0))
         robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
         assert abs(robot.at(frame / 30.0).x - 500.0) < 6.0
     assert robot.wear == pytest.approx(FRESH, abs=0.1)
@@ -238,7 +238,7 @@ def test_a_robot_that_is_blocked_again_and_again_keeps_its_wheels():
     """It pushes against another, turns, pushes: what does not follow its motors teaches nothing about them."""
     robot = follower()
     for frame in range(1, 300):
-        robot.told(frame / 30.0 - 0.033, (260.0 * (frame % 15 < 10), 3.0 * (frame % 20 < 6)))
+        robot.record_command(frame / 30.0 - 0.033, (260.0 * (frame % 15 < 10), 3.0 * (frame % 20 < 6)))
         robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
     assert robot.wear[:3] == pytest.approx(FRESH[:3], abs=0.2)
     assert robot.wear.stiction < 30.0
