@@ -1,4 +1,7 @@
-"""The only list of the brains. It also attaches what explains each to people: a brain does not import that."""
+"""Registry of all brains by game and name.
+
+The registry also attaches each brain's `explain`, so that no brain imports its own explanation.
+"""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -44,7 +47,7 @@ BRAINS: dict[str, dict[str, BrainKind]] = {
 }
 
 STRENGTHS = ("easy", "normal", "hard")
-RIVALS: dict[str, tuple[str, ...]] = {  # who can be invited in the lobby, each to be stepped to from its neighbour
+RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in the order in which it steps through them
     "pitanks": (*STRENGTHS, "q1", "q2"),
     "factory": STRENGTHS,
     "race": STRENGTHS,
@@ -52,12 +55,12 @@ RIVALS: dict[str, tuple[str, ...]] = {  # who can be invited in the lobby, each 
 
 
 def make(game: str, name: str, seed: int) -> BrainPlayer:
-    """A brain of a game by its name. Raises KeyError where there is none."""
+    """A player with the brain `name` of `game`. Raises KeyError for unknown names."""
     return BrainPlayer(BRAINS[game][name], seed)
 
 
 def seated(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:
-    """A match with an AI on every seat that names one; people's seats stand still."""
+    """A match with an AI player on every seat that names a brain; all other seats stay idle."""
     match = Match(setup, plant)
     for i, seat in enumerate(setup.seats):
         if seat.brain in BRAINS[setup.game]:

@@ -1,4 +1,4 @@
-"""The two brains to measure others against: one stands still, one does anything."""
+"""Baselines for measuring other brains: one idle, one uniformly random."""
 
 from typing import Any
 
@@ -14,25 +14,24 @@ HOLD = 10  # ticks for which a random action is held
 
 @record
 class SimpleMind:
-    """A generator of its own, so that the match's is left alone."""
+    """State of a private random generator, so that the match's generator is not advanced."""
 
     random: int
 
 
 def reset(mind: Any, seed: int) -> None:
-    """A fresh mind."""
     mind.random = seeded(seed)
 
 
 @kernel
 def stand_still(match: Any, seat: int, mind: Any, weights: Any) -> None:
-    """Nothing at all."""
+    """Release stick and buttons."""
     set_action(match.actions[seat], 0.0, 0.0, 0, 0)
 
 
 @kernel
 def do_anything(match: Any, seat: int, mind: Any, weights: Any) -> None:
-    """Every fifth of a second another of the 3 x 3 x 2 x 2 actions."""
+    """Draw one of the 3 x 3 x 2 x 2 actions every HOLD ticks (five times a second)."""
     if match.tick % HOLD == 0:
         linear = float(int(uniform(mind) * 3.0)) - 1.0
         angular = float(int(uniform(mind) * 3.0)) - 1.0
@@ -41,12 +40,11 @@ def do_anything(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 def explain_standing(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
-    """There is nothing on its mind."""
     return Thoughts("idle", "always")
 
 
 def explain_anything(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
-    """Every move is as good to it as any other."""
+    """All moves with equal value, and the one drawn last."""
     action = match.actions[seat]
     moves = {(ahead, turn, fire): 0.0 for ahead in (1, 0, -1) for turn in (-1, 0, 1) for fire in (0, 1)}
     chosen = int(action.linear), int(action.angular), int(action.fire)

@@ -1,7 +1,7 @@
-"""What a brain is: a function that sees and decides, and a record of what it remembers; both work in both bodies.
+"""The brain contract: a decision function and a record for its memory (the mind).
 
-What a brain has learned (a table, the weights of a network) may be big: it is one more record, which all seats share,
-which no match copies, and which play never changes.
+Both work on plain records and, compiled, on NumPy records. Learned parameters (a Q-table, network weights) may be
+large, so they live in a separate read-only record that all seats share and no match copies.
 """
 
 from collections.abc import Callable
@@ -16,24 +16,26 @@ from pigaming_app.sim.record import packed, record
 
 @record
 class NoWeights:
-    """What a hand-written brain has learned."""
+    """Placeholder parameters of a hand-written brain."""
 
     nothing: int
 
 
 @cache
 def no_weights(fast: bool) -> Any:
-    """Nothing learned, in either body."""
+    """A row of one NoWeights, as a NumPy record (`fast`) or a plain one."""
     return packed([NoWeights()]) if fast else [NoWeights()]
 
 
 @dataclass(frozen=True)
 class BrainKind:
-    """A kind of brain: `think(match, seat, mind, weights)` sets the action of a seat, `reset(mind, seed)` fills a mind.
+    """A brain as data and functions.
 
-    `weights(fast)` gives what it has learned as a row of one record, a NumPy record (`fast`) or a plain one, always the
-    same one; it may read a file when it is first asked. `explain`, of the same arguments as `think`, says what is on
-    its mind at this moment, for people who watch; it only reads.
+    - `think(match, seat, mind, weights)` sets the seat's action for this tick.
+    - `reset(mind, seed)` initialises a fresh mind.
+    - `weights(fast)` returns a row of one record with the learned parameters, a NumPy record (`fast`) or a plain one.
+      Every call returns the same row; the first call may read a file.
+    - `explain`, with the arguments of `think`, returns the brain's present reasoning for display. Read-only.
     """
 
     name: str
@@ -45,7 +47,7 @@ class BrainKind:
 
 
 class BrainPlayer:
-    """A brain of some kind on a seat of a plain match."""
+    """A brain playing one seat of a plain match."""
 
     def __init__(self, kind: BrainKind, seed: int) -> None:
         self.kind = kind
@@ -58,12 +60,12 @@ class BrainPlayer:
         self.kind.think(state, seat, self.mind, self.weights)
 
     def explain(self, state: Any, seat: int) -> Thoughts | None:
-        """What is on its mind; None: this kind keeps that to itself."""
+        """The brain's present reasoning; None if this kind has no `explain`."""
         return self.kind.explain(state, seat, self.mind, self.weights) if self.kind.explain else None
 
 
 class Controller(Protocol):
-    """Anything that is held like a pad: stick in [-1, 1], two buttons."""
+    """State of an input device: stick axes in [-1, 1] and two buttons."""
 
     @property
     def linear(self) -> float: ...
@@ -79,12 +81,12 @@ class Controller(Protocol):
 
 
 class HumanPlayer:
-    """A person: `read` is called on the tick on which it acts."""
+    """A person on a seat; `read` polls the input device on the tick that uses it."""
 
     def __init__(self, read: Callable[[], Controller]) -> None:
         self.read = read
 
     def think(self, state: Any, seat: int) -> None:
-        """Set the seat's action from how the device is held right now."""
-        held = self.read()
-        set_action(state.actions[seat], held.linear, held.angular, int(held.fire), int(held.turbo))
+        """Set the seat's action from the device's present state."""
+        device = self.read()
+        set_action(state.actions[seat], device.linear, device.angular, int(device.fire), int(device.turbo))

@@ -1,4 +1,4 @@
-"""How a brain without a view of its own drives along its route; the frozen machine relies on it as it is."""
+"""Steering towards points and along routes; frozen, because the results of `classic` depend on it."""
 
 from math import atan2, pi, sqrt
 from typing import Any
@@ -13,19 +13,22 @@ from pigaming_app.sim.world import DT
 
 @kernel
 def bearing(robot: Any, x: float, y: float) -> float:
-    """The direction of a point, relative to the own heading."""
+    """Direction of a point (arena px) relative to the robot's heading, rad."""
     return turn_to(atan2(y - robot.y, x - robot.x) - robot.heading)
 
 
 @kernel
 def turn_stick(angle: float, angular: float, turn_rate: float, period: int) -> float:
-    """The stick that turns by `angle` within `period` ticks, as far as the motors can; they turn by `angular` now."""
+    """Stick deflection that turns by `angle` rad within `period` ticks, motor limits permitting.
+
+    `angular` is the present turn rate and `turn_rate` the highest, rad/s.
+    """
     return float(0.75 * (angle - LAG * angular) / (turn_rate * period * DT))
 
 
 @kernel
 def approach(angle: float, distance: float) -> tuple[float, float]:
-    """How to get to a point: the angle to turn by, and the stick ahead; backwards where that saves a long turn."""
+    """Angle to turn by (rad) and forward stick to reach a point `distance` px away; reverses to avoid a long turn."""
     ahead = 1.0
     if abs(angle) > 2.2 and distance < 200.0:
         angle, ahead = turn_to(angle + pi), -1.0
@@ -36,7 +39,7 @@ def approach(angle: float, distance: float) -> tuple[float, float]:
 
 @kernel
 def follow(match: Any, seat: int, route: Any, period: int) -> None:
-    """Drive on along the way for `period` ticks."""
+    """Set the action that follows `route` for the next `period` ticks."""
     robot = match.robots[seat]
     update_route(match, route, robot.x, robot.y)
     dx, dy = route.way_x - robot.x, route.way_y - robot.y

@@ -1,14 +1,14 @@
-"""What a brain shows of itself to whoever watches: what it sees, what it would like, what it does, in plain values.
+"""A brain's reasoning as plain values for display: percepts, utilities, present behaviour.
 
-A kind of brain may have `explain(match, seat, mind, weights) -> Thoughts`. It only reads: neither match nor mind is
-changed, no random number is drawn, so a match plays out alike whether anybody watches or not.
+A brain may provide `explain(match, seat, mind, weights) -> Thoughts`. It is read-only: it changes neither match nor
+mind and draws no random number, so a match runs identically with or without the display.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import cos, tau
 
-PETALS = 16  # directions of a rose, clockwise from straight ahead
+PETALS = 16  # directions of a rose (a polar histogram), clockwise from straight ahead
 MoveKey = tuple[int, int, int]  # stick ahead and clockwise, each -1, 0 or 1, and fire, 0 or 1
 
 OPPONENT, MATE, WALL, BULLET, PRIZE, GOAL, WAY = "opponent", "mate", "wall", "bullet", "prize", "goal", "way"
@@ -17,7 +17,7 @@ PERSON = "person"
 
 @dataclass(frozen=True)
 class Percept:
-    """A thing that matters to it, and where it believes that is, arena px. `clear`: nothing stands between."""
+    """A perceived object at its estimated position, arena px. `clear`: the line of sight is free."""
 
     kind: str
     x: float
@@ -27,34 +27,37 @@ class Percept:
 
 @dataclass(frozen=True)
 class Thoughts:
-    """What is on a brain's mind. `doing` and `because` are keys of the texts [brain]; `names` fill their braces."""
+    """Present reasoning of a brain.
+
+    `doing` and `because` are keys of the texts [brain]; `names` fill the placeholders in those texts.
+    """
 
     doing: str
     because: str = ""
     names: Mapping[str, int | str] = field(default_factory=dict)
-    facts: Mapping[str, float] = field(default_factory=dict)  # the state that it goes by, named
+    facts: Mapping[str, float] = field(default_factory=dict)  # the variables behind the decision, by name
     sights: Sequence[Percept] = ()
-    rose: Sequence[float] = (0.0,) * PETALS  # how good each direction seems, -1..1, relative to the own heading
-    wishes: Mapping[str, float] = field(default_factory=dict)  # how much it wants each of the things it can do, 0..1
-    moves: Mapping[MoveKey, float] = field(default_factory=dict)  # the same for brains that choose among moves
+    rose: Sequence[float] = (0.0,) * PETALS  # utility of each direction, -1..1, relative to the robot's heading
+    wishes: Mapping[str, float] = field(default_factory=dict)  # utility of each behaviour, 0..1
+    moves: Mapping[MoveKey, float] = field(default_factory=dict)  # utility of each move, for brains that choose moves
     chosen: str | MoveKey = ""  # a key of `wishes` or of `moves`
 
 
 def clamp(value: float) -> float:
-    """A number held within 0..1."""
+    """`value` limited to 0..1."""
     return min(1.0, max(0.0, value))
 
 
 def towards(bearing: float, weight: float = 1.0) -> list[float]:
-    """A rose that points in one direction, `weight` at its best and nothing a quarter turn away; bearing in rad."""
+    """A rose with a lobe of height `weight` at `bearing` (rad) that falls to 0 a quarter turn away."""
     return [weight * max(0.0, cos(tau * k / PETALS - bearing)) ** 2 for k in range(PETALS)]
 
 
 def blend(*roses: Sequence[float]) -> list[float]:
-    """The sum of roses, held within -1..1."""
+    """Sum of roses, limited to -1..1."""
     return [min(1.0, max(-1.0, sum(values))) for values in zip(*roses, strict=True)]
 
 
 def petal(bearing: float) -> int:
-    """The direction of a rose in which a bearing lies, rad."""
+    """Index of the petal nearest to a bearing in rad."""
     return round(bearing / tau * PETALS) % PETALS

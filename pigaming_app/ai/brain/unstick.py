@@ -1,12 +1,13 @@
-"""Getting free: how a brain notices that it gets nowhere and backs out; and a reflex for brains that learned neither.
+"""Stuck detection and recovery, and a recovery reflex for learned brains, which have neither.
 
-A mind that uses the first has the fields `anchor_x`, `anchor_y`, `held_up`, `escape`, `escape_turn`, and a generator.
+Minds that use `held_up`, `choose_escape` and `escape` need the fields `anchor_x`, `anchor_y`, `held_up`, `escape`,
+`escape_turn`, `since` and a random generator.
 
-The reflex is for learned brains: a robot that pushes and gets nowhere lets go for a second. It stands outside what was
-learned, and is off in training and in measuring. It drives towards the opponent, round the walls; if that was no help
-the last time, it backs out with some turn. Who only stands there and sees nobody for long is sent off too. By the
-`classic` rules (those without turbo) robots are to play on a seat as they were measured: there it only takes them off
-the wall by a hand's breadth after some seconds, and nobody who waits is sent anywhere.
+The reflex overrides a learned policy for a second when the robot pushes without moving. It is not part of the policy
+and is off during training and evaluation. It first drives towards the opponent round the walls; if that fails, it
+backs out with a random turn. A robot that stands still without seeing its opponent for long is sent off as well. By the
+`classic` rules (those without turbo) robots must play as they were measured: there the reflex only backs off the wall
+for ten ticks after 2.5 s, and never moves a waiting robot.
 """
 
 from typing import Any
@@ -21,19 +22,19 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HZ
 
-SOMEWHERE = 20.0  # px that count as having got somewhere
-PATIENCE = round(1.5 * HZ)  # ticks of pushing without getting there
-WAITING = 5 * HZ  # ticks of standing there and seeing nobody
-LETTING_GO = HZ  # ticks
-LONG, SHORTLY = round(2.5 * HZ), 10  # the same two by the classic rules
-TOUCH = 2.0 * RADIUS + 6.0  # px between the middles of robots that push each other
-HELD_UP = 20.0  # px; less than this within some ticks is getting nowhere
-FREEING = 20  # ticks of backing out, one way or the other
+PROGRESS = 20.0  # px of displacement that reset the reflex
+PUSHING = round(1.5 * HZ)  # ticks of pushing in place until the reflex acts
+WAITING = 5 * HZ  # ticks of standing without sight of the opponent until the reflex acts
+OVERRIDE = HZ  # ticks for which the reflex drives
+CLASSIC_PUSHING, CLASSIC_OVERRIDE = round(2.5 * HZ), 10  # PUSHING and OVERRIDE by the classic rules
+TOUCH = 2.0 * RADIUS + 6.0  # px between the centres of robots that push each other
+HELD_UP = 20.0  # px; a smaller displacement counts as stuck
+FREEING = 20  # ticks of one attempt to back out
 
 
 @kernel
 def held_up(mind: Any, x: float, y: float, idle: bool, near: float, period: int) -> int:
-    """Ticks since a robot at (x, y) was last idle or more than `near` px away from where it was then."""
+    """Ticks since a robot, now at (x, y), was last idle or moved more than `near` px; call every `period` ticks."""
     dx, dy = x - mind.anchor_x, y - mind.anchor_y
     if idle or dx * dx + dy * dy > near * near:
         mind.held_up, mind.anchor_x, mind.anchor_y = 0, x, y
@@ -44,14 +45,17 @@ def held_up(mind: Any, x: float, y: float, idle: bool, near: float, period: int)
 
 @kernel
 def choose_escape(mind: Any, back: float, odds: float) -> None:
-    """Choose the stick to get free with: `back` with these odds, else the other way, which is blocked less often."""
+    """Choose the stick for backing out: `back` with probability `odds`, else `-back`, and a random turn."""
     mind.escape = back if uniform(mind) < odds else -back
     mind.escape_turn = 2.0 * uniform(mind) - 1.0
 
 
 @kernel
 def escape(mind: Any, x: float, y: float, action: Any) -> int:
-    """Back out with a turn, and the other way if that leads nowhere; `mind.since` counts the ticks. 1: it is free."""
+    """Back out with a turn, and reverse direction if still stuck after FREEING ticks. Returns 1 once free.
+
+    `mind.since` must count the ticks since the attempt began.
+    """
     set_action(action, mind.escape, mind.escape_turn, 0, 0)
     if mind.since < FREEING:
         return 0
@@ -65,31 +69,34 @@ def escape(mind: Any, x: float, y: float, action: Any) -> int:
 
 @record
 class Reflex:
-    """What the reflex remembers."""
+    """State of the reflex."""
 
-    on: int  # 0: there is none
+    on: int  # 0: disabled
     route: Route
-    x: float  # where the robot was when it last got somewhere
+    x: float  # position at the last progress, px
     y: float
-    held_up: int  # ticks since, of pushing
-    waited: int  # ticks since, of standing and seeing nobody
-    left: int  # ticks for which it still lets go
-    tries: int  # without getting anywhere
-    stick: float  # while it backs out
+    held_up: int  # ticks of pushing since then
+    waited: int  # ticks of standing without sight of the opponent since then
+    left: int  # ticks left of overriding
+    tries: int  # overrides since the last progress
+    stick: float  # forward stick while backing out
     turn: float
 
 
 @kernel
 def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
-    """1 if the reflex has set the action of the next `period` ticks. `mind` has it as `reflex`, and a generator."""
+    """Let the reflex set the action of the next `period` ticks if it has to; 1 if it did.
+
+    `mind` needs a field `reflex` and a random generator.
+    """
     reflex = mind.reflex
     if not reflex.on:
         return 0
     robot, action = match.robots[seat], match.actions[seat]
     update_reflex(match, robot, opponent, reflex, action, period)
     classic = not match.rules.turbo
-    if reflex.held_up >= (LONG if classic else PATIENCE) or reflex.waited >= WAITING:
-        reflex.left, reflex.held_up, reflex.waited = SHORTLY if classic else LETTING_GO, 0, 0
+    if reflex.held_up >= (CLASSIC_PUSHING if classic else PUSHING) or reflex.waited >= WAITING:
+        reflex.left, reflex.held_up, reflex.waited = CLASSIC_OVERRIDE if classic else OVERRIDE, 0, 0
         reflex.tries += 1
         reflex.stick = -1.0 if action.linear > 0.0 else 1.0
         reflex.turn = 0.0 if classic else 2.0 * uniform(mind) - 1.0
@@ -107,9 +114,9 @@ def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) 
 
 @kernel
 def update_reflex(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
-    """Count for how long it has pushed against something that is not its opponent, or has waited for nobody."""
+    """Count the ticks of pushing against anything but the opponent, and of waiting without sight of the opponent."""
     dx, dy = robot.x - reflex.x, robot.y - reflex.y
-    if dx * dx + dy * dy > SOMEWHERE * SOMEWHERE:
+    if dx * dx + dy * dy > PROGRESS * PROGRESS:
         reflex.x, reflex.y, reflex.held_up, reflex.waited, reflex.tries = robot.x, robot.y, 0, 0, 0
         return
     other = match.robots[opponent]

@@ -1,7 +1,7 @@
-"""The process that compiles what the Lab plays into numba's cache: once in a run of the arcade, out of everybody's way.
+"""Background process that compiles the Lab's kernels into numba's on-disk cache, once per run of the arcade.
 
-It goes on while the Lab is left and entered again, and ends with the arcade: at the end it is killed, and when the
-arcade crashes, it notices that its standard input was closed.
+It keeps running when the player leaves the Lab and ends with the arcade: a normal exit kills it, and after a crash it
+exits because its standard input is closed.
 """
 
 import contextlib
@@ -12,13 +12,13 @@ from threading import Lock
 
 from pigaming_app.sim.kernel import PACKAGE, can_compile
 
-PATIENCE = 10  # how nice the process is to others
+PATIENCE = 10  # POSIX nice value of the process
 
 COMMAND = (sys.executable, "-m", "pigaming_app.ai.experiments.evaluation")
 
 
 class Compiler:
-    """The process, which `start` starts; a second start changes nothing."""
+    """Owner of the process. Thread-safe; a second `start` has no effect."""
 
     def __init__(self, command: tuple[str, ...] = COMMAND) -> None:
         self._command = command
@@ -27,13 +27,13 @@ class Compiler:
         self._lock = Lock()  # the arcade may end while another thread starts the process
 
     def start(self) -> None:
-        """Compile, where numba is installed and nothing has been started yet. Raises OSError."""
+        """Start the process if numba is installed and it was never started. Raises OSError."""
         with self._lock:
             if self._process is None and not self._ended and can_compile():
-                self._process = _started(self._command)
+                self._process = _launch(self._command)
 
     def end(self) -> None:
-        """Kill the process; it will not be started again."""
+        """Kill the process for good; later calls of `start` have no effect."""
         with self._lock:
             self._ended = True
             if self._process:
@@ -42,16 +42,16 @@ class Compiler:
 
     @property
     def code(self) -> int | None:
-        """The exit code; None while it runs, and before it is started."""
+        """Exit code of the process; None before it starts and while it runs."""
         return self._process.poll() if self._process else None
 
 
-def _started(command: tuple[str, ...]) -> subprocess.Popen[bytes]:
-    quiet = subprocess.DEVNULL
-    windows = ("CREATE_NO_WINDOW", "BELOW_NORMAL_PRIORITY_CLASS")  # flags that only Windows has
-    flags: int = sum(getattr(subprocess, name, 0) for name in windows)
+def _launch(command: tuple[str, ...]) -> subprocess.Popen[bytes]:
+    null = subprocess.DEVNULL
+    names = ("CREATE_NO_WINDOW", "BELOW_NORMAL_PRIORITY_CLASS")  # defined on Windows only
+    flags: int = sum(getattr(subprocess, name, 0) for name in names)
     process = subprocess.Popen(
-        command, cwd=PACKAGE.parent, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet, creationflags=flags
+        command, cwd=PACKAGE.parent, stdin=subprocess.PIPE, stdout=null, stderr=null, creationflags=flags
     )
     if hasattr(os, "setpriority"):  # not on Windows
         with contextlib.suppress(OSError):

@@ -1,6 +1,7 @@
-"""A contest of two brains, played a little at a time, for whoever has only some milliseconds, such as those of a frame.
+"""Incremental evaluation of one brain against another, for callers with a budget of milliseconds, such as a frame.
 
-One match after the other, by the rules of the training; every seed twice, with the sides swapped.
+Matches run one after the other by the training rules, two per seed with the sides swapped. Run as a module, this file
+compiles the Lab's kernels.
 """
 
 import os
@@ -14,11 +15,11 @@ from pigaming_app.ai.experiments.training import ARENA, GAME, MINUTES, Training,
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.sim.world import HZ
 
-HANDMADE = "hard"  # the best that people have written by hand
+HANDMADE = "hard"  # the strongest hand-written brain
 
 
 class Evaluation:
-    """So many matches of `one` against `other`, an even number."""
+    """`matches` matches (an even number) of `one` against `other`, each `minutes` long; counted from `one`'s side."""
 
     def __init__(
         self,
@@ -43,11 +44,11 @@ class Evaluation:
 
     @property
     def share(self) -> float:
-        """Of all matches so far, won; a tie is half a win. Against one like itself that is a half, on average."""
+        """Share of the matches so far that `one` won, ties counting half; 0.5 on average between equal brains."""
         return (self.wins + 0.5 * self.ties) / max(1, self._played)
 
     def play(self, ticks: int) -> None:
-        """Play so many ticks on; not past the end of a match."""
+        """Play at most `ticks` ticks, stopping at the end of a match."""
         if self.over:
             return
         swapped = self._played % 2
@@ -73,18 +74,18 @@ class Evaluation:
 
 
 def compile_all() -> None:
-    """Compile, or load, whatever the Lab plays: training, and every kind of exam. Raises ImportError without numba."""
+    """Compile or load the kernels of training and of every kind of evaluation. Raises ImportError without numba."""
     training = Training(Recipe(), 1, fast=True)
     training.run(1)
     learned, handmade = training.checkpoint().kind, BRAINS[GAME][HANDMADE]
     for one, other in ((learned, handmade), (learned, learned)):
-        exam = Evaluation(one, other, 2, 1, minutes=1 / (60 * HZ), fast=True)
-        while not exam.over:
-            exam.play(1)
+        evaluation = Evaluation(one, other, 2, 1, minutes=1 / (60 * HZ), fast=True)
+        while not evaluation.over:
+            evaluation.play(1)
 
 
 def exit_with_parent() -> None:
-    """End this process as soon as the one that started it closes the pipe to it, for whatever reason."""
+    """Exit this process with code 1 as soon as its standard input closes, as it does when the parent ends."""
 
     def wait() -> None:
         os.read(sys.stdin.fileno(), 1)  # a buffered read would abort the interpreter at its normal end
@@ -93,6 +94,6 @@ def exit_with_parent() -> None:
     Thread(target=wait, daemon=True).start()
 
 
-if __name__ == "__main__":  # a process of its own that only compiles, so that no picture waits for it
+if __name__ == "__main__":  # a separate process, so that compiling never delays a frame
     exit_with_parent()
     compile_all()

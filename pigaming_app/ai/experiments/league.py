@@ -1,7 +1,7 @@
-"""Who is better: many matches of two brains, fairly paired, and of every two of several.
+"""Duels of two brains over many paired matches, and round-robin leagues of several.
 
-Each seed is played twice with the sides swapped, so that neither chance nor a start favours anyone. A win is to stand
-before the other in the end, whatever the margin; the interval is Wilson's for the share of wins (Wilson, J. Am. Stat.
+Each seed is played twice with the sides swapped, so that neither luck nor the starting place favours a side. A win is
+the better final ranking, whatever the margin; the interval is Wilson's for the share of wins (Wilson, J. Am. Stat.
 Assoc. 22, 1927, 209-212). All pairs of a league play the same seeds.
 """
 
@@ -21,13 +21,13 @@ from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
-MOST_MATCHES = 100_000  # of a duel; all lie in memory at once
-WORTH_COMPILING = 300_000  # ticks, below which compiling takes longer than plain play
+MOST_MATCHES = 100_000  # in a duel; all are in memory at once
+WORTH_COMPILING = 300_000  # ticks; below this compiling takes longer than interpreted play
 
 
 @dataclass(frozen=True)
 class Duel:
-    """How `left` fared against `right`. Scores are means of a match."""
+    """Result of `left` against `right`. Scores are means per match."""
 
     game: str
     left: str
@@ -45,7 +45,7 @@ class Duel:
 
 @dataclass(frozen=True)
 class LeagueRow:
-    """What became of one brain of a league, over all its matches."""
+    """Result of one brain over all its matches of a league."""
 
     brain: str
     rating: Rating
@@ -58,13 +58,13 @@ class LeagueRow:
 
 @dataclass(frozen=True)
 class League:
-    """Every brain against every other: who stands where, the best first, and each pair's duel."""
+    """Result of a round robin: the standings, best first, and every pair's duel."""
 
     game: str
     arena: str
     minutes: float
     variant: str
-    matches: int  # of each pair
+    matches: int  # per pair
     seed: int
     standings: tuple[LeagueRow, ...]
     duels: tuple[Duel, ...]
@@ -85,8 +85,8 @@ def duel(
 ) -> Duel:
     """Play `matches` matches of two brains. Raises ChoiceError or ArenaError.
 
-    In a game of two pairs each brain drives both robots of its team. `fast`: compiled; left out: where numba is
-    installed and it is worth the time.
+    In a game of two pairs each brain drives both robots of its team. `fast`: compiled; None: compiled if numba is
+    installed and there are enough ticks to repay compiling.
     """
     return meet(_setups(game, left, right, matches, seed, minutes, arena, variant, goal), left, right, fast)[0]
 
@@ -103,9 +103,9 @@ def league(
     goal: int | None = None,
     heard: Callable[[int, int, str, str], None] | None = None,
 ) -> League:
-    """Let every two of the brains play a duel of `matches` matches. Raises ChoiceError or ArenaError.
+    """Play a duel of `matches` matches between every two brains. Raises ChoiceError or ArenaError.
 
-    `heard` is called before each duel with its number from 0 on, how many there are, and who plays.
+    `heard(number, count, left, right)` is called before each duel; `number` counts from 0.
     """
     require_one_of("game", game, list(games()))
     check_brains(game, brains)
@@ -117,19 +117,19 @@ def league(
         setups = _setups(game, left, right, matches, seed, minutes, arena, variant, goal)
         if heard:
             heard(number, len(pairs), left, right)
-        played, ends = meet(setups, left, right, fast)
-        duels.append(played)
+        result, ends = meet(setups, left, right, fast)
+        duels.append(result)
         shares[i, j] = [_points(ends[k : k + 2]) for k in range(0, matches, 2)]
     rated = ratings(len(brains), shares, seed)
-    standings = [_standing(brain, rating, duels) for brain, rating in zip(brains, rated, strict=True)]
-    standings.sort(key=lambda standing: -standing.rating.rating)
-    one = setups[0]
-    told = game, one.arena, one.minutes, one.variant, matches, seed
-    return League(*told, tuple(standings), tuple(duels), perf_counter() - began)
+    rows = [_row(brain, rating, duels) for brain, rating in zip(brains, rated, strict=True)]
+    rows.sort(key=lambda row: -row.rating.rating)
+    setup = setups[0]
+    options = game, setup.arena, setup.minutes, setup.variant, matches, seed
+    return League(*options, tuple(rows), tuple(duels), perf_counter() - began)
 
 
 def check_brains(game: str, brains: Sequence[str]) -> None:
-    """Whether these can be the brains of a league. Raises ChoiceError."""
+    """Check the entrants of a league. Raises ChoiceError for unknown, repeated or too few brains."""
     for brain in brains:
         require_one_of("brain", brain, list(BRAINS[game]))
         if brains.count(brain) > 1:
@@ -139,7 +139,7 @@ def check_brains(game: str, brains: Sequence[str]) -> None:
 
 
 class Ending(NamedTuple):
-    """How a match of a duel ended: where each side stands, and its score."""
+    """End of one match of a duel: ranking key (higher is better) and score of each side."""
 
     left: float
     right: float
@@ -148,23 +148,23 @@ class Ending(NamedTuple):
 
 
 def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[Ending]]:
-    """Play these matches, every other one with the sides swapped; how each ended, in their order."""
+    """Play these matches, every other one with the sides swapped; returns the duel and each match's end, in order."""
     game, matches = setups[0].game, len(setups)
     brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
     ticks = round(setups[0].minutes * 60 * HZ)
     if fast is None:
         fast = can_compile() and matches * ticks > WORTH_COMPILING
     began = perf_counter()
-    played = [Batch(some, [BRAINS[game][name] for name in order], fast) for some, order in _both_ways(setups, brains)]
-    for batch in played:
+    batches = [Batch(half, [BRAINS[game][name] for name in order], fast) for half, order in _both_ways(setups, brains)]
+    for batch in batches:
         batch.play(ticks)
     seconds = perf_counter() - began
     ends = [Ending(0.0, 0.0, 0, 0)] * matches
-    for side, batch in enumerate(played):
+    for side, batch in enumerate(batches):
         ends[side::2] = _ends(game, batch, swapped=side == 1)
     wins = sum(end.left > end.right for end in ends)
     ties = sum(end.left == end.right for end in ends)
-    told = Duel(
+    result = Duel(
         game=game,
         left=left,
         right=right,
@@ -176,9 +176,9 @@ def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> t
         mean_score_left=sum(end.left_score for end in ends) / matches,
         mean_score_right=sum(end.right_score for end in ends) / matches,
         seconds=seconds,
-        ticks_per_second=sum(batch.ticks() for batch in played) / seconds,
+        ticks_per_second=sum(batch.ticks() for batch in batches) / seconds,
     )
-    return told, ends
+    return result, ends
 
 
 def _setups(
@@ -192,7 +192,7 @@ def _setups(
     variant: str | None,
     goal: int | None,
 ) -> list[Setup]:
-    """The matches of a duel, two of each seed. Raises ChoiceError."""
+    """Setups of a duel, two per seed. Raises ChoiceError or ArenaError."""
     require_one_of("game", game, list(games()))
     if not 1 <= matches <= MOST_MATCHES:
         raise ChoiceError(f"--matches: {matches}; possible are 1 to {MOST_MATCHES}")
@@ -202,31 +202,31 @@ def _setups(
 
 
 def _both_ways(setups: Sequence[Setup], brains: list[str]) -> Iterator[tuple[Sequence[Setup], list[str]]]:
-    """Every other match as it is, and the others with the sides swapped; teams alternate from seat to seat."""
+    """The even setups with the brains in order and the odd ones with the sides swapped; teams alternate by seat."""
     swapped = [brains[i ^ 1] for i in range(len(brains))]
-    for some, order in ((setups[::2], brains), (setups[1::2], swapped)):
-        if some:
-            yield some, order
+    for half, order in ((setups[::2], brains), (setups[1::2], swapped)):
+        if half:
+            yield half, order
 
 
 def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[Ending]:
-    """The end of every match, from the side of `left`."""
+    """End of every match, as seen by `left`."""
     rules = games()[game]
     for state in batch.ended():
-        one, other = ((rules.ranking_key(state, seat), _score(state, seat)) for seat in (0, 1))
+        left, right = ((rules.ranking_key(state, seat), _score(state, seat)) for seat in (0, 1))
         if swapped:
-            one, other = other, one
-        yield Ending(one[0], other[0], one[1], other[1])
+            left, right = right, left
+        yield Ending(left[0], right[0], left[1], right[1])
 
 
 def _score(state: Any, seat: int) -> int:
-    """The score of a seat's team."""
+    """Score of the seat's team."""
     team = state.robots[seat].team
     return sum(robot.score for robot in state.robots if robot.present and robot.team == team)
 
 
 def wilson(wins: int, matches: int, z: float = 1.959964) -> tuple[float, float]:
-    """The 95 % interval of a share of which `wins` of `matches` have been seen."""
+    """Wilson score interval for a share, given `wins` out of `matches`; 95 % for the default `z`."""
     share = wins / matches
     centre = share + z * z / (2 * matches)
     spread = z * sqrt(share * (1 - share) / matches + z * z / (4 * matches * matches))
@@ -235,19 +235,19 @@ def wilson(wins: int, matches: int, z: float = 1.959964) -> tuple[float, float]:
 
 
 def _points(ends: Sequence[Ending]) -> tuple[float, float]:
-    """What the sides won of these matches: 1 for a win, 1/2 for a tie."""
+    """Points of both sides over these matches: 1 for a win, 1/2 for a tie."""
     won = sum(1.0 if end.left > end.right else 0.5 if end.left == end.right else 0.0 for end in ends)
     return won, len(ends) - won
 
 
-def _standing(brain: str, rating: Rating, duels: Sequence[Duel]) -> LeagueRow:
-    """The sum of a brain's duels."""
+def _row(brain: str, rating: Rating, duels: Sequence[Duel]) -> LeagueRow:
+    """Sum of a brain's duels."""
     wins = ties = losses = 0
     score = 0.0
-    for one in duels:
-        if brain in (one.left, one.right):
-            left = brain == one.left
-            wins, losses = wins + (one.wins if left else one.losses), losses + (one.losses if left else one.wins)
-            ties, score = ties + one.ties, score + one.matches * (one.mean_score_left if left else one.mean_score_right)
+    for met in duels:
+        if brain in (met.left, met.right):
+            left = brain == met.left
+            wins, losses = wins + (met.wins if left else met.losses), losses + (met.losses if left else met.wins)
+            ties, score = ties + met.ties, score + met.matches * (met.mean_score_left if left else met.mean_score_right)
     played = wins + ties + losses
     return LeagueRow(brain, rating, wins, ties, losses, wilson(wins, played), score / played)

@@ -1,7 +1,7 @@
-"""Whole matches with the brains inside the loop, in both bodies.
+"""Batches of whole matches with the brains inside the loop, plain or compiled.
 
-A rollout is a closure over a game's rules and the brains of its four seats, so that numba compiles all of it into one
-loop. Played plain, the very same closure runs over plain records.
+A rollout is a closure over a game's rules and the brains of its four seats, so numba compiles it into a single loop
+over NumPy records. The same closure runs uncompiled over plain records.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,9 +23,9 @@ Think = Callable[[Any, int, Any, Any], None]
 
 
 def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think, Think]) -> Loop:
-    """A loop over matches that plays each on for `ticks`, or to its end.
+    """A loop over matches that advances each by `ticks` ticks, or to its end.
 
-    `ones` to `fours` are the minds of the seats, one for each match; `rows_1` to `rows_4` what they have learned.
+    `ones` to `fours` hold the minds of seats 0 to 3, one per match; `rows_1` to `rows_4` their weights, rows of one.
     """
     first, second, third, fourth = think
 
@@ -59,21 +59,21 @@ def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think,
 
 @cache
 def plain_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
-    """The rollout of a game over plain records."""
+    """Rollout of a game over plain records, cached."""
     return make_rollout(games()[game].judge, think)
 
 
 @cache
 def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
-    """The rollout of a game over NumPy records. Raises ImportError without numba."""
+    """Rollout of a game over NumPy records, cached. Raises ImportError without numba."""
     return compiled(make_rollout(games()[game].judge, think))
 
 
 class Batch:
-    """Many matches of one game, all with the same kinds of brains, in either body."""
+    """Many matches of one game with the same brains on their seats."""
 
     def __init__(self, setups: Sequence[Setup], kinds: Sequence[BrainKind | None], fast: bool) -> None:
-        """One match for each setup; kinds of the seats, None (or nothing more) for an empty one; `fast`: compiled."""
+        """One match per setup. `kinds`: brains by seat, idle where None or missing. `fast`: compiled; needs numba."""
         self.fast = fast
         self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
         minds = [[fresh_mind(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
@@ -89,26 +89,26 @@ class Batch:
         self.loop: Loop = compiled_rollout(game, think) if fast else plain_rollout(game, think)
 
     def play(self, ticks: int) -> None:
-        """Play every match on."""
+        """Advance every match by `ticks` ticks, or to its end."""
         self.loop(self.matches, *self.minds, *self.weights, ticks)
 
     def scores(self) -> list[list[int]]:
-        """For each match the scores of its seats."""
+        """Scores of the seats, by match."""
         if self.fast:
             return self.matches["robots"]["score"].tolist()  # type: ignore[no-any-return]
         return [[robot.score for robot in match.robots] for match in self.matches]
 
     def ticks(self) -> int:
-        """How many have been played, of all matches together."""
+        """Ticks played so far, summed over all matches."""
         return sum(self.matches["tick"].tolist() if self.fast else [match.tick for match in self.matches])
 
     def ended(self) -> list[Any]:
-        """Every match as a plain record."""
+        """All matches as plain records."""
         return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
 
 
 def fresh_mind(kind: BrainKind, seed: int, seat: int) -> Any:
-    """A fresh mind for a seat of the match with that seed."""
+    """A reset mind for a seat of the match with this seed."""
     mind = kind.mind()
     kind.reset(mind, seed * ROBOTS + seat)
     return mind

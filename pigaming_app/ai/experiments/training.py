@@ -1,7 +1,7 @@
-"""Training of a Q-table in self-play: two robots drive by one shared table and both write what they learn into it.
+"""Training of a Q-table in self-play: two robots act by one shared table and both update it.
 
-One match after the other, in either body: the same loop over NumPy records, compiled, or over plain ones. The table
-and where it stands in its training are one record, so training can stop anywhere and go on, to the last bit the same.
+Matches run one after the other in the same loop, compiled over NumPy records or interpreted over plain ones. Table and
+training progress are a single record, so training can stop anywhere and resume bit-identically.
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ Loop = Callable[[Any, Any, Any, Any, int], None]
 
 
 def make_training(judge: Callable[[Any], None]) -> Loop:
-    """The loop that plays a match on for `ticks`, or to its end, with a learner on its first two seats."""
+    """A loop that advances a match by `ticks` ticks, or to its end, with learners on its first two seats."""
 
     def practise(matches: Any, ones: Any, twos: Any, tables: Any, ticks: int) -> None:
         match, one, two, table = matches[0], ones[0], twos[0], tables[0]
@@ -52,24 +52,24 @@ def make_training(judge: Callable[[Any], None]) -> Loop:
 
 @cache
 def plain_training() -> Loop:
-    """The loop over plain records."""
+    """Training loop over plain records, cached."""
     return make_training(games()[GAME].judge)
 
 
 @cache
 def compiled_training() -> Loop:
-    """The loop over NumPy records. Raises ImportError without numba."""
+    """Training loop over NumPy records, cached. Raises ImportError without numba."""
     return compiled(make_training(games()[GAME].judge))
 
 
 def is_compiled() -> bool:
-    """Whether the compiled loop already lies on disk, so that it loads in a moment."""
+    """True if numba's on-disk cache holds the compiled loop, so that it loads at once."""
     return can_compile() and compiled_before(make_training(games()[GAME].judge))
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """A table as it was after so many matches: it learns no more, and can sit on a seat."""
+    """A frozen copy of the table as a brain, with the matches and experiences behind it."""
 
     kind: BrainKind
     matches: int
@@ -77,7 +77,7 @@ class Checkpoint:
 
 
 class Training:
-    """A table that is being trained. `run` may be called in a thread of its own; everything else only looks."""
+    """A table in training. `run` may be called from one worker thread while other threads only read."""
 
     def __init__(
         self,
@@ -88,9 +88,9 @@ class Training:
         table: Any = None,
         minutes: float = MINUTES,
     ) -> None:
-        """`fast`: compiled; left out: if numba is there. `table`: go on from this one, of either body, with its chance.
+        """`fast`: compiled; None: compiled if numba is installed. `table`: resume from this plain or NumPy record.
 
-        Raises ArenaError; ImportError for `fast` without numba.
+        A resumed table keeps its random generator. Raises ArenaError; ImportError for `fast` without numba.
         """
         self.fast = can_compile() if fast is None else fast
         self.arena, self.minutes, self.seed = arena, minutes, seed
@@ -101,7 +101,7 @@ class Training:
         self._begin()
 
     def run(self, ticks: int) -> None:
-        """Play and learn for so many ticks, from match to match."""
+        """Play and learn for `ticks` ticks, across matches."""
         while ticks > 0:
             if self.match.over:
                 self._begin()
@@ -111,16 +111,16 @@ class Training:
         self._seen = self._matches.copy() if self.fast else self._matches
 
     def warm(self) -> None:
-        """Compile now, if that is still to be done, rather than with the first tick."""
+        """Compile the loop now rather than on the first tick."""
         self.loop(self._matches, self._ones, self._twos, self._tables, 0)
 
     def look(self) -> Any:
-        """The match as `run` last left it, a plain record (of plain training: the match itself); only to look at."""
+        """Snapshot of the match after the last `run`, read-only (in plain training: the match itself)."""
         return unpack(games()[GAME].state, self._seen[0]) if self.fast else self._seen[0]
 
     @property
     def recipe(self) -> Recipe:
-        """What is learned for; it may be replaced between two runs, and the table is kept."""
+        """Rewards and parameters of learning; may be replaced between two runs, and the table is kept."""
         return self._recipe
 
     @recipe.setter
@@ -135,47 +135,47 @@ class Training:
 
     @property
     def match(self) -> Any:
-        """The match that is being played, a record of either body."""
+        """The match in progress, a plain or NumPy record."""
         return as_record(self._matches)
 
     @property
     def table(self) -> Any:
-        """The table itself, a record of either body; it changes while `run` runs."""
+        """The live table, a plain or NumPy record; it changes during `run`."""
         return as_record(self._tables)
 
     @property
     def matches(self) -> int:
-        """Matches played to their end."""
+        """Matches played to the end."""
         return int(self.table.matches)
 
     @property
     def experiences(self) -> int:
-        """Decisions learned from, of both robots."""
+        """Updates of the table, of both robots together."""
         return int(self.table.experiences)
 
     @property
     def temperature(self) -> float:
-        """How daring the robots are now."""
+        """Present temperature of exploration."""
         return float(temperature(self.table))
 
     @property
     def visited(self) -> int:
-        """States that were ever seen."""
+        """States visited at least once."""
         return int(self.table.states)
 
     def checkpoint(self, name: str = "q") -> Checkpoint:
-        """What has been learned so far, as a brain for a seat."""
+        """A frozen copy of the table as a brain."""
         frozen = self._tables.copy() if self.fast else copy(self._tables[0])
         return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
 
     def trained(self, name: str) -> Trained:
-        """A copy of what has been learned so far, with what it was trained for."""
+        """A copy of the table with the parameters of its training, ready for a file."""
         reward = next((number for number, recipe in RECIPES.items() if recipe == self.recipe), 0)
         rows = self._tables.copy() if self.fast else packed(self._tables)
         return Trained(name, reward, self.recipe, self.seed, self.arena, self.minutes, rows, engine_hash())
 
     def measure(self, opponent: "str | Checkpoint" = "classic", matches: int = 100) -> tuple[int, int, int]:
-        """Wins, ties and losses of what has been learned so far, in matches by the rules of the training."""
+        """Wins, ties and losses of the present table against `opponent`, by the training rules."""
         other = opponent.kind if isinstance(opponent, Checkpoint) else BRAINS[GAME][opponent]
         return contest(self.checkpoint().kind, other, matches, self.seed, self.minutes, self.arena, self.fast)
 
@@ -183,30 +183,30 @@ class Training:
         return training_setup(self.seed, self.minutes, self.arena)
 
     def _row(self, state: Any) -> Any:
-        """A row of one record, in the body of this training."""
+        """A row of one record, NumPy if compiled, else plain."""
         return packed([state]) if self.fast else [state]
 
     def _begin(self) -> None:
-        """The next match, with fresh minds."""
+        """Begin the next match with fresh minds."""
         self._matches = self._fresh.copy() if self.fast else [copy(self._fresh[0])]
         self._ones, self._twos = self._row(LearnerMind()), self._row(LearnerMind())
         self._seen = self._matches
 
 
-def resumed(kept: Trained, fast: bool | None = None) -> Training:
-    """A training that goes on where another ended, with a fresh match. Raises ArenaError."""
-    return Training(kept.recipe, kept.seed, kept.arena, fast, kept.rows[0], kept.minutes)
+def resumed(saved: Trained, fast: bool | None = None) -> Training:
+    """Resume a saved training with a fresh match. Raises ArenaError."""
+    return Training(saved.recipe, saved.seed, saved.arena, fast, saved.rows[0], saved.minutes)
 
 
 def fresh_table(seed: int) -> QTable:
-    """A plain table that knows nothing."""
+    """An empty plain table."""
     table = QTable()
     table.random = seeded(seed)
     return table
 
 
 def as_record(row: Any) -> Any:
-    """The one record of a row of either body, with its fields as attributes."""
+    """The only record of a row, plain or NumPy, with its fields as attributes."""
     if isinstance(row, list):
         return row[0]
     import numpy as np
@@ -215,12 +215,12 @@ def as_record(row: Any) -> Any:
 
 
 def to_plain(table: Any) -> QTable:
-    """A plain copy of a table of either body."""
+    """A plain copy of a table, plain or NumPy."""
     return copy(table) if isinstance(table, QTable) else unpack(QTable, table)
 
 
 def training_setup(seed: int, minutes: float = MINUTES, arena: str = ARENA) -> Setup:
-    """A match of two by the rules of the measured results."""
+    """A match of two learners by the rules of the measured results."""
     one, two, three, four = Seat("learner", 0), Seat("learner", 1), Seat("off", 2), Seat("off", 3)
     return Setup(GAME, arena, (one, two, three, four), minutes, seed, VARIANT)
 
@@ -234,13 +234,13 @@ def contest(
     arena: str = ARENA,
     fast: bool | None = None,
 ) -> tuple[int, int, int]:
-    """Wins, ties and losses of `one` over `other`: every seed twice, with the sides swapped."""
+    """Wins, ties and losses of `one` against `other`, two matches per seed with the sides swapped."""
     fast = can_compile() if fast is None else fast
     setups = [training_setup(seed + i // 2, minutes, arena) for i in range(matches)]
     leads = []
-    for some, kinds, sign in ((setups[::2], (one, other), 1), (setups[1::2], (other, one), -1)):
-        if some:
-            batch = Batch(some, kinds, fast)
+    for half, kinds, sign in ((setups[::2], (one, other), 1), (setups[1::2], (other, one), -1)):
+        if half:
+            batch = Batch(half, kinds, fast)
             batch.play(round(minutes * 60 * HZ))
             leads += [sign * (scores[0] - scores[1]) for scores in batch.scores()]
     return sum(lead > 0 for lead in leads), sum(lead == 0 for lead in leads), sum(lead < 0 for lead in leads)

@@ -1,6 +1,6 @@
-"""How a driver of Robot Factory gets to a slot and uses its fork: round walls, robots and people.
+"""Driving of the factory brain: reach a slot round walls, robots and people, and use the fork there.
 
-`mind` is a ForemanMind; all of it works on the observation `obs`.
+In every function `obs` is the Observation, `mind` a ForemanMind and `action` the seat's Action to set.
 """
 
 from math import cos, sin, sqrt
@@ -17,30 +17,30 @@ from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.world import CELL, HZ
 
 PERIOD = 5
-AT = 24.0  # px between the fork and a slot at which it presses fire
-TURN_IN = 30.0  # px before the fork is at the slot from which it turns to it
-ASIDE = 120.0  # px from a person at which who only waits makes way
-STAND_OFF = 150.0  # px from a slot that is not free at which it waits
+AT = 24.0  # px between fork and slot within which it presses fire
+TURN_IN = 30.0  # px short of the slot, measured at the fork, at which it turns towards the slot
+ASIDE = 120.0  # px; a waiting robot makes way for a person nearer than this
+STAND_OFF = 150.0  # px from an occupied slot at which it waits
 LOOK = 130.0  # px ahead that must be free
-LOOKS, LEAN = 11, 0.32  # ways that it looks for one that is free, and rad from one to the next
-ROBOT_ROOM = 78.0  # px between two robots that pass each other
-PERSON_ROOM = 70.0  # px between a robot and a person that it passes
-STOP = 96.0  # px from a person within which it does not back up
-HELD_UP = 16.0  # px; less than this in HELD_UP_TICKS is getting nowhere
+LOOKS, LEAN = 11, 0.32  # candidate directions around the route, and rad between neighbours
+ROBOT_ROOM = 78.0  # px between the centres of two passing robots
+PERSON_ROOM = 70.0  # px between the centres of a robot and a person it passes
+STOP = 96.0  # px; it never backs out towards a person nearer than this
+HELD_UP = 16.0  # px; a smaller displacement within HELD_UP_TICKS counts as stuck
 HELD_UP_TICKS = 45
 FREEING = 25  # ticks of backing out
-NEARER = 10.0  # px that count as getting nearer
-PATIENCE, SHUN = 8 * HZ, 12 * HZ  # ticks without getting nearer to a slot, and for which others come first then
-DETOUR = 4 * HZ  # ticks of driving towards another slot
+NEARER = 10.0  # px that count as progress towards a slot
+PATIENCE, SHUN = 8 * HZ, 12 * HZ  # ticks without progress before a slot is shunned, and ticks of shunning it
+DETOUR = 4 * HZ  # ticks of a detour towards another slot
 
 
 @kernel
 def drive_to(obs: Any, mind: Any, action: Any) -> None:
-    """Go to the target; there, turn to it and press fire."""
+    """Drive to the target slot; once there, turn to it and use the fork."""
     slot, route = obs.slots[mind.target], mind.senses.route
     moved = not route.wanted or route.goal_x != slot.x or route.goal_y != slot.y
     route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
-    if moved:  # the way comes with the next observation
+    if moved:  # the next observation brings the new route
         set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.near and obs.goal_distance < STAND_OFF and obs.straight:
@@ -54,7 +54,7 @@ def drive_to(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def make_way(obs: Any, mind: Any, action: Any) -> None:
-    """Stand, but not where a person wants to walk, nor at the slot."""
+    """Wait clear of people and of the slot."""
     speed = -0.5 if obs.goal_distance < STAND_OFF - 40.0 else 0.0
     nearest = ASIDE
     for w in range(WORKERS):
@@ -68,7 +68,7 @@ def make_way(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
-    """Turn to the slot, bring the fork over it, press."""
+    """Turn to the slot, bring the fork over it and press fire."""
     dx, dy = obs.fork_x - slot.x, obs.fork_y - slot.y
     if dx * dx + dy * dy < AT * AT:
         set_action(action, 0.0, 0.0, 0 if action.fire else 1, 0)
@@ -83,12 +83,12 @@ def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
 
 @kernel
 def follow_round(obs: Any, mind: Any, action: Any) -> None:
-    """Drive on along the way, or as near to it as whoever is about leaves room."""
+    """Follow the route, or the free direction nearest to it if people or robots block it."""
     bearing = obs.way_bearing
     free = False
     for i in range(LOOKS):
         lean = LEAN * ((i + 1) // 2)
-        turn = bearing + (lean if i % 2 else -lean)  # who meet head-on keep to the right
+        turn = bearing + (lean if i % 2 else -lean)  # right first, so robots that meet head-on both keep right
         if room(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.way_distance):
             bearing, free = turn, True
             break
@@ -106,7 +106,10 @@ def follow_round(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def room(obs: Any, turn: float, robots: float) -> float:
-    """The px that it can drive at a bearing before it comes too near to a person, or within `robots` px of a robot."""
+    """Free distance in direction `turn` (rad, relative to the heading), px; 1000 if nothing is in the way.
+
+    It ends PERSON_ROOM px from a person or `robots` px from a robot.
+    """
     free = 1000.0
     for w in range(WORKERS):
         person = obs.people[w]
@@ -121,7 +124,7 @@ def room(obs: Any, turn: float, robots: float) -> float:
 
 @kernel
 def gap(distance: float, bearing: float, clearance: float) -> float:
-    """The px that one can drive straight on before one is within `clearance` of what is there."""
+    """Distance along bearing 0 until an obstacle at (`distance`, `bearing`) is `clearance` px away; 1000 if never."""
     ahead, aside = distance * cos(bearing), distance * sin(bearing)
     if ahead <= 0.0 or aside >= clearance or aside <= -clearance:
         return 1000.0
@@ -131,9 +134,9 @@ def gap(distance: float, bearing: float, clearance: float) -> float:
 
 @kernel
 def lose_patience(obs: Any, mind: Any) -> None:
-    """Prefer other slots for a while if it comes no nearer to its target, by the way that it has to drive.
+    """Shun the target for SHUN ticks after PATIENCE ticks without progress, measured along the route.
 
-    If there is no other, and it comes no nearer again, it tries to come from somewhere else.
+    If that target fails again while it is shunned, for want of another, start a detour to approach from elsewhere.
     """
     left = obs.goal_distance
     if not obs.straight:
@@ -153,7 +156,7 @@ def lose_patience(obs: Any, mind: Any) -> None:
 
 @kernel
 def make_detour(obs: Any, mind: Any, action: Any) -> None:
-    """Drive towards another slot for a while, so that the way to the target is another one."""
+    """Drive towards another slot for a while, so that the route to the target changes."""
     slot, route = obs.slots[mind.via], mind.senses.route
     moved = route.goal_x != slot.x or route.goal_y != slot.y
     route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
@@ -168,7 +171,7 @@ def make_detour(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
-    """Notice that it wants to move and gets nowhere."""
+    """Start backing out if it has been stuck for HELD_UP_TICKS."""
     if held_up(mind, obs.x, obs.y, False, HELD_UP, PERIOD) > HELD_UP_TICKS:
         mind.held_up, mind.freeing = 0, FREEING
         choose_escape(mind, -0.8, 0.7)
@@ -176,7 +179,7 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def back_out(obs: Any, mind: Any, action: Any) -> None:
-    """Back out with a turn, but not over anybody."""
+    """Back out with a turn, away from any person within STOP px."""
     mind.freeing -= PERIOD
     for w in range(WORKERS):
         person = obs.people[w]

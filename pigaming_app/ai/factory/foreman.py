@@ -1,10 +1,11 @@
-"""The hand-written driver of Robot Factory: what to carry where, shared out between mates, and how to get there.
+"""The hand-written brain of Robot Factory: greedy joint task allocation for two mates, and route following.
 
-Twice a second it lists what its team could do next, reckons what each job costs itself and its mate, and takes its part
-of the cheapest way to share two of them out. Its mate, if it is one of these, reckons alike; a person's next job is
-guessed from where they are, and left to them. To put down, a slot that a mate makes for is taken;
-to lift, it is so while the mate carries something: of two free mates with one job left both go, and one gets it. The
-three strengths differ in speed, in how long they think after each job, and in how well they reckon, never in rules.
+Twice a second it lists the open jobs of its team, estimates the cost of each for itself and for its mate, and takes its
+own part of the cheapest pair. A mate with the same brain computes the same allocation; the job of a human mate is
+predicted from position and left to them. For putting down, a slot that a mate has targeted counts as taken. For
+lifting, it counts as taken only while the mate carries a pallet: if one job is left for two free mates, both go and the
+first gets it. The three strengths differ in speed, in the pause after each job, and in the error of their cost
+estimates, never in rules.
 """
 
 from typing import Any
@@ -20,45 +21,45 @@ from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import HZ
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
-PLAN = 25  # ticks between two looks at what there is to do
-START = 20  # ticks within which it wakes up
+PLAN = 25  # ticks between two allocations
+START = 20  # upper limit of the random delay before the first move, ticks
 
 
 @record
 class ForemanMind:
-    """What the driver remembers."""
+    """Memory of the driver."""
 
     senses: Senses
     obs: Observation
     random: int
     speed: float  # share of full speed
-    pause: int  # ticks for which it thinks after each job
-    noise: float  # by which it misreckons what a job costs, as a share
-    dash: int  # 1: it uses turbo
-    target: int  # the slot it makes for, -1: none
-    near: int  # 1: it only waits near the target, which is not free
-    plan_in: int  # ticks until it looks again
-    resting: int  # ticks left of thinking
-    carried: int  # what it carried at the last decision
-    waiting: int  # ticks for which it has had nothing better to do than wait
-    anchor_x: float  # where it was when it last got anywhere
+    pause: int  # ticks of pause after each job
+    noise: float  # error of cost estimates, as a share of NOISE
+    dash: int  # 1: may use turbo
+    target: int  # slot number, -1: none
+    near: int  # 1: wait near the target, which is occupied
+    plan_in: int  # ticks until the next allocation
+    resting: int  # ticks left of the pause
+    carried: int  # load at the last decision, as in `obs.carries`
+    waiting: int  # allocations in a row without a job
+    anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since
-    sought: int  # the target for which the next two count
-    least: float  # px, the shortest way there that was left
-    late: int  # ticks since that was reached
-    shunned: int  # a slot that it could not get at
-    shun: int  # ticks for which it prefers others
-    via: int  # the slot towards which it makes a detour
-    detour: int  # ticks left of that
-    freeing: int  # ticks left of breaking free
-    escape: float  # the stick while it does
+    held_up: int  # ticks since then
+    sought: int  # target to which `least` and `late` refer
+    least: float  # shortest remaining route so far, px
+    late: int  # ticks since then
+    shunned: int  # slot that could not be reached
+    shun: int  # ticks left of shunning it
+    via: int  # slot that a detour leads towards
+    detour: int  # ticks left of the detour
+    freeing: int  # ticks left of backing out
+    escape: float  # forward stick while backing out
     escape_turn: float
 
 
 @kernel
 def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
-    """Look and decide every PERIOD ticks; in between the stick stays as it is."""
+    """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + seat) % PERIOD:
         return
     action = match.actions[seat]
@@ -69,8 +70,8 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 @kernel
 def act(obs: Any, mind: Any, action: Any) -> None:
-    """Choose a job now and then, and go about it."""
-    if obs.carries != mind.carried:  # a job is done
+    """Allocate a job when due, then work on it."""
+    if obs.carries != mind.carried:  # a job has just ended
         mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
     mind.plan_in -= PERIOD
     mind.shun -= PERIOD
@@ -94,11 +95,15 @@ def act(obs: Any, mind: Any, action: Any) -> None:
 
 
 def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
-    """A function that fills a fresh mind: share of full speed, s of thinking, misreckoning, s of late eyes, turbo."""
+    """A `reset` for a strength.
+
+    `speed`: share of full speed; `pause`: s after each job; `noise`: error of cost estimates, as a share of NOISE;
+    `delay`: reaction time to others, s; `dash`: 1 if it may use turbo.
+    """
 
     def fill(mind: ForemanMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
-        mind.resting = int(uniform(mind) * START)  # nobody begins on the same tick
+        mind.resting = int(uniform(mind) * START)  # staggered starts
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
         mind.senses.delay = delay
 

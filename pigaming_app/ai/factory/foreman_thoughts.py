@@ -1,7 +1,7 @@
-"""What the hand-written driver of Robot Factory has on its mind: which job is worth what to it, and the way there.
+"""Explanation of the factory brain: the utility of each kind of job, and the route to the chosen slot.
 
-Numbers come from the driver's memory and its last observation; the costs of jobs are its own, without their noise and
-before it shares the jobs out with its mate.
+All values come from the brain's memory, its last observation and its own cost functions, without the noise and before
+the allocation between mates.
 """
 
 from collections.abc import Iterator
@@ -13,14 +13,14 @@ from pigaming_app.ai.factory.driving import HELD_UP_TICKS, LOOK, ROBOT_ROOM, roo
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, away, cheapest_place, cost_of
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, B
 
-DEAR = 2600.0  # px that a job costs which is worth nothing
-FAR = 1600.0  # px that a place is away to which nothing is worth bringing
+DEAR = 2600.0  # cost of a job with utility 0, px
+FAR = 1600.0  # distance at which the utility of putting down falls to its minimum of 0.2, px
 JOBS = {"raw": RAW, "half": HALF, "done": DONE}
 LOADS = {RAW: "raw", HALF: "half", DONE: "done", DAMAGED: "damaged"}
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
-    """The thoughts of the driver on `seat`."""
+    """Thoughts of the factory brain on `seat`."""
     obs = mind.obs
     if not obs.turn_rate or mind.target < 0:
         return Thoughts("starts")
@@ -39,7 +39,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
 
 
 def _doing(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
-    """What it is about and why, as keys of the texts."""
+    """Text keys of the present behaviour and its reason."""
     if obs.frozen:
         return "frozen", "bumped"
     if mind.resting > 0:
@@ -65,7 +65,7 @@ def _chosen(obs: Any, mind: Any, slot: Any, doing: str) -> str:
 
 
 def _wishes(obs: Any, mind: Any) -> dict[str, float]:
-    """For each state of a pallet how good its best job is; to put down what it carries the more, the nearer it can."""
+    """Utilities: for each state of a pallet that of its best job; for putting down, higher the nearer the place."""
     wishes = dict.fromkeys(JOBS, 0.0)
     for s in range(SLOTS):
         name = LOADS.get(obs.slots[s].holds - 1, "")
@@ -94,7 +94,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
 
 
 def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
-    """People and robots that are close, and the way to the slot."""
+    """Nearby people and robots, and the route to the slot."""
     for person in obs.people:
         if person.distance < 2.0 * LOOK:
             yield Percept(PERSON, person.x, person.y)
@@ -108,10 +108,10 @@ def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
 
 
 def _rose(obs: Any, mind: Any, doing: str) -> list[float]:
-    """Where it wants to go, and which ways are not free."""
-    taken = [clamp(room(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
+    """Attraction along the route, repulsion from blocked directions."""
+    blocked = [clamp(room(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
     if doing in ("frozen", "ponder"):
-        return taken
+        return blocked
     if doing == "free":
-        return blend(towards(0.0 if mind.escape > 0.0 else pi), taken)
-    return blend(towards(obs.way_bearing), taken)
+        return blend(towards(0.0 if mind.escape > 0.0 else pi), blocked)
+    return blend(towards(obs.way_bearing), blocked)

@@ -1,6 +1,7 @@
-"""What a driver of Robot Factory does next: jobs, what they cost, and how two mates share them out.
+"""Task allocation of the factory brain: job costs, and the division of jobs between two mates.
 
-A job is a slot: to lift what lies there, or to put down there what is carried. `mind` is a ForemanMind.
+A job is a slot at which to lift a pallet, or to put one down. Costs are in px of driving; times count as px at SPEED.
+In every function `obs` is the Observation and `mind` a ForemanMind.
 """
 
 from math import sqrt
@@ -11,23 +12,23 @@ from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, I
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
 
-NO = 1e8  # a cost that says: impossible
-SPEED = 230.0  # px/s that a robot makes on the way, to weigh ways against waiting
-KEEP = 90.0  # px by which the job that one is about seems cheaper, so that plans stay
-BLOCKED = 320.0  # px that an input costs whose machine's output is taken
-QUEUE = 900.0  # px that it costs to lift what cannot be put down yet
-FREES = 300.0  # px that it is worth to free a machine
-HOME = 5000.0  # px by which waiting at home seems farther than where something will come out
-NOISE = 600.0  # px by which who reckons badly is wrong
-STALLED = 12.0  # s without a worker after which a pallet is taken out of a machine's input again
-SLOW = 6.0  # s without one that count against a machine at all; less is common
-SHUN = 2000.0  # px by which a slot seems farther that could not be got at
-LATER = 260.0  # px by which a raw pallet seems farther: what is nearer to the exit comes first
+NO = 1e8  # cost of an impossible job
+SPEED = 230.0  # px/s, mean speed on a route, to convert waiting times into px
+KEEP = 90.0  # px, bonus of the present job: hysteresis against changing plans
+BLOCKED = 320.0  # px, cost of an input while the output of its machine is occupied
+QUEUE = 900.0  # px, cost of lifting a pallet that cannot be put down yet
+FREES = 300.0  # px, bonus for clearing the output of a machine
+HOME = 5000.0  # px, cost of waiting at home, so that waiting at an output comes first
+NOISE = 600.0  # px, largest estimation error at `mind.noise` 1
+STALLED = 12.0  # s without a worker after which a pallet is taken back out of a machine's input
+SLOW = 6.0  # s without a worker before that counts as a delay; less is common
+SHUN = 2000.0  # px, cost of the shunned slot, which could not be reached
+LATER = 260.0  # px, cost of a raw pallet, so that pallets nearer to completion come first
 
 
 @kernel
 def choose_job(obs: Any, mind: Any) -> None:
-    """Set the target of the mind; `near`: it is not free, go near it and wait."""
+    """Set `mind.target`, and `mind.near` if it is only a place to wait at."""
     mind.near = 0
     best = cheapest_place(obs, mind) if obs.carries else share_out(obs, mind)
     if best >= 0:
@@ -42,32 +43,32 @@ def choose_job(obs: Any, mind: Any) -> None:
 
 @kernel
 def is_taken(obs: Any, s: int) -> bool:
-    """Whether a mate says that it makes for slot s."""
-    said = False
+    """True if a mate has announced slot s as its target."""
+    taken = False
     for i in range(OTHERS):
         other = obs.others[i]
         if other.present and other.mate and other.aim == s + 1:
-            said = True
-    return said
+            taken = True
+    return taken
 
 
 @kernel
 def away(obs: Any, s: int) -> float:
-    """The px from the robot to slot s."""
+    """Distance from the robot to slot s, px."""
     dx, dy = obs.slots[s].x - obs.x, obs.slots[s].y - obs.y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
 def between(obs: Any, s: int, t: int) -> float:
-    """The px from slot s to slot t."""
+    """Distance from slot s to slot t, px."""
     dx, dy = obs.slots[s].x - obs.slots[t].x, obs.slots[s].y - obs.slots[t].y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
 def hindrance(slot: Any) -> float:
-    """The px that it costs to put something into a slot whose machine cannot begin at once."""
+    """Cost of an input whose machine cannot start at once, px."""
     if slot.kind != INPUT:
         return 0.0
     return delay(slot) + (BLOCKED if slot.output_blocked else 0.0)
@@ -75,19 +76,19 @@ def hindrance(slot: Any) -> float:
 
 @kernel
 def delay(slot: Any) -> float:
-    """The px that the time weighs for which nobody has come to the machine of an input."""
+    """Cost of the time for which an input's machine has had no worker, px."""
     return slot.stalled * SPEED if slot.stalled > SLOW else 0.0
 
 
 @kernel
 def shyness(mind: Any, s: int) -> float:
-    """The px by which slot s seems farther because it could not be got at."""
+    """SHUN for the shunned slot, else 0, px."""
     return SHUN if mind.shun > 0 and mind.shunned == s else 0.0
 
 
 @kernel
 def may_take(slot: Any, state: int) -> bool:
-    """Whether a pallet in a state is at its right place in a slot."""
+    """True if a pallet in `state` belongs into the slot."""
     if slot.kind == INPUT:
         return bool((slot.makes == A and state == RAW) or (slot.makes == B and state == HALF))
     return bool(slot.kind == EXIT and slot.mine == 1 and state == DONE)
@@ -95,7 +96,7 @@ def may_take(slot: Any, state: int) -> bool:
 
 @kernel
 def cheapest_place(obs: Any, mind: Any) -> int:
-    """Where to put down what is carried; -1: nowhere now."""
+    """Cheapest slot for the carried pallet; -1 if none is free."""
     state = obs.carries - 1
     best, least = -1, NO
     for s in range(SLOTS):
@@ -110,7 +111,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
             cost -= KEEP
         if cost < least:
             best, least = s, cost
-    if best < 0 and mind.waiting > 16:  # for eight seconds: back to the shelf, and do something else
+    if best < 0 and mind.waiting > 16:  # eight seconds without a place: return it to the shelf, and take another job
         for s in range(SLOTS):
             slot = obs.slots[s]
             if slot.put and slot.kind == ENTRY and away(obs, s) < least:
@@ -120,7 +121,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
 
 @kernel
 def onward(obs: Any, s: int, state: int) -> float:
-    """The px from slot s to the best free place for a pallet in that state; NO: there is none."""
+    """Cost from slot s to the best free place for a pallet in `state`, px; NO if there is none."""
     least = NO
     for t in range(SLOTS):
         slot = obs.slots[t]
@@ -133,7 +134,10 @@ def onward(obs: Any, s: int, state: int) -> float:
 
 @kernel
 def cost_of(obs: Any, s: int, queue: float) -> float:
-    """What it costs to do the job at slot s, after the way there; `queue`: if it must then wait for a free place."""
+    """Cost of the job at slot s without the way there, px; NO if impossible.
+
+    `queue`: cost of clearing an output while no place for its pallet is free.
+    """
     slot = obs.slots[s]
     if not slot.lift:
         return NO
@@ -141,23 +145,21 @@ def cost_of(obs: Any, s: int, queue: float) -> float:
     if state == DAMAGED:
         return NO
     then = onward(obs, s, state)
-    if may_take(
-        slot, state
-    ):  # where it should be, unless nobody comes to the machine and it would be better off elsewhere
+    if may_take(slot, state):  # in its right place: move it only if the machine stalls and another place is cheaper
         return then if slot.kind == INPUT and slot.stalled > STALLED and then < slot.stalled * SPEED else NO
-    if slot.kind == OUTPUT:  # whatever it is, it frees a machine
+    if slot.kind == OUTPUT:  # any pallet here blocks its machine
         return min(then, queue) - FREES
     return then + LATER if state == RAW and then < NO else then
 
 
 @kernel
 def share_out(obs: Any, mind: Any) -> int:
-    """The slot from which to lift next, when the mate's next job is thought of too; -1: nothing to do."""
+    """Slot to lift from next, minimising the joint cost of this job and the mate's best other one; -1 if none."""
     mate = -1
     for i in range(OTHERS):
         if obs.others[i].present and obs.others[i].mate:
             mate = i
-    alone = mate < 0 or obs.others[mate].carries  # somebody must keep the fork free, to clear the machines
+    alone = mate < 0 or obs.others[mate].carries  # one fork must stay free to clear the machines
     queue = NO if alone else QUEUE
     best, least = -1, NO
     for s in range(SLOTS):
@@ -176,7 +178,7 @@ def share_out(obs: Any, mind: Any) -> int:
 
 @kernel
 def best_other(obs: Any, mate: Any, without: int, queue: float) -> float:
-    """What the mate's best job costs it if it leaves slot `without` to this robot."""
+    """Cost of the mate's best job without slot `without`, px; 3000 if there is none."""
     least = 3000.0
     for s in range(SLOTS):
         if s == without:
@@ -192,7 +194,7 @@ def best_other(obs: Any, mate: Any, without: int, queue: float) -> float:
 
 @kernel
 def waiting_place(obs: Any, mind: Any) -> int:
-    """The slot near which to wait: where what is carried will go, or the own next pallet come out, or at home."""
+    """Slot to wait at: a future place for the load, an output about to be ready, or home."""
     best, least = -1, NO
     state = obs.carries - 1
     for s in range(SLOTS):

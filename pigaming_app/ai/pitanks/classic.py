@@ -1,11 +1,11 @@
-"""The frozen opponent of the measured results: the original's finite state machine, and nothing that improves on it.
+"""The frozen reference opponent of PiTanks: the original's finite state machine without improvements.
 
-Winning or level it defends: it goes behind the nearest inner wall, waits there, and fires at an opponent that shows.
-Losing it attacks: it closes in round the walls, aims, fires. It aims at where the opponent is, not at where it will be,
-dodges nothing, picks nothing up and never grows bored. It does not change when `fsm` gets better: that is its use.
+Winning or level it defends: it goes behind the nearest inner wall, waits there, and fires at an opponent in sight.
+Losing it attacks: it closes in round the walls, aims and fires. It aims without lead, never dodges, ignores pickups and
+never leaves cover in a level match. Results are comparable because it stays the same while `fsm` improves.
 
-The original's paper leaves the numbers of `Parameters` open. Only they were chosen so that trained robots fare against
-it as published: see tests/bench/reproduce_table.py.
+The original's paper does not give the numbers in `Parameters`. Only these were fitted, so that trained robots reach the
+published results against it: see tests/bench/reproduce_table.py.
 """
 
 from dataclasses import dataclass
@@ -27,44 +27,44 @@ from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
-HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px in ticks that are getting nowhere; ticks of backing out
+HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px and ticks: a smaller displacement is stuck; ticks of backing out
 
 
 @dataclass(frozen=True)
 class Parameters:
-    """What the original leaves unknown about its machine."""
+    """Parameters that the original's paper leaves open."""
 
-    engage: float = 200.0  # px from which it aims and fires at an opponent in sight, closing in no further
+    engage: float = 200.0  # px; within this range it stops and fires at an opponent in sight
     period: int = 40  # ticks between decisions
-    tolerance: float = 0.08  # rad by which the gun may be off when it fires
-    beside: float = 50.0  # px between the machine in its hiding place and the wall
-    arrived: float = 85.0  # px from the hiding place that count as there
+    tolerance: float = 0.08  # largest aiming error at which it fires, rad
+    beside: float = 50.0  # px between a hidden robot and its wall
+    arrived: float = 85.0  # px from the hiding place that count as arrived
 
 
 @record
 class ParameterRecord(Parameters):
-    """The same as a kernel reads it."""
+    """`Parameters` as a record for kernels."""
 
 
 @record
 class ClassicMind:
-    """What the machine remembers."""
+    """Memory of the machine."""
 
     numbers: ParameterRecord
     route: Route
     random: int
     state: int
     since: int  # ticks in this state
-    anchor_x: float  # where it was when it last got anywhere
+    anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since
-    escape: float  # the stick while it breaks free
+    held_up: int  # ticks since then
+    escape: float  # forward stick while backing out
     escape_turn: float
 
 
 @kernel
 def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
-    """Look and decide every `period` ticks; in between the stick stays as it is."""
+    """Observe and decide every `period` ticks; the action holds in between."""
     period = mind.numbers.period
     if (match.tick + seat) % period:
         return
@@ -85,7 +85,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 @kernel
 def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
-    """Go behind the nearest wall and wait there; fire at an opponent that shows."""
+    """Go to the hiding place and wait there; fire at an opponent in sight."""
     robot, route = match.robots[seat], mind.route
     dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     if shows(match, robot, other, mind):
@@ -99,7 +99,7 @@ def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
 
 @kernel
 def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
-    """Close in on the opponent round the walls, aim, fire."""
+    """Close in on the opponent round the walls, aim and fire."""
     if shows(match, match.robots[seat], other, mind):
         shoot(match, seat, other, mind)
     else:
@@ -109,7 +109,7 @@ def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
 
 @kernel
 def break_free(robot: Any, mind: Any, action: Any) -> None:
-    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
+    """Back out with a turn, alternating direction every FREEING ticks until the robot is free."""
     set_action(action, mind.escape, mind.escape_turn, 0, 0)
     if mind.since < FREEING:
         return
@@ -121,12 +121,12 @@ def break_free(robot: Any, mind: Any, action: Any) -> None:
         mind.state, mind.held_up, mind.anchor_x, mind.anchor_y = DEFEND, 0, robot.x, robot.y
 
 
-# ------------------------------------------------------------------------------------------------------- what they use
+# ------------------------------------------------------------------------------------------------------------- helpers
 
 
 @kernel
 def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
-    """Notice that it wants to move and gets nowhere."""
+    """Enter BREAK_FREE if the robot drives without moving for HELD_UP_TICKS."""
     if mind.state == BREAK_FREE:
         return
     dx, dy = robot.x - mind.anchor_x, robot.y - mind.anchor_y
@@ -142,7 +142,7 @@ def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
-    """1 if the opponent is in sight and near enough to fire at."""
+    """1 if the opponent is in sight and within `engage` px."""
     reach = mind.numbers.engage
     dx, dy = other.x - robot.x, other.y - robot.y
     if dx * dx + dy * dy > reach * reach:
@@ -152,10 +152,10 @@ def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 @kernel
 def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
-    """Make for the place behind the inner wall that is nearest to go to, away from the opponent; 0: there is none.
+    """Set the goal to the nearest hiding place behind an inner wall; 0 if there is none.
 
-    The place lies on the line from the opponent through the middle of the wall: so near behind it that `beside` px are
-    between robot and wall, or past its end where the opponent looks along it.
+    A hiding place lies on the line from the opponent through the middle of a wall, `beside` px clear of the wall's far
+    side, or past its end where that line runs along the wall.
     """
     least = 1e18
     for i in range(match.wall_count):
@@ -185,13 +185,12 @@ def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 @kernel
 def go_to(mind: Any, x: float, y: float) -> None:
-    """Set the goal of the route."""
     mind.route.wanted, mind.route.goal_x, mind.route.goal_y = 1, x, y
 
 
 @kernel
 def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
-    """Turn to the opponent, and fire when the gun points at it."""
+    """Turn to the opponent and fire once the gun points at it."""
     robot = match.robots[seat]
     angle = bearing(robot, other.x, other.y)
     fire = 1 if not match.tanks[seat].cooldown and abs(angle) < mind.numbers.tolerance else 0
@@ -199,11 +198,11 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
     set_action(match.actions[seat], 0.0, stick, fire, 0)
 
 
-def machine(name: str, unknown: Parameters) -> BrainKind:
-    """The machine with these numbers."""
+def machine(name: str, parameters: Parameters) -> BrainKind:
+    """The machine as a brain, with these parameters."""
 
     def reset(mind: Any, seed: int) -> None:
-        for key, number in vars(unknown).items():
+        for key, number in vars(parameters).items():
             setattr(mind.numbers, key, number)
         mind.random = seeded(seed)
 

@@ -1,4 +1,4 @@
-"""What the frozen machine of the measured results has on its mind: its state, whom it sees, where it hides."""
+"""Explanation of `classic`: its state, the opponent in sight and the hiding place."""
 
 from collections.abc import Iterator
 from math import atan2, pi
@@ -14,7 +14,7 @@ from pigaming_app.sim.sweep import is_clear
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
-    """The thoughts of the machine on `seat`."""
+    """Thoughts of the machine on `seat`."""
     opponent = nearest_opponent(match, seat)
     if not mind.route.wanted or opponent < 0:
         return Thoughts("starts")
@@ -42,7 +42,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
 
 
 def _doing(robot: Any, mind: Any, shows: bool, ahead: int) -> tuple[str, str, str]:
-    """What it is about and why, as keys of the texts, and its wish."""
+    """Text keys of the present behaviour and its reason, and the chosen wish."""
     if mind.state == classic.BREAK_FREE:
         return "free", "stuck", "free"
     if shows:
@@ -70,7 +70,7 @@ def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterat
 
 
 def _rose(robot: Any, other: Any, mind: Any, doing: str) -> list[float]:
-    """Where it wants to go, or to point."""
+    """Direction in which it drives, or points the gun."""
     if doing == "free":
         return towards(0.0 if mind.escape > 0.0 else pi)
     if doing in ("duel", "wait"):

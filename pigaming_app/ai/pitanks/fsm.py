@@ -1,10 +1,10 @@
-"""The hand-written opponent of PiTanks, a finite state machine after the original's.
+"""The hand-written opponent of PiTanks: a finite state machine based on the original's.
 
-Winning or level it defends: it takes cover behind the nearest inner wall, waits, and fires when an opponent shows.
-Losing it attacks: it closes in round the walls, aims, fires. Two things the original lacked: it backs out when it gets
-nowhere, and when it has waited for long in a level match it goes out and looks (else two of them would wait for ever).
+Winning or level it defends: it takes cover behind the nearest inner wall, waits, and fires at opponents in sight.
+Losing it attacks: it closes in round the walls, aims and fires. Two additions to the original: it backs out when stuck,
+and it leaves cover after a long wait in a level match, since two of them would otherwise wait for ever.
 
-The three strengths differ in how late they see others and how badly they aim, never in speed.
+The three strengths differ in reaction time, aiming error and patience, never in speed.
 """
 
 from math import pi
@@ -23,46 +23,46 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HZ
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
-ENGAGE = 420.0  # px at which an attacker no longer closes in
-CROWD = 230.0  # px at which it backs off
-REACH = 760.0  # px from which an attacker fires
-SWERVE = 0.9  # rad to the side of the other while it reloads
-ARRIVED = 26.0  # px from the goal that count as there
-HELD_UP_TICKS = 30
-NEW_AIM = 25  # ticks after which the error of the aim is drawn anew
+ENGAGE = 420.0  # px; within this range an attacker stops closing in
+CROWD = 230.0  # px; within this range it backs off
+REACH = 760.0  # px; within this range an attacker fires
+SWERVE = 0.9  # rad off the opponent's bearing while reloading
+ARRIVED = 26.0  # px from the goal that count as arrived
+HELD_UP_TICKS = 30  # ticks of driving without moving that count as stuck
+NEW_AIM = 25  # ticks between draws of the aiming error
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
 
 
 @record
 class FsmMind:
-    """What the machine remembers."""
+    """Memory of the machine."""
 
     senses: Senses
     obs: Observation
-    spread: float  # rad, standard deviation of the aim
-    patience: int  # ticks of seeing nobody in a level match after which it goes out
-    dodges: int  # 1: it drives out of the way of bullets
+    spread: float  # standard deviation of the aiming error, rad
+    patience: int  # ticks without sight of an opponent in a level match after which it leaves cover
+    dodges: int  # 1: it dodges bullets
     random: int
     state: int
     since: int  # ticks in this state
-    unseen: int  # ticks since an opponent was last in sight
-    seen: int  # ticks for which one has been in sight
-    target: int  # which of the others; -1: none
+    unseen: int  # ticks since the target was last in sight
+    seen: int  # ticks for which the target has been in sight
+    target: int  # index into `obs.others`; -1: none
     on_target: int  # ticks for which the gun has pointed at the target
-    bias: float  # rad, the present error of the aim
-    bias_left: int
-    anchor_x: float  # where it was when it last got anywhere
+    bias: float  # present aiming error, rad
+    bias_left: int  # ticks until the next draw
+    anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since
-    escape: float  # the stick while it breaks free
+    held_up: int  # ticks since then
+    escape: float  # forward stick while backing out
     escape_turn: float
-    weave: float  # ahead or back while it duels
+    weave: float  # forward stick in a duel, 1 or -1
 
 
 @kernel
 def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
-    """Look and decide every PERIOD ticks; in between the stick stays as it is."""
+    """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + seat) % PERIOD:
         return
     observe(match, seat, mind.senses, mind.obs)
@@ -71,7 +71,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 @kernel
 def act(obs: Any, mind: Any, action: Any) -> None:
-    """The machine: remember, choose the state, let the state act."""
+    """One step of the machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     pick_target(obs, mind)
     draw_error(mind)
@@ -94,7 +94,7 @@ def act(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def defend(obs: Any, mind: Any, action: Any) -> int:
-    """Go behind the nearest wall and wait there; fire at whoever shows."""
+    """Take cover and wait; fire at an opponent in sight."""
     bored = obs.lead == 0 and mind.unseen > mind.patience
     if obs.lead < 0 or bored or not obs.cover or mind.target < 0:
         return ATTACK
@@ -114,7 +114,7 @@ def defend(obs: Any, mind: Any, action: Any) -> int:
 
 @kernel
 def attack(obs: Any, mind: Any, action: Any) -> int:
-    """Close in on the target round the walls, aim, fire."""
+    """Close in on the target round the walls, aim and fire."""
     if mind.target < 0:
         set_action(action, 0.0, 0.0, 0, 0)
         return ATTACK
@@ -134,18 +134,18 @@ def attack(obs: Any, mind: Any, action: Any) -> int:
 
 @kernel
 def break_free(obs: Any, mind: Any, action: Any) -> int:
-    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
+    """Back out with a turn until the robot is free."""
     if not escape(mind, obs.x, obs.y, action):
         return BREAK_FREE
     return DEFEND if obs.lead >= 0 else ATTACK
 
 
-# ------------------------------------------------------------------------------------------------------- what they use
+# ------------------------------------------------------------------------------------------------------------- helpers
 
 
 @kernel
 def pick_target(obs: Any, mind: Any) -> None:
-    """The nearest opponent; one in sight counts as much nearer, and so does the one already chosen."""
+    """Target the nearest opponent, with bonuses for one in sight and for the present target."""
     best, least = -1, 1e9
     for i in range(OTHERS):
         other = obs.others[i]
@@ -173,7 +173,7 @@ def pick_target(obs: Any, mind: Any) -> None:
 
 @kernel
 def draw_error(mind: Any) -> None:
-    """Draw the error of the aim anew now and then."""
+    """Draw a new aiming error and weave every NEW_AIM ticks."""
     mind.bias_left -= PERIOD
     if mind.bias_left <= 0:
         mind.bias_left = NEW_AIM
@@ -183,7 +183,7 @@ def draw_error(mind: Any) -> None:
 
 @kernel
 def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
-    """Notice that it wants to move and gets nowhere."""
+    """Enter BREAK_FREE if the robot drives without moving for HELD_UP_TICKS."""
     if mind.state == BREAK_FREE:
         return
     idle = action.linear == 0.0
@@ -194,14 +194,14 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def go_to(mind: Any, x: float, y: float) -> None:
-    """Set the goal of the route; the way there comes with the next observation."""
+    """Set the goal of the route; the next observation brings the route itself."""
     route = mind.senses.route
     route.wanted, route.goal_x, route.goal_y = 1, x, y
 
 
 @kernel
 def follow(obs: Any, mind: Any, action: Any) -> None:
-    """Drive on along the way."""
+    """Follow the route; fire if the gun happens to point at the target."""
     bearing, speed = approach(obs.way_bearing, obs.way_distance)
     near = obs.goal_distance / 70.0
     if obs.straight and near < 1.0:
@@ -212,14 +212,14 @@ def follow(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def shoot(obs: Any, mind: Any, action: Any, speed: float) -> None:
-    """Turn to the target's aim, and fire when it is on it."""
+    """Turn the gun to the target's lead angle, driving at `speed`, and fire once it is on target."""
     aim = obs.others[mind.target].aim + mind.bias
     set_action(action, speed, turn_stick(aim, obs.angular, obs.turn_rate, PERIOD), snap_shot(obs, mind), 0)
 
 
 @kernel
 def snap_shot(obs: Any, mind: Any) -> int:
-    """1 if the gun happens to point at what it wants to hit (or a mine can be laid in flight)."""
+    """1 if the gun points at the target and the reaction time is over, or if a mine can be laid at a distance."""
     if mind.target < 0:
         return 0
     other = obs.others[mind.target]
@@ -231,7 +231,7 @@ def snap_shot(obs: Any, mind: Any) -> int:
         mind.on_target = 0
         return 0
     mind.on_target += PERIOD
-    if mind.on_target * DT < mind.senses.delay:  # the finger is as late as the eyes
+    if mind.on_target * DT < mind.senses.delay:  # firing takes the reaction time as well
         return 0
     mind.on_target = 0
     return 1
@@ -239,7 +239,7 @@ def snap_shot(obs: Any, mind: Any) -> int:
 
 @kernel
 def duel(obs: Any, mind: Any, action: Any, other: Any) -> None:
-    """Aim and fire while the gun is loaded; swerve across the other's sights while it is not."""
+    """Aim and fire while the gun is loaded; swerve while it reloads."""
     ahead = 1.0
     if other.distance < CROWD:
         ahead = -1.0
@@ -254,14 +254,12 @@ def duel(obs: Any, mind: Any, action: Any, other: Any) -> None:
 
 @kernel
 def dodge(obs: Any, action: Any) -> None:
-    """Drive out of a bullet's path if that is possible in time: across it, to the nearer side."""
+    """Drive across the path of a bullet, to the nearer side, if that can still succeed."""
     if obs.threat > 0.7:
         return
-    across = turn_to(
-        obs.threat_bearing + 0.5 * pi
-    )  # the bullet comes from threat_bearing; its right hand is across - pi
+    across = turn_to(obs.threat_bearing + 0.5 * pi)  # perpendicular to the path; the bullet's right is across - pi
     ahead = 1.0 if abs(across) < 0.5 * pi else -1.0
-    lean = abs(abs(across) - 0.5 * pi)  # pi/2: the robot stands across the path; 0: along it
+    lean = abs(abs(across) - 0.5 * pi)  # pi/2: the robot is perpendicular to the path; 0: along it
     if lean < 0.5:
         return
     side = 1.0 if obs.threat_side >= 0.0 else -1.0
@@ -269,7 +267,7 @@ def dodge(obs: Any, action: Any) -> None:
 
 
 def make_reset(delay: float, spread: float, patience: float) -> Any:
-    """A function that fills a fresh mind: seeing `delay` s late, aiming `spread` rad wide, patient for so many s."""
+    """A `reset` for a strength: reaction time `delay` (s), aiming error `spread` (rad, s.d.), `patience` (s)."""
 
     def fill(mind: FsmMind, seed: int) -> None:
         mind.senses.delay, mind.spread, mind.patience = delay, spread, round(patience * HZ)

@@ -1,6 +1,6 @@
-"""What the hand-written opponent of PiTanks has on its mind: its state, what pulls it out of it, where it wants to go.
+"""Explanation of `fsm`: its state, the utility of each behaviour and the direction it drives in.
 
-Nothing is thought twice: numbers come from its memory and its last observation, rules from the machine itself.
+All values come from the machine's memory, its last observation and its own functions; nothing is decided twice.
 """
 
 from collections.abc import Iterator
@@ -12,13 +12,13 @@ from pigaming_app.ai.pitanks import fsm
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS, Action
 
-SOON = 1.4  # s to a hit from which on a bullet is on its mind; at half of that it dodges
-UNTOUCHED = 9.0  # no stick stands there
-DETOUR = 320.0  # px for which it goes out of its way to collect something
+SOON = 1.4  # s to a hit at which a bullet is displayed; at half of that it dodges
+UNTOUCHED = 9.0  # sentinel outside the stick's range
+DETOUR = 320.0  # px; pickups farther away have utility 0
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
-    """The thoughts of the machine on `seat`."""
+    """Thoughts of the machine on `seat`."""
     obs = mind.obs
     if not obs.turn_rate:
         return Thoughts("starts")
@@ -49,7 +49,7 @@ CHOSEN = {"free": "free", "dodge": "dodge", "duel": "fire", "collect": "collect"
 
 
 def _doing(obs: Any, mind: Any) -> str:
-    """What it is about, as a key of the texts."""
+    """Text key of the present behaviour."""
     if mind.state == fsm.BREAK_FREE:
         return "free"
     if mind.dodges and _dodges(obs):
@@ -68,7 +68,7 @@ def _doing(obs: Any, mind: Any) -> str:
 
 
 def _dodges(obs: Any) -> bool:
-    """Whether the machine would take hold of the stick because of a bullet."""
+    """True if `fsm.dodge` would override the stick."""
     action = Action()
     action.linear = UNTOUCHED
     fsm.dodge(obs, action)
@@ -88,14 +88,14 @@ def _because(obs: Any, mind: Any, doing: str) -> str:
 
 
 def _cover(obs: Any, mind: Any) -> float:
-    """How much it wants to be in cover: level, less and less while nobody shows."""
+    """Utility of cover; in a level match it falls while no opponent is in sight."""
     if not obs.cover or obs.lead < 0 or mind.target < 0:
         return 0.0
     return 1.0 if obs.lead > 0 else clamp(1.0 - mind.unseen / max(1, mind.patience))
 
 
 def _fire(obs: Any, mind: Any) -> float:
-    """How near the gun is to where it must point to hit."""
+    """Utility of firing: 1 if the gun points within the target, less the farther it is off."""
     if mind.target < 0 or not mind.seen or not obs.loaded:
         return 0.0
     other = obs.others[mind.target]
@@ -118,7 +118,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
 
 
 def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
-    """Whom it is after, the bullet that will hit it, what lies about, and where it is going."""
+    """The target, the most urgent bullet, and the route to its goal."""
     if mind.target >= 0:
         other = obs.others[mind.target]
         yield Percept(OPPONENT, other.x, other.y, bool(other.clear))
@@ -134,7 +134,7 @@ def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
 
 
 def _rose(obs: Any, mind: Any, doing: str) -> list[float]:
-    """Where it wants to go, or to point; away from a bullet's path."""
+    """Direction in which it drives or points the gun; repulsion from a bullet."""
     if doing == "free":
         wanted = towards(0.0 if mind.escape > 0.0 else pi)
     elif doing == "duel" and obs.loaded:

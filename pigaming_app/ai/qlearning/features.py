@@ -1,7 +1,7 @@
-"""What the Q-learner sees: three directions, each as one of 16 sectors, relative to its own heading.
+"""Features of the Q-learner: three directions relative to the robot's heading, each as one of 16 sectors.
 
-Where the opponent is, where the closest inner wall is, where the closest incoming bullet is. Sector 0 is centred
-straight ahead and they go on clockwise; NONE says that there is no such thing. Together: 16 x 17 x 17 states.
+They are the directions of the opponent, of the closest inner wall and of the closest incoming bullet. Sector 0 is
+centred straight ahead, numbers increase clockwise, and NONE marks an absent object: 16 x 17 x 17 states.
 """
 
 from math import atan2, sqrt, tau
@@ -14,45 +14,45 @@ from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import ROBOTS
 
 SECTORS = 16
-NONE = 16  # no wall stands any more; no bullet comes
+NONE = 16  # no wall left standing, or no incoming bullet
 PLACES = SECTORS + 1
 STATES = SECTORS * PLACES * PLACES
-WIDE = tau / SECTORS  # rad
+WIDE = tau / SECTORS  # width of a sector, rad
 
 
 @kernel
 def state(opponent: int, wall: int, bullet: int) -> int:
-    """The number of a state; the opponent in 0..15, wall and bullet in 0..16."""
+    """Index of a state; opponent in 0..15, wall and bullet in 0..16."""
     return (opponent * PLACES + wall) * PLACES + bullet
 
 
 @kernel
 def opponent_of(state: int) -> int:
-    """In which sector the opponent is in a state."""
+    """Sector of the opponent in a state."""
     return state // (PLACES * PLACES)
 
 
 @kernel
 def wall_of(state: int) -> int:
-    """In which sector the closest inner wall is in a state, or NONE."""
+    """Sector of the closest inner wall in a state, or NONE."""
     return state // PLACES % PLACES
 
 
 @kernel
 def bullet_of(state: int) -> int:
-    """From which sector the closest incoming bullet comes in a state, or NONE."""
+    """Sector of the closest incoming bullet in a state, or NONE."""
     return state % PLACES
 
 
 @kernel
 def sector(dx: float, dy: float, heading: float) -> int:
-    """The sector of what lies (dx, dy) px away from a robot with this heading."""
+    """Sector of the offset (dx, dy), px, for a robot with this heading, rad."""
     return int(turn_to(atan2(dy, dx) - heading) / WIDE + (SECTORS + 0.5)) % SECTORS
 
 
 @kernel
 def nearest_opponent(match: Any, seat: int) -> int:
-    """The seat of the nearest robot of another team: in a field of several, "the" opponent; -1 if there is none."""
+    """Seat of the nearest robot of another team, which the learner treats as its only opponent; -1 if none."""
     robot = match.robots[seat]
     best, least = -1, 1e18
     for j in range(ROBOTS):
@@ -67,9 +67,9 @@ def nearest_opponent(match: Any, seat: int) -> int:
 
 @kernel
 def situation(match: Any, seat: int, opponent: int, incoming: int) -> int:
-    """The state in which the robot on `seat` is, with the one on the seat `opponent` as its opponent.
+    """State of the robot on `seat` with regard to the seat `opponent`.
 
-    `incoming`: 1: only bullets count that come nearer; 0: all of the other teams'.
+    `incoming`: 1: only approaching bullets count; 0: all bullets of other teams.
     """
     robot, other = match.robots[seat], match.robots[opponent]
     ahead = sector(other.x - robot.x, other.y - robot.y, robot.heading)
@@ -78,8 +78,8 @@ def situation(match: Any, seat: int, opponent: int, incoming: int) -> int:
 
 @kernel
 def wall_sector(match: Any, robot: Any) -> int:
-    """Where the closest point of any inner wall that still stands lies."""
-    where, least = NONE, 1e18
+    """Sector of the closest point of any standing inner wall, or NONE."""
+    closest, least = NONE, 1e18
     for i in range(match.wall_count):
         wall = match.walls[i]
         if wall.health:
@@ -87,14 +87,17 @@ def wall_sector(match: Any, robot: Any) -> int:
             gap = sqrt(dx * dx + dy * dy) - wall.half
             if gap < least:
                 least = gap
-                where = sector(-dx, -dy, robot.heading)
-    return where
+                closest = sector(-dx, -dy, robot.heading)
+    return closest
 
 
 @kernel
 def bullet_sector(match: Any, robot: Any, incoming: int) -> int:
-    """Where the closest bullet of another team is; `incoming`: that comes nearer, position times velocity below 0."""
-    where, least = NONE, 1e18
+    """Sector of the closest bullet of another team, or NONE.
+
+    `incoming`: 1: only approaching ones, whose offset times velocity (dot product) is below 0.
+    """
+    closest, least = NONE, 1e18
     for k in range(ROBOTS):
         owner = match.robots[k]
         if not owner.present or owner.team == robot.team:
@@ -106,5 +109,5 @@ def bullet_sector(match: Any, robot: Any, incoming: int) -> int:
                 away = dx * dx + dy * dy
                 if away < least and not (incoming and dx * bullet.vx + dy * bullet.vy >= 0.0):
                     least = away
-                    where = sector(dx, dy, robot.heading)
-    return where
+                    closest = sector(dx, dy, robot.heading)
+    return closest

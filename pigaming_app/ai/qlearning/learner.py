@@ -1,6 +1,8 @@
-"""Tabular Q-learning in self-play, after the original and M. Humphrys, "Action Selection methods using Reinforcement
-Learning" (1997): n(x, a) counts first, then alpha = 1 / n, so the first visit overwrites Q; actions are drawn from
-exp(Q / T), and T falls while experience grows. A trained robot draws as well, at the last temperature.
+"""Tabular Q-learning after the original and M. Humphrys, *Action Selection methods using Reinforcement Learning*, 1997.
+
+The learning rate is alpha = 1 / n(x, a), counting the present visit, so the first visit overwrites Q. Actions are drawn
+from the Boltzmann distribution exp(Q / T), and T falls as experience grows. A trained robot also draws, at the final
+temperature.
 """
 
 from math import exp
@@ -15,11 +17,11 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
 
 ACTIONS = 18
-PAIRS = STATES * ACTIONS
+PAIRS = STATES * ACTIONS  # of state and action
 
 
 class Move(NamedTuple):
-    """What one of the 18 actions does with stick and button."""
+    """Stick and fire button of one of the 18 actions."""
 
     linear: float  # -1, 0, 1
     angular: float
@@ -31,33 +33,33 @@ MOVES = tuple(Move(float(k // 6 - 1), float(k // 2 % 3 - 1), k % 2) for k in ran
 
 @record
 class QTable:
-    """All that is learned, with all that decides how it goes on."""
+    """The Q-table with its visit counts, training progress, random generator and parameters."""
 
-    q: Annotated[list[float], PAIRS]  # of action a in state x at [x * ACTIONS + a]
-    n: Annotated[list[int], PAIRS]  # how often it was tried
-    experiences: int
-    pairs: int  # of state and action that were ever tried
-    states: int  # that were ever seen at a decision
-    matches: int  # played to their end
+    q: Annotated[list[float], PAIRS]  # Q(x, a) at [x * ACTIONS + a]
+    n: Annotated[list[int], PAIRS]  # n(x, a), number of updates
+    experiences: int  # updates so far
+    pairs: int  # pairs of state and action tried at least once
+    states: int  # states with at least one tried action
+    matches: int  # matches played to the end
     random: int
     knobs: RecipeRecord
 
 
 @record
 class LearnerMind:
-    """What a learner, or a player with a table, remembers between decisions."""
+    """Memory of a learner, or of a player with a table, between decisions."""
 
     begun: int  # 0 before the first decision of a match
-    state: int  # at the last decision
-    move: int  # chosen then
-    worth: float  # of that move as such
-    random: int  # of a player; learners draw from their table's
+    state: int  # state at the last decision
+    move: int  # move chosen then
+    worth: float  # immediate reward of that move
+    random: int  # generator of a player; learners use the generator of their table
     reflex: Reflex
 
 
 @kernel
 def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
-    """A learner's turn: at every decision learn from the last one, then choose by what is known so far."""
+    """One tick of a learner: at every decision update the table for the last one, then draw the next move."""
     knobs = table.knobs
     if match.tick % knobs.period:
         return
@@ -73,7 +75,7 @@ def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
 
 @kernel
 def learn_last(match: Any, seat: int, mind: Any, table: Any) -> None:
-    """The time is up: that ends the match, not the world, so the last decision counts like any other."""
+    """Update the table at the end of a match: a truncation, so the last decision bootstraps like any other."""
     if mind.begun and table.knobs.last:
         update(table, mind, situation(match, seat, nearest_opponent(match, seat), table.knobs.incoming))
     mind.begun = 0
@@ -81,7 +83,7 @@ def learn_last(match: Any, seat: int, mind: Any, table: Any) -> None:
 
 @kernel
 def update(table: Any, mind: Any, here: int) -> None:
-    """One experience: Q(x, a) += (r + gamma max Q(y, b) - Q(x, a)) / n(x, a)."""
+    """One update: Q(x, a) += (r + gamma max Q(y, b) - Q(x, a)) / n(x, a), with y the state `here`."""
     knobs, pair = table.knobs, mind.state * ACTIONS + mind.move
     if table.n[pair] == 0:
         table.pairs += 1
@@ -90,13 +92,13 @@ def update(table: Any, mind: Any, here: int) -> None:
     table.n[pair] += 1
     table.experiences += 1
     reward = mind.worth + transition_reward(mind.state, here, knobs)
-    wish = reward + knobs.gamma * max_value(table, here)
-    table.q[pair] += (wish - table.q[pair]) / table.n[pair]
+    target = reward + knobs.gamma * max_value(table, here)
+    table.q[pair] += (target - table.q[pair]) / table.n[pair]
 
 
 @kernel
 def is_unvisited(table: Any, state: int) -> int:
-    """1 if no action was ever tried in a state."""
+    """1 if no action was ever tried in the state."""
     for k in range(state * ACTIONS, (state + 1) * ACTIONS):
         if table.n[k]:
             return 0
@@ -105,17 +107,17 @@ def is_unvisited(table: Any, state: int) -> int:
 
 @kernel
 def max_value(table: Any, state: int) -> float:
-    """The most that any action is worth in a state."""
-    most: float = table.q[state * ACTIONS]
+    """Highest Q of a state."""
+    highest: float = table.q[state * ACTIONS]
     for k in range(state * ACTIONS + 1, (state + 1) * ACTIONS):
-        if table.q[k] > most:
-            most = table.q[k]
-    return most
+        if table.q[k] > highest:
+            highest = table.q[k]
+    return highest
 
 
 @kernel
 def temperature(table: Any) -> float:
-    """How daring a learner is: a straight line (or one step) from hot to cold, and cold from the ceiling on."""
+    """Present temperature: falls from `hot` to `cold` linearly (`ramp`) or in one step at `ceiling` experiences."""
     knobs = table.knobs
     share = table.experiences / knobs.ceiling if knobs.ramp else 0.0
     if table.experiences >= knobs.ceiling:
@@ -127,30 +129,30 @@ def temperature(table: Any) -> float:
 
 @kernel
 def sample_move(table: Any, state: int, heat: float, owner: Any) -> int:
-    """An action by the roulette over exp((Q - max Q) / T), with the generator of `owner`."""
+    """Draw a move with probability proportional to exp((Q - max Q) / T), T = `heat`, by the generator of `owner`."""
     first = state * ACTIONS
-    most = max_value(table, state)
-    whole = 0.0
+    highest = max_value(table, state)
+    total = 0.0
     for k in range(first, first + ACTIONS):
-        whole += exp((table.q[k] - most) / heat)
-    ball = uniform(owner) * whole
+        total += exp((table.q[k] - highest) / heat)
+    rest = uniform(owner) * total
     for a in range(ACTIONS):
-        ball -= exp((table.q[first + a] - most) / heat)
-        if ball < 0.0:
+        rest -= exp((table.q[first + a] - highest) / heat)
+        if rest < 0.0:
             return a
     return ACTIONS - 1
 
 
 @kernel
 def apply_move(action: Any, move: int) -> None:
-    """Set stick and button to one of the 18 moves."""
+    """Set stick and fire button to one of the 18 moves."""
     set_action(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
 
 
 def move_probabilities(table: Any, state: int, heat: float) -> list[float]:
-    """How likely each of the 18 moves is in a state, at a temperature; `table` in either body."""
+    """Probabilities of the 18 moves in a state at temperature `heat`; `table` is a plain or NumPy record."""
     values = [float(q) for q in table.q[state * ACTIONS : (state + 1) * ACTIONS]]
-    most = max(values)
-    odds = [exp((q - most) / heat) for q in values]
-    whole = sum(odds)
-    return [one / whole for one in odds]
+    highest = max(values)
+    odds = [exp((q - highest) / heat) for q in values]
+    total = sum(odds)
+    return [weight / total for weight in odds]

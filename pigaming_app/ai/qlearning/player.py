@@ -1,4 +1,4 @@
-"""A brain that plays by a Q-table which no longer changes."""
+"""The brain that plays by a trained Q-table."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,7 +15,7 @@ from pigaming_app.sim.rng import seeded
 
 @kernel
 def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
-    """A trained robot's turn: it draws at the last temperature from a table that no longer changes."""
+    """At every decision draw a move at the final temperature, unless the reflex overrides it."""
     if match.tick % weights.knobs.period:
         return
     opponent = nearest_opponent(match, seat)
@@ -26,18 +26,18 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 def reset(mind: Any, seed: int) -> None:
-    """A fresh mind, which does what the table says and nothing else."""
+    """Initialise a mind that follows the table alone."""
     mind.random = seeded(seed)
 
 
 def reset_with_reflex(mind: Any, seed: int) -> None:
-    """A fresh mind that also frees itself where it pushes and gets nowhere."""
+    """Initialise a mind whose reflex frees the robot when it is stuck."""
     reset(mind, seed)
     mind.reflex.on = 1
 
 
 class Learned:
-    """A table that no longer changes, as what a kind of brain knows; its other body is made when first asked for."""
+    """A trained table as the `weights` of a brain. The NumPy or plain copy is made on first use and cached."""
 
     def __init__(self, table: Any) -> None:
         """`table`: a plain record, or a row of one NumPy record."""
@@ -45,13 +45,13 @@ class Learned:
         self.bodies: dict[bool, Any] = {not plain: [table] if plain else table}
 
     def __call__(self, fast: bool) -> Any:
-        """A row of one table, as a NumPy record (`fast`) or a plain one."""
+        """A row of one table, a NumPy record (`fast`) or a plain one."""
         if fast not in self.bodies:
-            weights = self.bodies[not fast]
-            self.bodies[fast] = packed(weights) if fast else [unpack(QTable, weights[0])]
+            other = self.bodies[not fast]
+            self.bodies[fast] = packed(other) if fast else [unpack(QTable, other[0])]
         return self.bodies[fast]
 
 
 def player(name: str, weights: Callable[[bool], Any], reflex: bool = False) -> BrainKind:
-    """The kind of brain that plays by a table; with `reflex`, as on a seat, it also frees itself where it is stuck."""
+    """A brain that plays by a table; `reflex`: it also frees itself when stuck, as in matches against people."""
     return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, weights, explain)

@@ -1,7 +1,7 @@
-"""What a Q-table has made of one direction of the opponent: how good it finds to have it there, and what it does then.
+"""Summary of a Q-table by direction of the opponent: mean value, move probabilities and the typical behaviour.
 
-The states of a direction (walls and bullets differ) count by how often they were seen; what it does in each is what a
-trained robot would: the roulette over exp(Q / T) at the last temperature.
+States of a direction (with different walls and bullets) are weighted by their visits. The policy in each state is that
+of a trained robot: probabilities proportional to exp(Q / T) at the final temperature.
 """
 
 from dataclasses import dataclass
@@ -10,13 +10,17 @@ from typing import Any
 from pigaming_app.ai.qlearning.features import PLACES
 from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES
 
-STATES = PLACES * PLACES  # of one direction
-CLEAR = 0.05  # share beyond chance from which on it has made up its mind
+STATES = PLACES * PLACES  # states per direction
+CLEAR = 0.05  # excess over a uniform policy that counts as a preference
 
 
 @dataclass(frozen=True)
 class Direction:
-    """`seen`: decisions with the opponent there; `worth`: Q of the best move tried, mean; `shares`: of the 18 moves."""
+    """Summary for one sector.
+
+    `seen`: decisions with the opponent there; `worth`: mean over them of the best tried Q; `shares`: probabilities of
+    the 18 moves.
+    """
 
     seen: int
     worth: float
@@ -24,7 +28,7 @@ class Direction:
 
     @property
     def deed(self) -> str:
-        """What it does more than by chance, in one word; "unknown" where it has not made up its mind."""
+        """The behaviour with the largest excess over a uniform policy; "unknown" if the excess is below CLEAR."""
         excess = {word: -DEEDS.count(word) / ACTIONS for word in DEEDS}
         for share, word in zip(self.shares, DEEDS, strict=True):
             excess[word] += share
@@ -33,7 +37,7 @@ class Direction:
 
 
 def deed(linear: float, angular: float, fire: int) -> str:
-    """One word for a move."""
+    """Class of a move, a key of the texts."""
     if fire:
         return "shoot"
     if angular:
@@ -47,20 +51,20 @@ DEEDS = tuple(deed(move.linear, move.angular, move.fire) for move in MOVES)
 
 
 def direction(table: Any, sector: int, cold: float) -> Direction:
-    """What a table, of either body, has made of the opponent in a sector, 0..15; `cold`: the last temperature."""
+    """Summary of a table (plain or NumPy record) for the opponent in `sector`, 0..15; `cold`: final temperature."""
     import numpy as np
 
     first, last = sector * STATES * ACTIONS, (sector + 1) * STATES * ACTIONS
     tried = np.asarray(table.n[first:last]).reshape(STATES, ACTIONS)
-    often = tried.sum(axis=1)
-    seen = int(often.sum())
+    visits = tried.sum(axis=1)
+    seen = int(visits.sum())
     if not seen:
         return Direction(0, 0.0, (0.0,) * ACTIONS)
-    there = often > 0
-    weight = often[there] / seen
-    q = np.asarray(table.q[first:last]).reshape(STATES, ACTIONS)[there]
-    most = q.max(axis=1)
-    odds = np.exp((q - most[:, None]) / cold)
+    visited = visits > 0
+    weight = visits[visited] / seen
+    q = np.asarray(table.q[first:last]).reshape(STATES, ACTIONS)[visited]
+    highest = q.max(axis=1)
+    odds = np.exp((q - highest[:, None]) / cold)
     odds /= odds.sum(axis=1, keepdims=True)
-    weights = np.where(tried[there] > 0, q, -np.inf).max(axis=1)
-    return Direction(seen, float(weight @ weights), tuple(float(share) for share in weight @ odds))
+    values = np.where(tried[visited] > 0, q, -np.inf).max(axis=1)
+    return Direction(seen, float(weight @ values), tuple(float(share) for share in weight @ odds))

@@ -1,7 +1,7 @@
-"""Trained Q-tables as files: a small .npz with the table, and a head that says what it was trained for and on.
+"""File format of trained Q-tables: a small .npz with the table and a JSON header of its training parameters.
 
-A file is checked at the door, and what is foreign, truncated or edited by hand is refused in one line. The head holds a
-checksum of itself and the table, and the hash of the engine: figures that were measured with another engine may differ.
+Reading validates everything and rejects foreign, truncated or edited files with a one-line error. The header holds a
+checksum of itself and the table, and the hash of the engine, since results measured with another engine may differ.
 """
 
 import hashlib
@@ -25,41 +25,41 @@ from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES
 from pigaming_app.sim.record import dtype
 
 FORMAT, RULE = "pigaming-table-1", "pitanks classic"
-MOST_BYTES = 4_000_000  # of a file; one of a whole training has about 60,000
+MOST_BYTES = 4_000_000  # size limit of a file; a full training takes about 60,000
 COUNTS = ("experiences", "pairs", "states", "matches", "random")
-PARTS = {"head": 100_000, "q": 8 * PAIRS + 1000, "n": 8 * PAIRS + 1000}  # bytes that each may have unpacked
+PARTS = {"head": 100_000, "q": 8 * PAIRS + 1000, "n": 8 * PAIRS + 1000}  # limits of the unpacked sizes, bytes
 
 
 class TableError(ValueError):
-    """A file that is not a trained table, in one line."""
+    """A file is not a valid trained table; the message is one line."""
 
 
 @dataclass(frozen=True)
 class Trained:
-    """A table with what it was trained for. `rows`: one NumPy record of `QTable`."""
+    """A table with the parameters of its training. `rows`: one NumPy record of `QTable`."""
 
     name: str
-    reward: int  # 1 or 2 as published; 0: a recipe of one's own
+    reward: int  # 1 or 2: published reward table; 0: custom
     recipe: Recipe
     seed: int
     arena: str
-    minutes: float  # of each match
+    minutes: float  # per match
     rows: Any
-    engine: str
+    engine: str  # hash of the engine it was trained with
 
     @property
     def matches(self) -> int:
-        """Matches that it was trained for."""
+        """Matches of the training so far."""
         return int(self.rows["matches"][0])
 
     @property
     def other_engine(self) -> bool:
-        """Whether it was trained with another version of the engine, so that measured results may differ."""
+        """True if it was trained with another version of the engine, so that results may differ."""
         return self.engine != engine_hash()
 
 
 def encode(trained: Trained) -> bytes:
-    """The file of a trained table."""
+    """Content of the file of a trained table."""
     import numpy as np
 
     table = trained.rows[0]
@@ -78,27 +78,27 @@ def encode(trained: Trained) -> bytes:
 
 
 def decode(raw: bytes, name: str) -> Trained:
-    """Check and unpack the file `name`. Raises TableError, which begins with the name."""
+    """Validate and unpack the content of the file `name`. Raises TableError, whose message begins with the name."""
     try:
         return _trained(*_parts(raw))
-    except TableError as wrong:
-        raise TableError(f"{name}: {wrong}") from None
+    except TableError as error:
+        raise TableError(f"{name}: {error}") from None
 
 
 @cache
 def shipped(name: str) -> Learned:
-    """One of the tables that come with the arcade. Raises OSError, TableError."""
+    """A table that ships with the arcade, cached. Raises OSError, TableError."""
     path = ASSETS / "brains" / f"{name}.npz"
     return Learned(decode(path.read_bytes(), path.name).rows)
 
 
 def seat(name: str) -> BrainKind:
-    """The kind of brain that plays by a table that comes with the arcade; the file is read when it first plays."""
+    """The brain of a table that ships with the arcade; the file is read on first use."""
     return player(name, lambda fast: shipped(name)(fast), reflex=True)
 
 
 def _parts(raw: bytes) -> tuple[dict[str, Any], Any, Any]:
-    """The head and the two arrays of a file, unchecked but for their form."""
+    """Header, Q-values and visit counts of a file, validated in format, type and shape only. Raises TableError."""
     import numpy as np
 
     if not raw.startswith(b"PK"):
@@ -108,29 +108,29 @@ def _parts(raw: bytes) -> tuple[dict[str, Any], Any, Any]:
             sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
             if len(archive.infolist()) != len(PARTS) or sizes.keys() != {f"{part}.npy" for part in PARTS}:
                 raise TableError("not a trained table")
-            if any(sizes[f"{part}.npy"] > most for part, most in PARTS.items()):
+            if any(sizes[f"{part}.npy"] > limit for part, limit in PARTS.items()):
                 raise TableError("not a trained table: a part of it is too big")
             if archive.testzip() is not None:
                 raise TableError("truncated or damaged")
         with warnings.catch_warnings(), np.load(BytesIO(raw), allow_pickle=False) as file:
             warnings.simplefilter("error")  # NumPy warns of some headers
             head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
-        form = q.dtype.str, q.shape, n.dtype.str, n.shape  # NumPy hands out bytes for a part that is no array
+        layout = q.dtype.str, q.shape, n.dtype.str, n.shape  # NumPy returns bytes for a part that is not an array
     except TableError:
         raise
-    except Exception:  # a damaged file makes zipfile and NumPy raise nearly anything
+    except Exception:  # zipfile and NumPy raise many kinds of exceptions for damaged files
         raise TableError("truncated or damaged") from None
     if not isinstance(head, dict) or head.get("format") != FORMAT:
         raise TableError("not a trained table of this version")
     if head.get("rule") != RULE:
         raise TableError("trained by the rules of another game")
-    if form != ("<f8", (PAIRS,), "<i4", (PAIRS,)):
+    if layout != ("<f8", (PAIRS,), "<i4", (PAIRS,)):
         raise TableError("the table has another shape")
     return head, q, n
 
 
 def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
-    """A checked table. Raises TableError."""
+    """The table after validation of its content. Raises TableError."""
     import numpy as np
 
     if head.get("check") != _check(head, q, n):
@@ -167,15 +167,16 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
 
 
 def _recipe(numbers: Any) -> Recipe:
-    """A checked recipe. Raises TableError."""
+    """The recipe after validation. Raises TableError."""
     if not isinstance(numbers, dict) or numbers.keys() != {field.name for field in fields(Recipe)}:
         raise TableError("its recipe is of another version")
     try:
         return Recipe(**numbers)
-    except (TypeError, ValueError) as wrong:
-        raise TableError(f"its recipe: {wrong}") from None
+    except (TypeError, ValueError) as error:
+        raise TableError(f"its recipe: {error}") from None
 
 
 def _check(head: Mapping[str, Any], q: Any, n: Any) -> str:
-    told = json.dumps({key: value for key, value in head.items() if key != "check"}, sort_keys=True)
-    return hashlib.sha256(told.encode() + q.tobytes() + n.tobytes()).hexdigest()
+    """SHA-256 of the header (without its checksum) and the table, hex."""
+    text = json.dumps({key: value for key, value in head.items() if key != "check"}, sort_keys=True)
+    return hashlib.sha256(text.encode() + q.tobytes() + n.tobytes()).hexdigest()

@@ -1,6 +1,6 @@
-"""What a brain with a Q-table has on its mind: three directions, and how good each of its 18 moves is when they are so.
+"""Explanation of a brain with a Q-table: its three features, and the values of its 18 moves.
 
-Its rose says how good it would be to have the opponent in each direction, wall and bullet being where they are.
+Each petal of the rose is the value of the state with the opponent in that direction, and wall and bullet unchanged.
 """
 
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ from pigaming_app.ai.qlearning.features import (
 )
 from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, max_value, move_probabilities
 
-SIGHT = 190.0  # px: it knows directions, not distances, so this far is shown
+SIGHT = 190.0  # px at which walls and bullets are marked, as features hold directions without distances
 STEERS = {
     (1, 0): "ahead", (1, -1): "ahead_left", (1, 1): "ahead_right", (0, 0): "stay", (0, -1): "turn_left",
     (0, 1): "turn_right", (-1, 0): "reverse", (-1, -1): "reverse", (-1, 1): "reverse",
@@ -28,25 +28,25 @@ STEERS = {
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
-    """The thoughts of the player with a table on `seat`."""
+    """Thoughts of the player with a table on `seat`."""
     opponent = nearest_opponent(match, seat)
     if match.tick == 0 or opponent < 0:
         return Thoughts("starts")
     here = mind.state
     values = [float(q) for q in weights.q[here * ACTIONS : (here + 1) * ACTIONS]]
     tried = sum(int(n) for n in weights.n[here * ACTIONS : (here + 1) * ACTIONS])
-    sure = move_probabilities(weights, here, weights.knobs.cold)[mind.move]
+    likely = move_probabilities(weights, here, weights.knobs.cold)[mind.move]
     move = _plain(mind.move)
     return Thoughts(
         doing="shoot" if move[2] else STEERS[move[:2]],
         because="tried" if tried else "new",
-        names={"count": tried, "percent": round(100.0 * sure)},
+        names={"count": tried, "percent": round(100.0 * likely)},
         facts={
             "opponent": opponent_of(here),
             "wall": wall_of(here),
             "bullet": bullet_of(here),
             "tried": tried,
-            "likely": sure,
+            "likely": likely,
         },
         sights=tuple(_sights(match, seat, opponent, here)),
         rose=_scaled([float(max_value(weights, state(k, wall_of(here), bullet_of(here)))) for k in range(SECTORS)]),
@@ -61,13 +61,13 @@ def _plain(k: int) -> MoveKey:
 
 
 def _scaled(values: list[float]) -> list[float]:
-    """Values so that the farthest from 0 is 1 or -1; roots, since one that hits is worth many times all others."""
-    most = max(abs(value) for value in values)
-    return [copysign(sqrt(abs(value) / most), value) if most else 0.0 for value in values]
+    """Values scaled to -1..1 by signed square root, since a hit is worth many times any other move."""
+    largest = max(abs(value) for value in values)
+    return [copysign(sqrt(abs(value) / largest), value) if largest else 0.0 for value in values]
 
 
 def _sights(match: Any, seat: int, opponent: int, here: int) -> Iterator[Percept]:
-    """The opponent, and the directions in which it knows the wall and the bullet."""
+    """The opponent, and the directions of the wall and the bullet."""
     robot, other = match.robots[seat], match.robots[opponent]
     yield Percept(OPPONENT, other.x, other.y)
     for kind, sector in ((WALL, wall_of(here)), (BULLET, bullet_of(here))):

@@ -1,8 +1,8 @@
-"""How a driver gets past others: which lane it takes, and whom it follows.
+"""Overtaking of the race brain: choice of lane, and speed behind another robot.
 
-Robots that stand or crawl are driven round like any obstacle. Those that race are followed until they leave room on the
-fastest line: then it goes by there, mostly on the inside of a bend, where the way is shorter. Who is beside another
-makes way.
+Standing and slow robots are obstacles to drive round. Racing robots are followed until they leave room on the fastest
+line, and then overtaken there, mostly on the inside of a bend, where the way is shorter. A robot beside another gives
+way.
 """
 
 from typing import Any
@@ -11,20 +11,20 @@ from pigaming_app.games.race.observation import OTHERS
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
 
-CLEAR = 2.0 * RADIUS + 2.0  # px between the middles of two robots that pass each other
-EDGE = 2.0  # px that a lane keeps from the edge
-LANES = 9  # lanes that are thought of, from one edge to the other
-OWN, STEADY = 0.08, 0.1  # what a px costs away from the own line, and from the lane chosen last
-FAR = 300.0  # px from which others matter
-SOON = 2.5  # s in which it would run into another, from which on that is in the way
-SLOW = 0.5  # of full speed: whoever is slower is driven round
-TAIL = 12.0  # px behind another at which it drives no faster than that
-LEEWAY = 32.0  # px by which two robots may overlap on their lanes and still get past each other
+CLEAR = 2.0 * RADIUS + 2.0  # px between the centres of two passing robots
+EDGE = 2.0  # px between a lane and the edge of the course
+LANES = 9  # candidate lanes from one edge to the other
+OWN, STEADY = 0.08, 0.1  # cost per px of leaving its own line, and of leaving the present lane
+FAR = 300.0  # px beyond which others are ignored
+SOON = 2.5  # s to a collision below which a slower robot is in the way
+SLOW = 0.5  # share of full speed below which a robot is an obstacle to drive round
+TAIL = 12.0  # px behind another robot at which it matches that robot's speed
+LEEWAY = 32.0  # px by which the lanes of two robots may overlap without a need to follow
 
 
 @kernel
 def choose_lane(obs: Any, mind: Any) -> None:
-    """The lane that costs the fewest px: those lost behind others, and those of a longer way round a bend."""
+    """Set `mind.lane` to the cheapest lane: px lost behind others, plus px of a longer way round the bend."""
     mark = obs.ahead
     wanted = mind.line * mark.ideal
     best, least = wanted, blocked(obs, mind, wanted)
@@ -41,7 +41,7 @@ def choose_lane(obs: Any, mind: Any) -> None:
 
 @kernel
 def blocked(obs: Any, mind: Any, lane: float) -> float:
-    """The px that others on a lane cost; 0: nobody is in the way."""
+    """Cost of the robots on a lane, px; 0 if none is in the way. `lane`: px right of the middle."""
     cost = 0.0
     for i in range(OTHERS):
         other = obs.others[i]
@@ -50,7 +50,7 @@ def blocked(obs: Any, mind: Any, lane: float) -> float:
         gap = abs(other.aside - lane)
         if other.ahead < CLEAR:
             if (other.aside - obs.aside) * (other.aside - lane) < 0.0:
-                cost += 400.0  # through it
+                cost += 400.0  # the lane lies on the far side of a robot alongside
             if gap < CLEAR:
                 cost += 3.0 * (CLEAR - gap)
         elif gap < CLEAR:
@@ -62,12 +62,12 @@ def blocked(obs: Any, mind: Any, lane: float) -> float:
 
 @kernel
 def held_to(obs: Any, mind: Any) -> float:
-    """The speed of a robot right ahead on the own lane, as a share of full speed; above 1 if there is none."""
+    """Speed of a robot right ahead on the present lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
     for i in range(OTHERS):
         other = obs.others[i]
         near = other.present and other.ahead > 15.0 and other.distance < CLEAR + TAIL
         if near and other.speed > 100.0 and abs(other.aside - mind.lane) < CLEAR - LEEWAY:
-            ahead = 0.98 * other.speed / obs.speed
-            share = ahead if ahead < share else share
+            limit = 0.98 * other.speed / obs.speed
+            share = limit if limit < share else share
     return share

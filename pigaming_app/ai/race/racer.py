@@ -1,12 +1,10 @@
-"""The hand-written driver of Robot Race.
+"""The hand-written brain of Robot Race: pure pursuit of a point ahead on the fastest line.
 
-It drives for a point ahead on the fastest line (pure pursuit), shifted aside where another robot is in the way (see
-`passing`), as fast as the line allows; turbo goes where the way is straight. Held up it backs out; past a line that it
-has not crossed it goes back to before it.
+The point is shifted sideways where another robot is in the way (see `overtaking`). Speed is as high as the curvature
+allows, with turbo on straights. A stuck robot backs out; one that has missed a line returns to before it.
 
-The strengths differ in speed, in how much of the fastest line they use and how steadily they keep it, in turbo (easy
-leaves it alone), and in how late they see others. Those below hard keep nearer to the middle, so that there is room
-inside to pass them.
+The strengths differ in speed, in how closely and steadily they keep the fastest line, in turbo (easy never uses it) and
+in reaction time. Those below hard stay nearer to the middle of the course, which leaves room inside to overtake them.
 """
 
 from math import atan2, cos, pi, sin, sqrt
@@ -23,45 +21,45 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import bell, seeded
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
-LOOK = 115.0  # px along the course to the point that it drives for
-LATE = 0.05  # s until the motors follow
-GRIP = 1.8  # of the full turn rate that is asked for before it slows down
-SHIFT = 20.0  # px that a lane may be changed while it drives to that point
-OUT = 30.0  # px from the edge for which it makes when it is off the course
-SLACK = 25.0  # px past a line: nearer the rules may just not have said yet that it is crossed
-SAVE = 80.0  # px to somebody ahead, for whom it saves its turbo
-NEW_ERROR = 30  # ticks after which the error of the line is drawn anew
-HELD_UP_TICKS = 40
+LOOK = 115.0  # lookahead along the course, px
+LATE = 0.05  # latency of the motors, s
+GRIP = 1.8  # commanded turn rate, as a share of the highest, above which it slows down
+SHIFT = 20.0  # px of lane change within one lookahead
+OUT = 30.0  # px inside the edge at which it aims when off the course
+SLACK = 25.0  # px past a line before it counts as missed: the rules may not have registered the crossing yet
+SAVE = 80.0  # px to a robot ahead within which it saves its turbo
+NEW_ERROR = 30  # ticks between draws of the line error
+HELD_UP_TICKS = 40  # ticks of driving without moving that count as stuck
 
 RACE, GO_BACK, BREAK_FREE = range(3)
 
 
 @record
 class RacerMind:
-    """What the driver remembers."""
+    """Memory of the driver."""
 
     senses: Senses
     obs: Observation
-    speed: float  # share of full speed that it dares
-    line: float  # share of the way from the middle of the course to the fastest line that it uses
-    spread: float  # px, how far it strays from the line that it means
-    boost: float  # least share of the turbo meter with which it starts turbo; above 1: never
+    speed: float  # share of full speed
+    line: float  # 0: middle of the course, 1: fastest line
+    spread: float  # standard deviation of the line error, px
+    boost: float  # share of the turbo meter needed to start turbo; above 1: never
     random: int
     state: int
     since: int  # ticks in this state
-    stray: float  # px, the present error of its line
-    stray_left: int
-    lane: float  # px aside of the middle, where it wants to be
-    anchor_x: float  # where it was when it last got anywhere
+    stray: float  # present line error, px
+    stray_left: int  # ticks until the next draw
+    lane: float  # present lane, px right of the middle
+    anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since
-    escape: float  # the stick while it breaks free
+    held_up: int  # ticks since then
+    escape: float  # forward stick while backing out
     escape_turn: float
 
 
 @kernel
 def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
-    """Look and decide every PERIOD ticks; in between the stick stays as it is."""
+    """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + seat) % PERIOD:
         return
     observe(match, seat, mind.senses, mind.obs)
@@ -70,7 +68,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 @kernel
 def act(obs: Any, mind: Any, action: Any) -> None:
-    """Remember, choose the state, let the state act."""
+    """One step of the state machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     draw_error(mind)
     mind.senses.look = look_ahead(obs)
@@ -90,14 +88,14 @@ def act(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def race(obs: Any, mind: Any, action: Any) -> int:
-    """Drive the line, past whoever is in the way."""
+    """Follow the line, overtaking robots in the way."""
     if obs.past > SLACK:
         return go_back(obs, action)
     mark = obs.ahead
     choose_lane(obs, mind)
     room = mark.half - (EDGE if obs.on else OUT)
     lane = mind.lane + mind.stray
-    keep = obs.aside - obs.ideal + mark.ideal  # the lane that leads along beside the fastest line
+    keep = obs.aside - obs.ideal + mark.ideal  # the lane that keeps the present distance to the fastest line
     lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
     lane = room if lane > room else -room if lane < -room else lane
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
@@ -107,7 +105,7 @@ def race(obs: Any, mind: Any, action: Any) -> int:
 
 @kernel
 def go_back(obs: Any, action: Any) -> int:
-    """Drive to before a line that was missed, backwards where that saves a long turn."""
+    """Drive back to before a missed line, in reverse where that saves a long turn."""
     bearing, ahead = turn_to(atan2(obs.return_y - obs.y, obs.return_x - obs.x) - obs.heading), 1.0
     if abs(bearing) > 0.6 * pi and obs.past < 200.0:
         bearing, ahead = turn_to(bearing + pi), -1.0
@@ -119,18 +117,18 @@ def go_back(obs: Any, action: Any) -> int:
 
 @kernel
 def break_free(obs: Any, mind: Any, action: Any) -> int:
-    """Back out the way it came, with a turn, else the other way, until it has got somewhere."""
+    """Back out with a turn until the robot is free."""
     if not escape(mind, obs.x, obs.y, action):
         return BREAK_FREE
     return RACE
 
 
-# ------------------------------------------------------------------------------------------------------- what they use
+# ------------------------------------------------------------------------------------------------------------- helpers
 
 
 @kernel
 def draw_error(mind: Any) -> None:
-    """Draw the error of the line anew now and then."""
+    """Draw a new line error every NEW_ERROR ticks."""
     mind.stray_left -= PERIOD
     if mind.stray_left <= 0:
         mind.stray_left = NEW_ERROR
@@ -139,7 +137,7 @@ def draw_error(mind: Any) -> None:
 
 @kernel
 def look_ahead(obs: Any) -> float:
-    """How far to look next time: off the course not past the next line, so as to cross it and not drive round it."""
+    """Lookahead for the next observation, px; off the course not past the next line, to cross and not bypass it."""
     look = LOOK if obs.on else 0.5 * LOOK
     if not obs.on and -obs.past - SLACK < look:
         look = -obs.past - SLACK
@@ -148,7 +146,7 @@ def look_ahead(obs: Any) -> float:
 
 @kernel
 def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
-    """Notice that it wants to move and gets nowhere."""
+    """Enter BREAK_FREE if the robot drives without moving for HELD_UP_TICKS."""
     if mind.state == BREAK_FREE:
         return
     idle = action.linear == 0.0 and action.angular == 0.0
@@ -159,9 +157,10 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def pursue(obs: Any, mind: Any, action: Any, x: float, y: float) -> None:
-    """Drive the arc that leads to a point, as fast as it can be turned along.
+    """Drive the arc to the point (x, y), as fast as its curvature allows.
 
-    The motors are late, so the arc begins where the robot will be when they follow.
+    To compensate for the latency of the motors the arc begins at the pose predicted LATE s ahead. Source of pure
+    pursuit: Coulter, CMU-RI-TR-92-01, 1992.
     """
     heading = obs.heading + LATE * obs.angular
     middle = obs.heading + 0.5 * LATE * obs.angular
@@ -171,19 +170,19 @@ def pursue(obs: Any, mind: Any, action: Any, x: float, y: float) -> None:
     if abs(bearing) > 1.2:
         set_action(action, 0.0, 3.0 * bearing, 0, 0)
         return
-    bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # rad per px
+    bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # curvature, rad/px
     held = held_to(obs, mind)
     dash = wants_turbo(obs, mind, bend) if held > 1.0 else 0
     full = obs.speed * (obs.turbo_factor if dash else 1.0)
-    speed, most = mind.speed * obs.pace, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
-    speed = speed if speed < most else most
+    speed, limit = mind.speed * obs.pace, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
+    speed = speed if speed < limit else limit
     speed = speed if speed < held else held
     set_action(action, speed, bend * speed * full / obs.turn_rate, 0, dash)
 
 
 @kernel
 def wants_turbo(obs: Any, mind: Any, bend: float) -> int:
-    """1 where the way is straight enough, the meter full enough to begin, and it is not wanted for somebody ahead."""
+    """1 if the way is straight enough, the meter full enough to start, and no robot is close ahead."""
     if not obs.on or abs(bend) * obs.turbo_factor * obs.speed > 0.8 * obs.turn_rate or obs.pace < 1.0:
         return 0
     for i in range(OTHERS):
@@ -194,7 +193,7 @@ def wants_turbo(obs: Any, mind: Any, bend: float) -> int:
 
 
 def make_reset(speed: float, line: float, spread: float, boost: float, delay: float) -> Any:
-    """A function that fills a fresh mind: see RacerMind; seeing others `delay` s late."""
+    """A `reset` for a strength: `delay` is the reaction time to others, s; the rest as in RacerMind."""
 
     def fill(mind: RacerMind, seed: int) -> None:
         mind.senses.delay, mind.senses.look = delay, LOOK

@@ -1,6 +1,6 @@
-"""What the hand-written driver of Robot Race has on its mind: its line, whoever is in the way, and how fast it dares.
+"""Explanation of the race brain: its line, the robots in the way and its speed.
 
-Nothing is thought twice: numbers come from its memory and its last observation, reckonings from the driver itself.
+All values come from the brain's memory, its last observation and its own functions; nothing is decided twice.
 """
 
 from collections.abc import Iterator
@@ -14,10 +14,10 @@ from pigaming_app.games.race.observation import OTHERS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import ROBOTS
 
-CHANGED = 25.0  # px off its own line from which on it is on another lane
-SLOW = 0.93  # of full speed: below that it brakes
-TROUBLE = 150.0  # px that a lane costs which nobody wants any more
-NEAR = 200.0  # px from which on another robot is on its mind
+CHANGED = 25.0  # px off its own line beyond which it is overtaking
+SLOW = 0.93  # share of full speed below which it is braking
+TROUBLE = 150.0  # cost of a lane with utility 0, px
+NEAR = 200.0  # px within which other robots repel
 
 CHOSEN = {
     "free": "free", "return": "back", "done": "brake", "follow": "brake", "bend": "brake", "boost": "turbo",
@@ -30,7 +30,7 @@ BECAUSE = {
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
-    """The thoughts of the driver on `seat`."""
+    """Thoughts of the driver on `seat`."""
     obs = mind.obs
     if not obs.turn_rate:
         return Thoughts("starts")
@@ -50,9 +50,9 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
 
 
 def _doing(obs: Any, mind: Any) -> str:
-    """What it is about, as a key of the texts."""
+    """Text key of the present behaviour."""
     aside = mind.lane - mind.line * obs.ahead.ideal
-    if obs.finished:  # what it still does no longer moves it
+    if obs.finished:  # its actions no longer move the robot
         return "done"
     if mind.state == racer.BREAK_FREE:
         return "free"
@@ -70,7 +70,7 @@ def _doing(obs: Any, mind: Any) -> str:
 
 
 def _wishes(obs: Any, mind: Any) -> dict[str, float]:
-    """Lanes: another one the more, the more its own is in others' way. Speed: what the bend and others leave of it."""
+    """Utilities of lanes (of another lane, higher the more its own is blocked) and of speed changes."""
     mark = obs.ahead
     room, own = mark.half - EDGE, mind.line * mark.ideal
     costs = blocked(obs, mind, own)
@@ -89,7 +89,7 @@ def _wishes(obs: Any, mind: Any) -> dict[str, float]:
 
 
 def _goal(obs: Any, mind: Any) -> tuple[float, float]:
-    """The point that it drives for, arena px."""
+    """The point it steers to, arena px."""
     if mind.state == racer.GO_BACK or obs.past > racer.SLACK:
         return obs.return_x, obs.return_y
     mark = obs.ahead
@@ -99,7 +99,7 @@ def _goal(obs: Any, mind: Any) -> tuple[float, float]:
 
 
 def _ahead(obs: Any) -> int:
-    """The nearest robot before it, else beside it, that matters; -1: none."""
+    """Index of the nearest robot ahead, else alongside; -1 if none is near."""
     near = [i for i in range(OTHERS) if obs.others[i].present and -CLEAR < obs.others[i].ahead < FAR]
     return min(near, key=lambda i: (obs.others[i].ahead <= 0.0, obs.others[i].distance), default=-1)
 
@@ -125,9 +125,9 @@ def _sights(obs: Any, first: int, x: float, y: float) -> Iterator[Percept]:
 
 
 def _rose(obs: Any, mind: Any, x: float, y: float) -> list[float]:
-    """To where it drives; away from those who are close."""
+    """Attraction to the goal, repulsion from close robots."""
     if mind.state == racer.BREAK_FREE:
         return towards(0.0 if mind.escape > 0.0 else pi)
     wanted = towards(turn_to(atan2(y - obs.y, x - obs.x) - obs.heading))
-    close = [one for one in obs.others if one.present and one.distance < NEAR]
-    return blend(wanted, *(towards(one.bearing, -clamp(1.5 - 1.5 * one.distance / NEAR)) for one in close))
+    close = [other for other in obs.others if other.present and other.distance < NEAR]
+    return blend(wanted, *(towards(other.bearing, -clamp(1.5 - 1.5 * other.distance / NEAR)) for other in close))

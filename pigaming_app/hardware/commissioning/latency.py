@@ -1,7 +1,7 @@
-"""How late it all is, measured end to end on one robot: it is shaken left and right, and what is seen is compared.
+"""End-to-end latency, measured on one robot: it wiggles, and observed motion is matched against commanded motion.
 
-What counts is when a command was sent, when the robot was seen to follow, and when that picture had been looked at.
-The lag of the motors is found along, so that it is not taken for dead time.
+The inputs are the times of commands, of captured headings and of processed frames. The lag of the motors is fitted as
+well, so that it is not mistaken for dead time.
 """
 
 from collections.abc import Sequence
@@ -16,29 +16,29 @@ from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, ROBOTS
 
-SHAKES = (0.4, 0.5, 0.3, 0.6, 0.4, 0.45, 0.35, 0.55)  # s, left and right in turn; not alike, so that none is mistaken
-SHARE = 0.14
-STEP = 0.0025  # s
-DELAYS = np.arange(0.0, 0.30, STEP)
-LAGS = np.arange(0.02, 0.20, 0.01)
-FEWEST = 20  # pictures
+SHAKES = (0.4, 0.5, 0.3, 0.6, 0.4, 0.45, 0.35, 0.55)  # s, left and right in turn; unequal, so the match is unique
+SHARE = 0.14  # of full speed
+STEP = 0.0025  # s, resolution of model and delay
+DELAYS = np.arange(0.0, 0.30, STEP)  # s, search grid
+LAGS = np.arange(0.02, 0.20, 0.01)  # s, search grid
+FEWEST = 20  # frames
 
 
 class Latency(NamedTuple):
-    """s."""
+    """Parts of the latency, s."""
 
-    acts: float  # from sending a command to the motors hearing it
-    picture: float  # from the light to the picture having been looked at, as far as the camera tells
+    acts: float  # from sending a command to the reaction of the motors
+    picture: float  # from exposure, as stamped by the camera, to the processed frame
     lag: float  # time constant of the motors
 
     @property
     def total(self) -> float:
-        """The dead time of the whole loop."""
+        """Dead time of the whole loop."""
         return self.acts + self.picture
 
 
 class LatencyTest:
-    """Shakes one robot; `tick` every 1/50 s until it says that all is done, then `result`."""
+    """Wiggles one robot. Call `tick` every 1/50 s until it returns True, then `result`."""
 
     def __init__(self, rig: Rig, robot: int) -> None:
         self.rig, self.robot = rig, robot
@@ -48,7 +48,7 @@ class LatencyTest:
         rig.recorder = self
 
     def tick(self) -> bool:
-        """1/50 s of it; whether all is done. Then the robot stands."""
+        """Run 1/50 s; True once done, with the robot stopped."""
         self._ticks += 1
         share, time = 0.0, self._ticks * DT
         for i, length in enumerate(SHAKES):
@@ -66,7 +66,7 @@ class LatencyTest:
         return done
 
     def result(self) -> Latency | None:
-        """What was found; None if the robot was hardly seen or did not move."""
+        """The fitted latency; None if the robot was hardly seen or did not move."""
         if len(self._seen) < FEWEST:
             return None
         captured, arrived, headings = np.array(self._seen).T
@@ -75,31 +75,31 @@ class LatencyTest:
             return None
         best = (np.inf, 0.0, 0.0)
         grid = np.arange(self._sent[0][0], captured[-1], STEP)
-        told_at, told = np.array(self._sent).T
-        held = told[np.maximum(np.searchsorted(told_at, grid, side="right") - 1, 0)]
+        sent_at, sent = np.array(self._sent).T
+        commanded = sent[np.maximum(np.searchsorted(sent_at, grid, side="right") - 1, 0)]
         for lag in LAGS:
-            turned = np.cumsum(_followed(held, float(lag))) * STEP
+            turned = np.cumsum(_low_pass(commanded, float(lag))) * STEP
             for delay in DELAYS:
                 model = np.column_stack([np.interp(captured - delay, grid, turned), np.ones(len(captured))])
-                rest = headings - model @ np.linalg.lstsq(model, headings, rcond=None)[0]
-                best = min(best, (float(rest @ rest), float(delay), float(lag)))
+                residual = headings - model @ np.linalg.lstsq(model, headings, rcond=None)[0]
+                best = min(best, (float(residual @ residual), float(delay), float(lag)))
         return Latency(best[1], float(np.mean(arrived - captured)), best[2])
 
     def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
-        """The robots are told this."""
-        one = wheels[self.robot]
-        self._sent.append((time, one.left if one else 0.0))
+        """Recorder: commands were sent."""
+        command = wheels[self.robot]
+        self._sent.append((time, command.left if command else 0.0))
 
     def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
-        """A picture has been looked at."""
+        """Recorder: a frame was processed."""
         self._seen += [(captured, now, fix.heading) for fix in fixes if fix.robot == self.robot]
 
     def believed(self, now: float, sightings: Sequence[Sighting]) -> None:
-        """What the tracker believes does not count here."""
+        """Recorder: predictions are not used."""
 
 
-def _followed(told: Floats, lag: float) -> Floats:
-    """First-order motors."""
-    kept = exp(-STEP / lag)
-    answer = (1.0 - kept) * kept ** np.arange(int(8.0 * lag / STEP) + 1)
-    return np.asarray(np.convolve(told, answer)[: len(told)])
+def _low_pass(commanded: Floats, lag: float) -> Floats:
+    """Response of first-order motors with this time constant, s."""
+    decay = exp(-STEP / lag)
+    response = (1.0 - decay) * decay ** np.arange(int(8.0 * lag / STEP) + 1)
+    return np.asarray(np.convolve(commanded, response)[: len(commanded)])

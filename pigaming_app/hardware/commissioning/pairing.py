@@ -1,7 +1,7 @@
-"""Which radio drives which marker: every radio's robot spins in turn, and the marker that turns is its own.
+"""Pairing of radios and markers: each radio's robot spins in turn, and the marker that turns belongs to it.
 
-That also shows markers that were swapped, that two robots wear, or that nobody can see. `tick` every 1/50 s until it
-says that all is done; `channels` is then what a rig needs, and `findings` what to tell the operator.
+Pairing also detects swapped, duplicate and invisible markers and miswired motors. Call `tick` every 1/50 s until it
+returns True; then `channels` is the mapping for a rig and `findings` the report for the operator.
 """
 
 from collections.abc import Sequence
@@ -15,27 +15,27 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import DT, ROBOTS
 
 REST, SPIN, BRAKE = 0.6, 1.3, 0.5  # s
-SHARE = 0.14  # of full speed, forth and back: about 2.5 rad/s
-TURNED = 1.2  # rad that the marker of the robot that spins turns at least
-STILL = 0.4  # rad that the others turn at most
-ASTRAY = 25.0  # px that a robot may move while it spins
-SEEN = 0.3  # s within which a marker must have been seen
+SHARE = 0.14  # of full speed, wheels in opposite directions: about 2.5 rad/s
+TURNED = 1.2  # rad; a spinning robot's marker turns more than this
+STILL = 0.4  # rad; every other marker turns less than this
+ASTRAY = 25.0  # px; a robot that moves farther is driving off
+SEEN = 0.3  # s, largest age of a usable fix
 
 
 class PairingCase(StrEnum):
-    """What came of spinning the robot of one radio. The texts are fleet.case_CASE."""
+    """Result of spinning one radio's robot. The texts are fleet.case_CASE."""
 
     FITS = "fits"  # the marker has the radio's own number
-    SWAPPED = "swapped"  # another marker turned: it is driven by this radio from now on
+    SWAPPED = "swapped"  # another marker turned; this radio drives it from now on
     NONE = "none"  # no marker turned
     SEVERAL = "several"  # more than one turned
-    TWICE = "twice"  # the marker that turned is seen twice, or was another radio's already
-    WIRED = "wired"  # a robot turned the other way, or drove off: its motors are not connected as they should be
-    ABSENT = "absent"  # nobody was heard at this radio
+    TWICE = "twice"  # the marker is seen twice, or already belongs to another radio
+    WIRED = "wired"  # a robot turned the other way or drove off: its motors are miswired
+    ABSENT = "absent"  # no telemetry from this radio
 
 
 class PairingFinding(NamedTuple):
-    """What came of one radio."""
+    """Result for one radio."""
 
     channel: int  # the radio, from 0
     marker: int | None
@@ -43,39 +43,39 @@ class PairingFinding(NamedTuple):
 
 
 class Pairing:
-    """Spins the robots of these radios, by default all that are heard."""
+    """Spins the robots of these radios; by default of all that send telemetry."""
 
     def __init__(self, rig: Rig, channels: Sequence[int] | None = None) -> None:
         self.rig = rig
         self.findings: list[PairingFinding] = []
-        heard = [one for one in range(ROBOTS) if one in rig.link.telemetry]
-        self._todo = list(heard if channels is None else channels)
-        absent = [one for one in range(ROBOTS) if one not in self._todo]
+        present = [channel for channel in range(ROBOTS) if channel in rig.link.telemetry]
+        self._todo = list(present if channels is None else channels)
+        absent = [channel for channel in range(ROBOTS) if channel not in self._todo]
         self.findings += [PairingFinding(channel, None, PairingCase.ABSENT) for channel in absent if channels is None]
         self._ticks = 0
         self._turned = [0.0] * ROBOTS
         self._doubled: set[int] = set()
         self._before: list[float | None] = [None] * ROBOTS
-        self._began: dict[int, tuple[float, float]] = {}  # px: where each robot was when this spin began
-        self._astray: int | None = None  # the robot that drives off instead of spinning
+        self._began: dict[int, tuple[float, float]] = {}  # px, positions at the start of this spin
+        self._astray: int | None = None  # a robot that drives off instead of spinning
 
     @property
     def spinning(self) -> int | None:
-        """The radio whose robot spins now, or is about to; None: all is done."""
+        """Radio whose robot spins now or next; None once done."""
         return self._todo[0] if self._todo else None
 
     @property
     def channels(self) -> tuple[int, ...]:
-        """For every marker, the radio that drives it; what was not found keeps the radio that is left."""
-        found = {one.marker: one.channel for one in self.findings if one.marker is not None}
-        left = [channel for channel in range(ROBOTS) if channel not in found.values()]
-        own = [marker for marker in range(ROBOTS) if marker not in found and marker in left]
-        found |= {marker: marker for marker in own}
+        """Radio of every marker; unpaired markers keep their own radio if free, else get a remaining one."""
+        paired = {finding.marker: finding.channel for finding in self.findings if finding.marker is not None}
+        left = [channel for channel in range(ROBOTS) if channel not in paired.values()]
+        own = [marker for marker in range(ROBOTS) if marker not in paired and marker in left]
+        paired |= {marker: marker for marker in own}
         rest = [channel for channel in left if channel not in own]
-        return tuple(found[marker] if marker in found else rest.pop(0) for marker in range(ROBOTS))
+        return tuple(paired[marker] if marker in paired else rest.pop(0) for marker in range(ROBOTS))
 
     def tick(self) -> bool:
-        """1/50 s of it; whether all is done. Then all stand."""
+        """Run 1/50 s; True once done, with all robots stopped."""
         self.rig.pump()
         if not self._todo:
             return True
@@ -88,13 +88,13 @@ class Pairing:
             self._todo[0], WheelCommand(SHARE, -SHARE) if REST < time <= REST + SPIN else WheelCommand(0.0, 0.0)
         )
         if time >= REST + SPIN + BRAKE:
-            self.findings.append(self._judged(self._todo.pop(0)))
+            self.findings.append(self._classify(self._todo.pop(0)))
             self._ticks, self._turned, self._doubled = 0, [0.0] * ROBOTS, set()
             self._began, self._astray = {}, None
         return not self._todo
 
     def _watch(self, counts: bool) -> None:
-        """Add up how far every marker turns."""
+        """Accumulate the turn of every marker."""
         self._doubled |= self.rig.tracker.doubled()
         for robot, seen in enumerate(self.rig.sense()):
             before, self._before[robot] = self._before[robot], None
@@ -106,7 +106,7 @@ class Pairing:
                     if hypot(seen.x - x, seen.y - y) > ASTRAY:
                         self._astray = robot
 
-    def _judged(self, channel: int) -> PairingFinding:
+    def _classify(self, channel: int) -> PairingFinding:
         turned = [robot for robot in range(ROBOTS) if self._turned[robot] > TURNED]
         moved = [robot for robot in range(ROBOTS) if abs(self._turned[robot]) > STILL]
         if self._doubled:
@@ -117,6 +117,6 @@ class Pairing:
             return PairingFinding(channel, moved[0] if self._astray is None else self._astray, PairingCase.WIRED)
         if not turned:
             return PairingFinding(channel, None, PairingCase.NONE)
-        if turned[0] in [one.marker for one in self.findings]:
+        if turned[0] in [finding.marker for finding in self.findings]:
             return PairingFinding(channel, None, PairingCase.TWICE)
         return PairingFinding(channel, turned[0], PairingCase.FITS if turned[0] == channel else PairingCase.SWAPPED)

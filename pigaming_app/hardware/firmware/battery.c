@@ -5,18 +5,18 @@
 
 #include "board.h"
 
-#define FULL_SCALE_MV 7500UL /* 5 V at the pin, of two thirds */
+#define FULL_SCALE_MV 7500UL /* 5 V at the pin, which is two thirds of the battery voltage */
 
-static uint32_t sum; /* of BATTERY_SHARE measurements, mV; 0: there was none yet */
+static uint32_t sum; /* BATTERY_SHARE times the low-pass filtered voltage, mV; 0: no measurement yet */
 static uint8_t flags;
 
 void battery_begin(void)
 {
-    ADMUX = _BV(REFS0) | 6; /* AVCC is the measure; ADC6 */
+    ADMUX = _BV(REFS0) | 6; /* reference AVCC; channel ADC6 */
     ADCSRA = _BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0); /* 20 MHz / 128 */
 }
 
-static void judge(uint16_t millivolts)
+static void update_flags(uint16_t millivolts)
 {
     if (millivolts < EMPTY_MV)
         flags = LOW | EMPTY;
@@ -35,9 +35,9 @@ void battery_tick(void)
     if (ADCSRA & _BV(ADIF)) {
         uint32_t millivolts = (ADC * FULL_SCALE_MV + 511) / 1023;
         sum = sum ? sum - sum / BATTERY_SHARE + millivolts : millivolts * BATTERY_SHARE;
-        judge(battery_millivolts());
+        update_flags(battery_millivolts());
     }
-    ADCSRA |= _BV(ADSC); /* done long before the next time */
+    ADCSRA |= _BV(ADSC); /* complete long before the next measurement */
 }
 
 uint16_t battery_millivolts(void)

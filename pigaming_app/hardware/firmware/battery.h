@@ -1,4 +1,4 @@
-/* The battery's voltage.
+/* Battery voltage.
  * SPDX-License-Identifier: MIT */
 #ifndef BATTERY_H
 #define BATTERY_H
@@ -7,10 +7,10 @@
 
 void battery_begin(void);
 
-/* To be called every millisecond. */
+/* Call every millisecond. */
 void battery_tick(void);
 
-/* What it has been lately. */
+/* Low-pass filtered voltage. */
 uint16_t battery_millivolts(void);
 
 /* The flags LOW and EMPTY. */

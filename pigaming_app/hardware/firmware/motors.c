@@ -1,6 +1,6 @@
-/* A motor drives while one of its pins is low and brakes while both are high. So the pin that stays high is a plain
- * output, and the other gets inverted PWM: low for the share of the time that is the speed. At rest no pin is connected
- * to a timer.
+/* A motor drives while one of its pins is low and brakes while both are high. One pin therefore stays high as a plain
+ * output, and the other carries inverted PWM, low for a share of the period equal to the speed. At rest no pin is
+ * connected to a timer.
  * SPDX-License-Identifier: MIT */
 #include "motors.h"
 

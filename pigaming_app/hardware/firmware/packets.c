@@ -5,7 +5,7 @@
 #define REPORT_HEAD 0xD4
 #define DRIVE_LENGTH (3 + 2 * ROBOTS + 1)
 
-/* CRC-8 with polynomial 07, starting from 0, cut to 7 bits. */
+/* CRC-8 with polynomial 07 and initial value 0, truncated to 7 bits. */
 static uint8_t check(const uint8_t *bytes, uint8_t count)
 {
     uint8_t crc = 0;
@@ -20,7 +20,7 @@ static uint8_t check(const uint8_t *bytes, uint8_t count)
 bool packet_byte(uint8_t byte, struct drive *drive)
 {
     static uint8_t packet[DRIVE_LENGTH];
-    static uint8_t count; /* 0: wait for a head */
+    static uint8_t count; /* bytes received; 0: waiting for the head */
 
     if (byte & 0x80)
         count = 0;
@@ -34,7 +34,7 @@ bool packet_byte(uint8_t byte, struct drive *drive)
     drive->seq = packet[1];
     drive->enabled = packet[2];
     for (uint8_t i = 0; i < 2 * ROBOTS; i++)
-        drive->speeds[i] = packet[3 + i] > 2 * STOP ? STOP : packet[3 + i]; /* 127 is nobody's speed */
+        drive->speeds[i] = packet[3 + i] > 2 * STOP ? STOP : packet[3 + i]; /* 127 is not a speed */
     return true;
 }
 

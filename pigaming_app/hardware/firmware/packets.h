@@ -1,5 +1,5 @@
-/* Our packets: drive `D0 seq enable L1 R1 .. L4 R4 check` and report `D4 address seq flags low7 high7 check`.
- * Every byte but the first has 7 bits, so that a byte from 80 on always begins anew.
+/* Radio packets: drive `D0 seq enable L1 R1 .. L4 R4 check` and report `D4 address seq flags low7 high7 check`.
+ * Every byte but the first holds 7 bits, so a byte from 80 (hex) up always starts a packet.
  * SPDX-License-Identifier: MIT */
 #ifndef PACKETS_H
 #define PACKETS_H
@@ -19,7 +19,7 @@ struct drive {
 
 #define REPORT_LENGTH 7
 
-/* Take in one byte from the air; true if it completes a good drive packet, which is then in *drive. */
+/* Process one received byte; true if it completes a valid drive packet, which is then in *drive. */
 bool packet_byte(uint8_t byte, struct drive *drive);
 
 /* Write the report of a robot. */

@@ -1,8 +1,8 @@
-/* The program of a robot: it drives as the newest valid packet says, reports five times a second, and stops by itself.
+/* Main program of a robot: executes the newest valid drive packet and reports five times a second.
  *
- * Three things stop it. The deadman, counted by a timer's interrupt, when no valid packet has come for 250 ms. The
- * hardware watchdog, when the main loop or that timer has hung for 120 ms: it restarts the processor, whose motor pins
- * are then off. And the battery, when it is empty.
+ * Three mechanisms stop the motors: the deadman, counted in a timer interrupt, after 250 ms without a valid packet; the
+ * hardware watchdog, which resets the processor, and so switches the motor pins off, if the main loop or that timer
+ * hangs for 120 ms; and an empty battery.
  * SPDX-License-Identifier: MIT */
 #include <avr/eeprom.h>
 #include <avr/interrupt.h>
@@ -18,12 +18,12 @@
 #include "serial.h"
 
 static volatile uint8_t quiet = DEADMAN_MS; /* ms since the last valid packet, at most DEADMAN_MS */
-static volatile uint8_t ticks; /* ms that passed and were not dealt with */
+static volatile uint8_t ticks; /* ms passed and not yet processed */
 
 static uint8_t address, restarted;
-static uint8_t seq; /* of the last valid packet */
-static uint8_t phase; /* ms within REPORT_MS; begins anew with the packets numbered 0, 10, 20, ... */
-static uint8_t since_report = REPORT_GAP_MS; /* ms, at most REPORT_GAP_MS */
+static uint8_t seq; /* sequence number of the last valid packet */
+static uint8_t phase; /* ms within the reporting cycle; restarts with packets 0, 10, 20, ... */
+static uint8_t since_report = REPORT_GAP_MS; /* ms since the last report, at most REPORT_GAP_MS */
 
 ISR(TIMER1_COMPA_vect)
 {
@@ -39,9 +39,9 @@ static void timer_begin(void)
     TIMSK1 = _BV(OCIE1A);
 }
 
-static void obey(const struct drive *drive)
+static void execute(const struct drive *drive)
 {
-    uint8_t robot = address - 1; /* without an address it is none of the robots */
+    uint8_t robot = address - 1; /* out of range without a valid address */
     seq = drive->seq;
     if (seq % 10 == 0)
         phase = 0;
@@ -64,7 +64,7 @@ static void report(void)
     since_report = 0;
 }
 
-/* What happens every millisecond. */
+/* Work of every millisecond. */
 static void tick(void)
 {
     battery_tick();
@@ -81,8 +81,8 @@ static void tick(void)
     phase = phase < REPORT_MS - 1 ? phase + 1 : 0;
 }
 
-/* One millisecond that passed is dealt with; false if none did. */
-static uint8_t a_tick_passed(void)
+/* Take one unprocessed millisecond from `ticks`; false if there is none. */
+static uint8_t take_tick(void)
 {
     uint8_t passed = 0;
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
@@ -111,11 +111,11 @@ int main(void)
     for (;;) {
         struct drive drive;
         uint8_t byte;
-        sleep_mode(); /* until a byte comes or a millisecond has passed */
+        sleep_mode(); /* until a byte arrives or a millisecond has passed */
         while (serial_read(&byte))
             if (packet_byte(byte, &drive))
-                obey(&drive);
-        while (a_tick_passed()) {
+                execute(&drive);
+        while (take_tick()) {
             wdt_reset();
             tick();
         }

@@ -7,13 +7,13 @@
 
 #include "board.h"
 
-#define ROOM 64 /* a power of 2; 11 ms at 57600 baud */
+#define ROOM 64 /* bytes of each ring buffer, a power of 2; 11 ms at 57600 baud */
 
-/* With U2X the rate is 58140 for 57600: the XBee's own is 58824, and without U2X ours would be 56818, too far off. */
+/* With U2X the rate is 58140 for 57600; the XBee's own is 58824, and 56818, as without U2X, would be too far off. */
 #define DIVISOR ((F_CPU / 4 / BAUD - 1) / 2)
 
-static volatile uint8_t heard[ROOM], heard_in, heard_out;
-static volatile uint8_t said[ROOM], said_in, said_out;
+static volatile uint8_t received[ROOM], received_in, received_out;
+static volatile uint8_t sent[ROOM], sent_in, sent_out;
 
 void serial_begin(void)
 {
@@ -27,40 +27,40 @@ ISR(USART_RX_vect)
 {
     uint8_t broken = UCSR0A & _BV(FE0);
     uint8_t byte = UDR0;
-    uint8_t next = (heard_in + 1) % ROOM;
-    if (!broken && next != heard_out) {
-        heard[heard_in] = byte;
-        heard_in = next;
+    uint8_t next = (received_in + 1) % ROOM;
+    if (!broken && next != received_out) {
+        received[received_in] = byte;
+        received_in = next;
     }
 }
 
 ISR(USART_UDRE_vect)
 {
-    if (said_out == said_in) {
+    if (sent_out == sent_in) {
         UCSR0B &= ~_BV(UDRIE0);
         return;
     }
-    UDR0 = said[said_out];
-    said_out = (said_out + 1) % ROOM;
+    UDR0 = sent[sent_out];
+    sent_out = (sent_out + 1) % ROOM;
 }
 
 bool serial_read(uint8_t *byte)
 {
-    if (heard_out == heard_in)
+    if (received_out == received_in)
         return false;
-    *byte = heard[heard_out];
-    heard_out = (heard_out + 1) % ROOM;
+    *byte = received[received_out];
+    received_out = (received_out + 1) % ROOM;
     return true;
 }
 
 void serial_write(const uint8_t *bytes, uint8_t count)
 {
-    uint8_t waiting = (uint8_t)(said_in - said_out) % ROOM;
+    uint8_t waiting = (uint8_t)(sent_in - sent_out) % ROOM;
     if (waiting + count >= ROOM)
         return;
     while (count--) {
-        said[said_in] = *bytes++;
-        said_in = (said_in + 1) % ROOM;
+        sent[sent_in] = *bytes++;
+        sent_in = (sent_in + 1) % ROOM;
     }
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     UCSR0B |= _BV(UDRIE0);

@@ -1,4 +1,4 @@
-/* The serial port to the radio.
+/* Interrupt-driven serial port to the radio.
  * SPDX-License-Identifier: MIT */
 #ifndef SERIAL_H
 #define SERIAL_H
@@ -8,10 +8,10 @@
 
 void serial_begin(void);
 
-/* True if a byte had come, which is then in *byte. */
+/* Read one byte into *byte; false if none has been received. */
 bool serial_read(uint8_t *byte);
 
-/* Send the bytes, in the background; what does not fit behind what is still being sent is dropped as a whole. */
+/* Queue the bytes for transmission; all of them are dropped if they do not fit into the buffer. */
 void serial_write(const uint8_t *bytes, uint8_t count);
 
 #endif

@@ -1,7 +1,6 @@
-"""Everything that can go wrong while robots drive, and how soon their motors stand then, on the emulated arena.
+"""Stopping times of the motors in every emergency, measured on the emulated arena.
 
-`stop` lets one thing of EMERGENCIES happen and end again; `hang`, `leave` and `kill` end the program that drives, in
-three ways.
+`stop` injects and clears one fault of EMERGENCIES; `hang`, `leave` and `kill` end the driving program in three ways.
 """
 
 import os
@@ -19,18 +18,18 @@ from pigaming_app.hardware.emulator.realtime import PseudoTerminal, RealtimeAren
 from pigaming_app.hardware.proof.trials import FigureEight
 from pigaming_app.sim.world import DT, HZ
 
-ENOUGH = 0.6  # s after which nothing will move again that has been stopped
+ENOUGH = 0.6  # s of observation after the fault is reported
 ROOT = Path(__file__).resolve().parents[3]
 
 
 class Emergency(NamedTuple):
-    """Something goes wrong with a robot, or with all: how it begins and ends, and faults of which one must be named."""
+    """A fault of one robot or of all: functions that begin and end it, and the reports it must cause."""
 
     begin: Callable[[FigureEight, int], None]
     end: Callable[[FigureEight, int], None]
-    says: tuple[str, ...]
-    everyone: bool = False
-    allowed: float = 0.0  # s that the table of faults itself allows before anything has to happen
+    says: tuple[str, ...]  # fault names of `safety`, at least one of which must be reported
+    everyone: bool = False  # True: all robots must stop
+    allowed: float = 0.0  # s that the rules of `safety` allow before a reaction
 
 
 def fault(name: str, *says: str, everyone: bool = False, allowed: float = 0.0) -> Emergency:
@@ -45,7 +44,7 @@ def fault(name: str, *says: str, everyone: bool = False, allowed: float = 0.0) -
 
 
 def _twice(on: bool) -> Callable[[FigureEight, int], None]:
-    """Where a game shows hard edges, a second marker cannot always be read, and does no harm: so without them."""
+    """A duplicate marker on a dark floor: on a busy one it cannot always be read, and then does no harm."""
 
     def double(trail: FigureEight, robot: int) -> None:
         trail.bed.lighting.show(busy=not on)
@@ -78,14 +77,14 @@ EMERGENCIES: Mapping[str, Emergency] = {
 
 
 class StopResult(NamedTuple):
-    """How an emergency went."""
+    """Result of an emergency."""
 
-    seconds: float  # from its beginning to when the last motor concerned was last given anything
-    said: bool  # whether the fault was named
+    seconds: float  # from the fault, or the end of `allowed`, until the last affected motor stopped
+    said: bool  # True if the fault was reported
 
 
 def stop(trail: FigureEight, name: str, robot: int = 1) -> StopResult:
-    """Let it happen to moving robots, and end again; they must drive as before."""
+    """Inject a fault into moving robots, measure, and clear it. Raises RuntimeError if they did not drive before."""
     emergency, arena = EMERGENCIES[name], trail.bed.arena
     settle(trail)
     began = arena.clock() + emergency.allowed
@@ -102,7 +101,7 @@ def stop(trail: FigureEight, name: str, robot: int = 1) -> StopResult:
 
 
 def settle(trail: FigureEight) -> None:
-    """Drive until nothing is wrong and all have moved for half a second. Raises RuntimeError after 20 s."""
+    """Drive until all robots have moved without faults for half a second. Raises RuntimeError after 20 s."""
     calm = 0
     for _ in range(20 * HZ):
         trail.tick()
@@ -115,7 +114,7 @@ def settle(trail: FigureEight) -> None:
 
 
 def hang(trail: FigureEight) -> float:
-    """The game hangs, and only the link's thread is left: seconds until the last motor stands."""
+    """Seconds until the last motor stops after the game hangs and only the link's thread still runs."""
     settle(trail)
     began = trail.bed.arena.clock()
     for _ in range(HZ):
@@ -125,7 +124,7 @@ def hang(trail: FigureEight) -> float:
 
 
 def leave(trail: FigureEight) -> float:
-    """The program ends, by itself or by an exception that closes its rig: seconds until the last motor stands."""
+    """Seconds until the last motor stops after the program ends, normally or by an exception, and closes its rig."""
     settle(trail)
     began = trail.bed.arena.clock()
     trail.bed.rig.close()
@@ -146,27 +145,29 @@ while True:
 
 
 def kill(seed: int) -> float:
-    """Another process drives the robots over a pseudo-terminal, in real time, and is killed with SIGKILL: seconds
-    until the last motor stands. Raises OSError where there are no pseudo-terminals, ImportError without pyserial."""
+    """Seconds until the last motor stops after SIGKILL of a process that drives over a pseudo-terminal in real time.
+
+    Raises OSError where there are no pseudo-terminals, ImportError without pyserial.
+    """
     if find_spec("serial") is None:
         raise ImportError("pyserial is not installed")
     arena = EmulatedArena(seed, refresh=1000, begin=time.monotonic())
     with RealtimeArena(arena, terminal := PseudoTerminal()):
         driver = subprocess.Popen([sys.executable, "-c", DRIVER, terminal.name], cwd=ROOT)
         try:
-            _until(lambda: all(robot.left_speed > 100.0 for robot in arena.robots))
+            _wait_until(lambda: all(robot.left_speed > 100.0 for robot in arena.robots))
             killed = arena.clock()
             os.kill(driver.pid, signal.SIGKILL)
         finally:
             driver.kill()
             driver.wait()
-        _until(lambda: all(firmware.stopped for firmware in arena.firmwares))
+        _wait_until(lambda: all(firmware.stopped for firmware in arena.firmwares))
         return max(arena.ran) - killed
 
 
-def _until(true: Callable[[], bool], patience: float = 20.0) -> None:
-    end = time.monotonic() + patience
-    while not true():
-        if time.monotonic() > end:
+def _wait_until(condition: Callable[[], bool], timeout: float = 20.0) -> None:
+    deadline = time.monotonic() + timeout
+    while not condition():
+        if time.monotonic() > deadline:
             raise RuntimeError("the emulated robots did not react")
         time.sleep(0.005)

@@ -1,7 +1,6 @@
-"""The whole robot loop on the emulated arena, to be measured against ground truth.
+"""Testbed: the whole robot loop on the emulated arena, for measurements against ground truth.
 
-The arena has moderate noise, a calibration as an operator makes it, and the light of a game. `trials` and `emergencies`
-measure on it.
+The arena has moderate noise, an operator-grade calibration and the light of a game. `trials` and `emergencies` use it.
 """
 
 from time import thread_time
@@ -17,18 +16,18 @@ from pigaming_app.hardware.signals import CameraFrame, Fix
 from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.sim.world import ROBOTS
 
-UNREST = 0.15  # size of the exposure steps
-DELAY = 0.060  # s that pictures are late; with tick, line and air that is 80 ms of dead time
+UNREST = 0.15  # size of the exposure steps, as a share
+DELAY = 0.060  # latency of frames, s; with tick, serial line and radio the dead time is 80 ms
 
 
 class TimedTracker(Tracker):
-    """A tracker of which it is noted how long it takes and what it finds."""
+    """A tracker that measures its CPU time and its share of complete frames."""
 
     seconds = 0.0
     pictures = complete = 0
 
     def see(self, frame: CameraFrame) -> list[Fix]:
-        """Correct the robots by a picture; the fixes that were believed."""
+        """Process a frame; returns the accepted fixes."""
         began = thread_time()
         fixes = super().see(frame)
         self.seconds += thread_time() - began
@@ -38,7 +37,7 @@ class TimedTracker(Tracker):
 
 
 class Testbed:
-    """A calibrated arena with a rig on it; `tick` lets 1/50 s pass. A `ground` that is known need not be found."""
+    """A calibrated arena with a rig. `drops`: share of lost frames; `ground`: skips the calibration if given."""
 
     def __init__(
         self, seed: int, fps: float, drops: float = 0.0, air: RadioChannel = MODERATE, ground: GroundPlane | None = None
@@ -60,15 +59,15 @@ class Testbed:
         self.tracker, self.link = self.rig.tracker, self.rig.link
 
     def count(self) -> None:
-        """Count pictures anew."""
+        """Reset the tracker's counters."""
         self.tracker.seconds, self.tracker.pictures, self.tracker.complete = 0.0, 0, 0
 
     def tick(self) -> None:
-        """Let 1/50 s pass: lit floor, arena and rig."""
+        """Advance lighting, arena and rig by 1/50 s."""
         self.session.tick()
 
     def misses(self) -> list[tuple[float, float]]:
-        """The error of each robot's predicted pose, in mm, and of its heading, in rad."""
+        """Errors of each robot's predicted position, mm, and heading, rad."""
         pairs = zip(self.rig.sense(), self.arena.poses(), strict=True)
         mm = self.ground.mm
         return [
@@ -78,7 +77,7 @@ class Testbed:
 
 
 def one_core() -> None:
-    """Let OpenCV use no more than one core, as is measured."""
+    """Restrict OpenCV to one core, for comparable timings."""
     import cv2
 
     cv2.setNumThreads(1)

@@ -1,7 +1,7 @@
-"""What robots must be able to do before anybody lets them drive, measured on the emulated arena.
+"""Acceptance trials of the robot loop on the emulated arena.
 
-`follow`: how well they are tracked. `play`: a whole match, and how deep a robot gets into a wall. What goes wrong is in
-`emergencies`.
+`follow` measures tracking accuracy; `play` plays a whole match and measures how deep robots get into walls. Faults are
+covered by `emergencies`.
 """
 
 from dataclasses import dataclass
@@ -22,16 +22,16 @@ SPEED = 350.0  # mm/s
 
 @dataclass(frozen=True)
 class TrackingResult:
-    """How well four robots were tracked: against where they were at that moment, all dead time made up for."""
+    """Tracking of four robots: predicted present poses, with dead time compensated, against ground truth."""
 
     rmse_mm: float
     rmse_deg: float
-    tracker_ms: float  # a picture, on one core
-    complete: float  # share of the pictures in which all four were found
+    tracker_ms: float  # per frame, on one core
+    complete: float  # share of the frames in which all four were found
 
 
 class FigureEight:
-    """Four robots that drive figures of eight, each in its quarter, steered by what the rig says."""
+    """Four robots that drive figures of eight, one per quarter of the arena, by closed-loop control."""
 
     def __init__(self, bed: Testbed) -> None:
         bed.session.find()
@@ -39,32 +39,32 @@ class FigureEight:
         for robot in self.world.robots:
             robot.present = 1
         self.plant = RealPlant(self.world, bed.rig)
-        self._along = [0.0] * ROBOTS
+        self._phase = [0.0] * ROBOTS  # rad, of each robot's figure
 
     def tick(self) -> None:
-        """1/50 s of it."""
+        """Advance by 1/50 s."""
         twists = [self._steered(i, sighting) for i, sighting in enumerate(self.plant.sense())]
         self.plant.drive(twists, DT)
         self.bed.tick()
 
     def _steered(self, robot: int, seen: Sighting) -> Twist:
-        """At full pace towards a point of the figure that stays ahead."""
+        """Twist at full speed towards the figure's point at least 90 px ahead."""
         for _ in range(50):
             x, y = self._figure(robot)
             if hypot(x - seen.x, y - seen.y) > 90.0:
                 break
-            self._along[robot] += 0.02
+            self._phase[robot] += 0.02
         aside = (atan2(y - seen.y, x - seen.x) - seen.heading + pi) % tau - pi
         return SPEED / self.bed.ground.mm, max(-3.0, min(3.0, 4.0 * aside))
 
     def _figure(self, robot: int) -> tuple[float, float]:
         middle_x, middle_y = 400.0 + 800.0 * (robot in (1, 2)), 225.0 + 450.0 * (robot in (2, 3))
-        turn = self._along[robot] + robot
+        turn = self._phase[robot] + robot
         return middle_x + 250.0 * sin(turn), middle_y + 110.0 * sin(2.0 * turn)
 
 
 def follow(trail: FigureEight, seconds: float) -> TrackingResult:
-    """Drive for so long at 0.35 m/s, after two seconds to get up speed."""
+    """Measure tracking for `seconds` at 0.35 m/s, after two seconds of acceleration."""
     bed, misses = trail.bed, []
     for _ in range(2 * HZ):
         trail.tick()
@@ -82,21 +82,21 @@ def follow(trail: FigureEight, seconds: float) -> TrackingResult:
 
 
 class PlayableMatch(Protocol):
-    """The part of a match that is played here."""
+    """The part of a match that `play` needs."""
 
     state: Any
     plant: Any
 
     @property
     def over(self) -> bool:
-        """Whether it has ended."""
+        """True once the match has ended."""
 
     def tick(self) -> None:
         """Advance by 1/50 s."""
 
 
 class ButtonMasher:
-    """A seat at which somebody mashes all buttons and throws the stick about."""
+    """A player that holds random sticks and buttons for up to a second each."""
 
     def __init__(self, seed: int) -> None:
         self._random = Random(f"masher {seed}")
@@ -104,7 +104,7 @@ class ButtonMasher:
         self._held = (0.0, 0.0, 0, 0)
 
     def think(self, state: Any, seat: int) -> None:
-        """Hold on to something for up to a second."""
+        """Set the held action, drawing a new one when its time is over."""
         random = self._random
         if not self._ticks:
             self._ticks = random.randrange(3, HZ)
@@ -120,24 +120,24 @@ class ButtonMasher:
 
 
 class MatchResult(NamedTuple):
-    """How a match on the mat went."""
+    """Result of a match on the mat."""
 
-    deepest_mm: float  # into a wall or over the arena's edge
-    seconds: float  # of simulated time, pauses and all
-    paused: float
-    places: float  # s until all had taken their places
-    alarms: int  # how often a robot seemed not to do as it was told
+    deepest_mm: float  # deepest intrusion into a wall or beyond the arena's edge
+    seconds: float  # simulated time, including pauses
+    paused: float  # s
+    places: float  # s until all robots had taken their places
+    alarms: int  # number of robots that had to be cleared after a lasting fault
 
 
 def play(bed: Testbed, match: PlayableMatch, seconds: float) -> MatchResult:
-    """Let the robots take their places and play to the end. Raises RuntimeError if either takes too long.
+    """Let the robots take their places, then play the match to its end. Raises RuntimeError if either takes too long.
 
-    Pauses are as the arcade makes them: as long as a fault that pauses is there, nobody plays.
+    As in the arcade, the match is paused for as long as a pausing fault lasts.
     """
     plant: RealPlant = match.plant
     ready = alarms = 0
     while not plant.take_places():
-        alarms += _calm(plant)
+        alarms += _clear_faults(plant)
         ready += 1
         bed.tick()
         if ready > 90 * HZ:
@@ -146,7 +146,7 @@ def play(bed: Testbed, match: PlayableMatch, seconds: float) -> MatchResult:
     deepest, ticks, paused = 0.0, 0, 0
     while not match.over:
         if plant.safety.pauses:
-            alarms += _calm(plant)
+            alarms += _clear_faults(plant)
             plant.watch()
             paused += 1
         else:
@@ -159,8 +159,8 @@ def play(bed: Testbed, match: PlayableMatch, seconds: float) -> MatchResult:
     return MatchResult(deepest * bed.ground.mm, ticks * DT, paused * DT, ready * DT, alarms)
 
 
-def _calm(plant: RealPlant) -> int:
-    """Let robots go on that wait until somebody has looked after them; how many there were."""
+def _clear_faults(plant: RealPlant) -> int:
+    """Clear the lasting faults that wait for an operator; returns their number."""
     waiting = plant.safety.lasting
     for robot in waiting:
         plant.forgive(robot)
@@ -168,7 +168,7 @@ def _calm(plant: RealPlant) -> int:
 
 
 def entered(world: Any, x: float, y: float) -> float:
-    """How far, in px, a robot at (x, y) is in a wall that stands or over the edge; negative: how far it is from it."""
+    """Depth of a robot at (x, y) in a standing wall or beyond the edge, px; negative: distance to the nearest."""
     depths = [RADIUS - x, RADIUS - y, x + RADIUS - WIDTH, y + RADIUS - HEIGHT]
     for i in range(world.wall_count):
         wall = world.walls[i]

@@ -1,7 +1,7 @@
-"""What goes over the air and over the wire to the radio, as bytes: our packets, and the XBee API frames round them.
+"""Encoding and decoding of our radio packets and of the XBee API frames that carry them.
 
-Only functions and decoders of bytes; nothing here opens a port or knows the time. Our packets hold 7 bits in every byte
-but the first, so that any byte from 80 on begins anew. The frames are those of XBee 802.15.4 (Digi's manual, "API").
+Pure functions and stream decoders, without ports or clocks. In our packets every byte but the first holds 7 bits, so
+any byte from 80 (hex) up starts a packet. The frames are those of XBee 802.15.4 (Digi's manual, "API").
 """
 
 import re
@@ -11,31 +11,31 @@ from typing import NamedTuple
 from pigaming_app.hardware.signals import WheelCommand
 
 ROBOTS = 4
-STOP = 63  # the middle of the speeds 0 to 126
+STOP = 63  # the middle of the speed codes 0 to 126
 DRIVE, REPORT = 0xD0, 0xD4
-LENGTHS = {DRIVE: 3 + 2 * ROBOTS + 1, REPORT: 7}  # bytes, the check included
-SEQUENCE = 128  # sequence numbers count from 0 to 127 and begin again
+LENGTHS = {DRIVE: 3 + 2 * ROBOTS + 1, REPORT: 7}  # bytes, including the check
+SEQUENCE = 128  # sequence numbers run from 0 to 127 and wrap
 
-DEADMAN, LOW, EMPTY, RESTARTED = 1, 2, 4, 8  # what the flags of a report mean: see Report
+DEADMAN, LOW, EMPTY, RESTARTED = 1, 2, 4, 8  # flags of a report, see RobotReport
 
 BROADCAST = 0xFFFF
 DELIMITER, ESCAPE = 0x7E, 0x7D
 ESCAPED = frozenset((DELIMITER, ESCAPE, 0x11, 0x13))
-ESCAPES = re.compile(rb"\x7d(.?)", re.DOTALL)  # at the end of what has come, the escaped byte may be missing
-LONGEST = 128  # bytes of a frame's data; the longest that comes holds 100 bytes from the air and 11 before them
+ESCAPES = re.compile(rb"\x7d(.?)", re.DOTALL)  # the escaped byte may still be missing at the end of the buffer
+LONGEST = 128  # limit of a frame's data, bytes; the longest real frame has 100 bytes of payload after 11 of header
 
 
 class RobotReport(NamedTuple):
-    """What a robot says of itself."""
+    """Status report of a robot."""
 
     address: int  # 1 to 4
-    seq: int  # of the drive packet that it heard last
-    flags: int  # DEADMAN stopped it; battery LOW; battery EMPTY, motors refused; RESTARTED by its watchdog
+    seq: int  # sequence number of the last drive packet received
+    flags: int  # DEADMAN: stopped by it; LOW battery; EMPTY battery, motors off; RESTARTED by the watchdog
     millivolts: int
 
 
 class TransmitRequest(NamedTuple):
-    """To the radio: send this to the 16-bit address. With number 0 the radio does not say how it went."""
+    """To the radio: transmit `data` to the 16-bit address. Number 0 suppresses the TransmitStatus."""
 
     number: int
     address: int
@@ -44,7 +44,7 @@ class TransmitRequest(NamedTuple):
 
 
 class ReceivedPacket(NamedTuple):
-    """From the radio: this came from the 16-bit address."""
+    """From the radio: `data` received from the 16-bit address."""
 
     source: int
     strength: int  # dBm, negative
@@ -53,14 +53,14 @@ class ReceivedPacket(NamedTuple):
 
 
 class TransmitStatus(NamedTuple):
-    """From the radio: how sending went. 0 well, 1 nobody acknowledged, 2 the air was never free, 3 purged."""
+    """From the radio: result of a transmission. 0 success, 1 no acknowledgement, 2 channel never clear, 3 purged."""
 
     number: int
     status: int
 
 
 class ATCommand(NamedTuple):
-    """To the radio: an AT command of two letters; without a value it asks for the value."""
+    """To the radio: a two-letter AT command; without a value it queries the parameter."""
 
     number: int
     command: str
@@ -68,7 +68,7 @@ class ATCommand(NamedTuple):
 
 
 class ATResponse(NamedTuple):
-    """From the radio: what became of an AT command. Status 0 is well."""
+    """From the radio: result of an AT command. Status 0 is success."""
 
     number: int
     command: str
@@ -77,7 +77,7 @@ class ATResponse(NamedTuple):
 
 
 class ModemStatus(NamedTuple):
-    """From the radio: what happened to it. 0 it started, 1 its watchdog restarted it."""
+    """From the radio: 0 hardware reset, 1 watchdog reset."""
 
     status: int
 
@@ -86,7 +86,7 @@ Message = TransmitRequest | ReceivedPacket | TransmitStatus | ATCommand | ATResp
 
 
 def crc8(data: bytes) -> int:
-    """The CRC of 8 bits with polynomial 07, starting from 0 (CRC-8/SMBUS: crc8(b"123456789") is F4)."""
+    """8-bit CRC with polynomial 07 and initial value 0 (CRC-8/SMBUS: crc8(b"123456789") is F4)."""
     crc = 0
     for byte in data:
         crc ^= byte
@@ -96,22 +96,22 @@ def crc8(data: bytes) -> int:
 
 
 def drive_packet(seq: int, wheels: Sequence[WheelCommand | None]) -> bytes:
-    """The broadcast for the robots 0 to 3; those without an entry are off. Raises ValueError for a fifth robot."""
+    """Broadcast packet for robots 0 to 3, disabled where None or missing. Raises ValueError for a fifth robot."""
     if len(wheels) > ROBOTS:
         raise ValueError(f"{len(wheels)} robots; the packet has room for {ROBOTS}")
-    everyone = [*wheels, *[None] * (ROBOTS - len(wheels))]
-    enabled = sum(1 << robot for robot, one in enumerate(everyone) if one is not None)
-    speeds = [_speed(share) for one in everyone for share in one or (0.0, 0.0)]
+    commands = [*wheels, *[None] * (ROBOTS - len(wheels))]
+    enabled = sum(1 << robot for robot, command in enumerate(commands) if command is not None)
+    speeds = [_speed(share) for command in commands for share in command or (0.0, 0.0)]
     return _checked(bytes((DRIVE, seq % SEQUENCE, enabled, *speeds)))
 
 
 def report_from(packet: bytes) -> RobotReport:
-    """What a report says that a PacketDecoder found good."""
+    """Parse a report packet that a PacketDecoder has validated."""
     return RobotReport(packet[1], packet[2], packet[3], packet[4] | packet[5] << 7)
 
 
 def _speed(share: float) -> int:
-    """The byte for a share of full speed in [-1, 1]; beyond is cut, what is no number stops."""
+    """Speed code of a share of full speed, clipped to [-1, 1]; NaN stops."""
     return STOP + round(STOP * max(-1.0, min(1.0, share))) if share == share else STOP
 
 
@@ -120,33 +120,33 @@ def _checked(packet: bytes) -> bytes:
 
 
 class PacketDecoder:
-    """Finds our packets in what comes, in pieces of any size, and throws away whatever else stands between them."""
+    """Stream decoder of our packets, for chunks of any size; discards other bytes."""
 
     def __init__(self) -> None:
-        self.garbage = 0  # bytes thrown away so far
-        self._line = bytearray()
+        self.garbage = 0  # bytes discarded so far
+        self._buffer = bytearray()
 
-    def feed(self, heard: bytes) -> list[bytes]:
-        """The packets that these bytes complete, in their order."""
-        self._line += heard
-        found = []
-        while self._line:
-            length = LENGTHS.get(self._line[0], 0)
-            packet = bytes(self._line[:length])
+    def feed(self, received: bytes) -> list[bytes]:
+        """Packets that these bytes complete, in order."""
+        self._buffer += received
+        complete = []
+        while self._buffer:
+            length = LENGTHS.get(self._buffer[0], 0)
+            packet = bytes(self._buffer[:length])
             broken = next((at for at, byte in enumerate(packet) if at and byte >= 0x80), 0)
             if length and not broken and len(packet) < length:
                 break
             good = length > 0 and not broken and _checked(packet[:-1]) == packet
             if good:
-                found.append(packet)
+                complete.append(packet)
             else:
                 self.garbage += broken or 1
-            del self._line[: length if good else broken or 1]
-        return found
+            del self._buffer[: length if good else broken or 1]
+        return complete
 
 
 def frame(data: bytes, escaped: bool) -> bytes:
-    """An API frame round the data: AP=2 if `escaped`, else AP=1."""
+    """API frame around the data: AP=2 if `escaped`, else AP=1."""
     body = len(data).to_bytes(2, "big") + data + bytes((0xFF - (sum(data) & 0xFF),))
     if escaped:
         body = b"".join(bytes((ESCAPE, byte ^ 0x20)) if byte in ESCAPED else bytes((byte,)) for byte in body)
@@ -154,23 +154,23 @@ def frame(data: bytes, escaped: bool) -> bytes:
 
 
 class FrameDecoder:
-    """Finds API frames in what comes, in pieces of any size, and throws away whatever else stands between them.
+    """Stream decoder of API frames, for chunks of any size; discards other bytes.
 
-    With AP=2 a delimiter always begins a frame. With AP=1 it may also be data, so after a frame that turns out to be
-    none the search goes on right behind its delimiter: a frame swallowed by a broken one is still found.
+    With AP=2 a delimiter always starts a frame. With AP=1 it may also be data, so after an invalid frame the search
+    resumes right behind its delimiter, and a valid frame inside a broken one is not lost.
     """
 
     def __init__(self, escaped: bool) -> None:
-        self.garbage = 0  # bytes thrown away so far
+        self.garbage = 0  # bytes discarded so far
         self._escaped = escaped
-        self._line = bytearray()
+        self._buffer = bytearray()
 
-    def feed(self, heard: bytes) -> list[bytes]:
-        """The data of the frames that these bytes complete, in their order."""
-        self._line += heard
-        found = []
+    def feed(self, received: bytes) -> list[bytes]:
+        """Data of the frames that these bytes complete, in order."""
+        self._buffer += received
+        complete = []
         while self._seek():
-            end = self._line.find(DELIMITER, 1) if self._escaped else -1
+            end = self._buffer.find(DELIMITER, 1) if self._escaped else -1
             body = self._body(end)
             size = int.from_bytes(body[:2], "big") if len(body) > 1 else 1
             possible = 1 <= size <= LONGEST
@@ -178,30 +178,30 @@ class FrameDecoder:
                 break
             good = possible and len(body) >= size + 3 and sum(body[2 : size + 3]) & 0xFF == 0xFF
             if good:
-                found.append(body[2 : size + 2])
+                complete.append(body[2 : size + 2])
             else:
                 self.garbage += 1
-            del self._line[: len(frame(found[-1], self._escaped)) if good else 1]
-        return found
+            del self._buffer[: len(frame(complete[-1], self._escaped)) if good else 1]
+        return complete
 
     def _seek(self) -> bool:
-        """Whether there is a delimiter; what stands before it is thrown away."""
-        start = self._line.find(DELIMITER)
-        passed = len(self._line) if start < 0 else start
-        self.garbage += passed
-        del self._line[:passed]
+        """Discard everything before the first delimiter; True if there is one."""
+        start = self._buffer.find(DELIMITER)
+        skipped = len(self._buffer) if start < 0 else start
+        self.garbage += skipped
+        del self._buffer[:skipped]
         return start >= 0
 
     def _body(self, end: int) -> bytes:
-        """What follows the delimiter, up to the next one at `end` if that is 0 or more, as it was before escaping."""
+        """Unescaped bytes after the delimiter, up to the next delimiter at `end` if `end` >= 0."""
         if not self._escaped:
-            return bytes(self._line[1 : LONGEST + 4])
-        raw = bytes(self._line[1 : end if end >= 0 else None])
+            return bytes(self._buffer[1 : LONGEST + 4])
+        raw = bytes(self._buffer[1 : end if end >= 0 else None])
         return ESCAPES.sub(lambda escape: bytes(byte ^ 0x20 for byte in escape[1]), raw)
 
 
 def encode(message: Message) -> bytes:
-    """The message as the data of a frame."""
+    """Frame data of the message."""
     match message:
         case TransmitRequest(number, address, data, options):
             return bytes((0x01, number)) + address.to_bytes(2, "big") + bytes((options,)) + data
@@ -218,7 +218,7 @@ def encode(message: Message) -> bytes:
 
 
 def decode(data: bytes) -> Message | None:
-    """What a frame's data says; None for a kind that is not ours or data too short for its kind."""
+    """Message in a frame's data; None for unsupported types and for data too short for its type."""
     match data[:1], list(data[1:]):
         case b"\x01", [number, high, low, options, *rest]:
             return TransmitRequest(number, high << 8 | low, bytes(rest), options)

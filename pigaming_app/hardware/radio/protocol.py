@@ -1,4 +1,4 @@
-"""What a link must know of those it talks to: how commands become bytes, and bytes telemetry."""
+"""The radio protocol interface of a link: commands to bytes, and bytes to telemetry."""
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol
@@ -7,31 +7,31 @@ from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 
 class LinkQuality(NamedTuple):
-    """How well a robot is heard."""
+    """Reception quality of a robot."""
 
-    share: float  # of the reports expected in the last seconds, 0 to 1
-    strength: int | None  # dBm of the newest report, where the radio tells
-    echo: float | None  # s from sending a command to the report that names it
+    share: float  # reports received / expected over the last seconds, 0 to 1
+    strength: int | None  # signal strength of the newest report, dBm; None if the radio does not measure it
+    echo: float | None  # round trip from sending a command to the report that acknowledges it, s
 
 
 class RadioProtocol(Protocol):
-    """How commands become bytes and bytes telemetry."""
+    """Encodes commands, decodes telemetry and diagnoses the radio."""
 
     @property
     def telemetry(self) -> Mapping[int, Telemetry]:
-        """The newest of every robot heard, by robot."""
+        """Newest telemetry of every robot received so far, by robot."""
 
     def open(self, now: float) -> bytes:
-        """The line is open, perhaps again: what to say first."""
+        """Reset for a newly opened line; returns the bytes to send first."""
 
     def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
-        """What to send to the robots 0 to 3; None stops."""
+        """Bytes that command the robots 0 to 3; None: stop."""
 
     def hear(self, heard: bytes, now: float) -> None:
-        """Take in what came, also when nothing came."""
+        """Process received bytes; called even when there are none."""
 
     def quality(self, robot: int, now: float) -> LinkQuality:
-        """How well a robot is heard."""
+        """Reception quality of a robot."""
 
     def trouble(self, now: float) -> tuple[str, str] | None:
-        """Reason and detail, see `serial_line.radio_message`, if the line is open but something is wrong."""
+        """Reason and detail (see `serial_line.radio_message`) of a fault on an open line, or None."""

@@ -1,9 +1,8 @@
-"""A serial line to a radio, which may be absent, in use, forbidden or pulled out at any moment.
+"""A serial line to a radio that may be absent, in use, denied or unplugged at any time.
 
-Opening reports what is wrong. A `SerialLine` never raises: it reads and writes what it can, and when the port
-is gone it tries again, at longer and longer intervals. A write that times out, because this computer or the radio is
-busy, leaves the port open; only a port that has taken nothing for STUCK seconds is reported. pyserial is imported when
-a port is opened, not before.
+A `SerialLine` never raises: it reports faults as `trouble` and reopens a lost port with exponential backoff. A write
+that times out because this computer or the radio is busy leaves the port open; only STUCK seconds without a successful
+write are a fault. pyserial is imported when a port is opened, not before.
 """
 
 import errno
@@ -20,15 +19,11 @@ try:
 except ImportError:  # Windows
     FAILURES: tuple[type[Exception], ...] = (OSError,)
 else:
-    FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is none
-CANNOT_OPEN: tuple[type[Exception], ...] = (
-    *FAILURES,
-    ImportError,
-    ValueError,
-)  # no pyserial; a baud rate that the port cannot have
+    FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is not
+CANNOT_OPEN: tuple[type[Exception], ...] = (*FAILURES, ImportError, ValueError)  # no pyserial; invalid baud rate
 
-BAUD = 57600  # bit/s, of the radios and of our firmware
-FIRST, LONGEST = 0.25, 2.0  # s between two attempts to open: doubled every time
+BAUD = 57600  # bit/s of the radios and of our firmware
+FIRST, LONGEST = 0.25, 2.0  # s between two attempts to open, doubled every time
 WRITE_TIMEOUT = 0.05  # s
 STUCK = 1.0  # s without a successful write after which a port is reported
 
@@ -37,7 +32,7 @@ OpenPort = Callable[[], SerialPort]
 
 @runtime_checkable
 class BufferedPort(Protocol):
-    """A port whose unsent bytes can be dropped, as pyserial's can."""
+    """A port with an output buffer that can be flushed, like pyserial's."""
 
     def reset_output_buffer(self) -> None: ...
 
@@ -49,7 +44,7 @@ ERRORS = {
     errno.EACCES: "denied",
     errno.EPERM: "denied",
     errno.EBUSY: "busy",
-    errno.EAGAIN: "busy",  # another program holds the lock that pyserial asks for
+    errno.EAGAIN: "busy",  # another program holds the lock that pyserial requests
     errno.ENOTTY: "wrong",
     errno.EINVAL: "wrong",
     errno.EISDIR: "wrong",
@@ -58,31 +53,31 @@ ERRORS = {
 
 
 def radio_message(reason: str, port: str, detail: str = "") -> OperatorMessage:
-    """Why there is no radio at a port; `reason` is a key of `hardware.radio_REASON`."""
+    """Operator message for a radio fault; `reason` selects the text `hardware.radio_REASON`."""
     return OperatorMessage(f"radio_{reason}", port=port, detail=detail)
 
 
 class PortInfo(NamedTuple):
     """A serial port of this computer."""
 
-    device: str  # what to open: /dev/ttyUSB0, COM3
-    description: str  # in words of the system
+    device: str  # path or name, e.g. /dev/ttyUSB0, COM3
+    description: str  # as given by the operating system
 
 
 def ports() -> list[PortInfo]:
-    """The serial ports of this computer, those on USB first; none where pyserial is missing."""
+    """Serial ports of this computer, USB first; empty if pyserial is missing."""
     try:
         from serial.tools import list_ports
     except ImportError:
         return []
-    found = sorted(list_ports.comports(), key=lambda port: (port.vid is None, port.device))
-    return [PortInfo(port.device, port.description or port.device) for port in found]
+    available = sorted(list_ports.comports(), key=lambda port: (port.vid is None, port.device))
+    return [PortInfo(port.device, port.description or port.device) for port in available]
 
 
 def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
-    """What opens a serial port of this computer for us alone. Two stop bits help a radio whose clock is slow."""
+    """A function that opens a serial port exclusively. Two stop bits help a radio with a slow clock."""
 
-    def open_it() -> SerialPort:
+    def open_port() -> SerialPort:
         import serial
 
         port: SerialPort = serial.Serial(
@@ -90,56 +85,56 @@ def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
         )
         return port
 
-    return open_it
+    return open_port
 
 
 def trouble_of(error: Exception, port: str) -> OperatorMessage:
-    """Why a port could not be opened."""
+    """Operator message for an error in opening a port."""
     if isinstance(error, ImportError):
         return radio_message("missing", port)
     number = next((word for word in error.args if isinstance(word, int)), None)
-    if number is None and (told := re.search(r"\((\d+),", str(error))):  # pyserial tucks it into its text
-        number = int(told[1])
+    if number is None and (match := re.search(r"\((\d+),", str(error))):  # pyserial puts errno into the text only
+        number = int(match[1])
     reason = ERRORS.get(number or 0, "failed")
-    if reason == "denied" and "PermissionError(13" in str(error):  # Windows says so of a port that is in use
+    if reason == "denied" and "PermissionError(13" in str(error):  # Windows reports a port in use as denied
         reason = "busy"
     return radio_message(reason, port, " ".join(str(error).split()).rstrip("."))
 
 
 class SerialLine:
-    """A port that is opened when it can be, and again when it was lost."""
+    """A port that opens when possible and reopens after it is lost."""
 
     def __init__(self, open_port: OpenPort, clock: Clock, name: str) -> None:
         self.trouble: OperatorMessage | None = None
         self.name = name
         self._open_port, self._clock = open_port, clock
         self._port: SerialPort | None = None
-        self._lost = False  # whether it was open before
-        self._again = float("-inf")  # s, when opening may be tried
+        self._was_open = False
+        self._retry_at = float("-inf")  # s, time of the next attempt to open
         self._pause = FIRST
-        self._held_up: float | None = None  # s, when writes began to time out
+        self._blocked_since: float | None = None  # s, time of the first of the present write timeouts
 
     @property
     def is_open(self) -> bool:
         return self._port is not None
 
     def open(self) -> bool:
-        """Open the port if it is closed and the time has come; whether it is open now and was not before."""
-        if self._port is not None or self._clock() < self._again:
+        """Try to open a closed port when a retry is due; True if this call opened it."""
+        if self._port is not None or self._clock() < self._retry_at:
             return False
         try:
             self._port = self._open_port()
         except CANNOT_OPEN as error:
             reason = trouble_of(error, self.name)
-            gone = self._lost and reason.key in ("radio_absent", "radio_dead")
+            gone = self._was_open and reason.key in ("radio_absent", "radio_dead")
             self.trouble = radio_message("unplugged", self.name) if gone else reason
             self._wait()
             return False
-        self.trouble, self._lost, self._pause, self._held_up = None, True, FIRST, None
+        self.trouble, self._was_open, self._pause, self._blocked_since = None, True, FIRST, None
         return True
 
     def read(self) -> bytes:
-        """What has come in; nothing while there is no port."""
+        """Bytes received since the last call; empty while the port is closed."""
         if self._port is None:
             return b""
         try:
@@ -149,32 +144,32 @@ class SerialLine:
             return b""
 
     def write(self, data: bytes) -> None:
-        """Send, or forget it while there is no port."""
+        """Write `data`; dropped while the port is closed."""
         if self._port is None or not data:
             return
         try:
             self._port.write(data)
         except FAILURES as error:
             if type(error).__name__ == "SerialTimeoutException":
-                self._hold_up(self._port)
+                self._timed_out(self._port)
             else:
                 self._lose()
             return
-        self._held_up = self.trouble = None
+        self._blocked_since = self.trouble = None
 
     def close(self) -> None:
-        """Close the port; it may be opened again."""
+        """Close the port; `open` may reopen it."""
         port, self._port = self._port, None
         if port is not None:
             with suppress(*FAILURES):
                 port.close()
 
-    def _hold_up(self, port: SerialPort) -> None:
-        """A write timed out. What waits in the buffer is dropped: by the time it got through, it would be stale."""
+    def _timed_out(self, port: SerialPort) -> None:
+        """Handle a write timeout: flush the buffer, as its commands would arrive stale."""
         now = self._clock()
-        if self._held_up is None:
-            self._held_up = now
-        if now - self._held_up >= STUCK:
+        if self._blocked_since is None:
+            self._blocked_since = now
+        if now - self._blocked_since >= STUCK:
             self.trouble = radio_message("stuck", self.name)
         if isinstance(port, BufferedPort):
             try:
@@ -188,5 +183,5 @@ class SerialLine:
         self._wait()
 
     def _wait(self) -> None:
-        self._again = self._clock() + self._pause
+        self._retry_at = self._clock() + self._pause
         self._pause = min(2 * self._pause, LONGEST)

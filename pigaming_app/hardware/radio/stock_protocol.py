@@ -1,8 +1,8 @@
-"""How the link talks to one 3pi as it is sold, with Pololu's serial-slave program, at 115200 baud: for the bench only.
+"""Protocol of a 3pi with factory firmware (Pololu's serial-slave program) at 115200 baud: for bench tests only.
 
-**This program has no deadman.** The motors hold what they were told last, also when the cable is pulled, this computer
-dies or the program is killed. The link still sends stop when nobody gives commands, and at its end, but that is all.
-Put the robot on blocks; in a match use our own firmware (hardware/firmware/).
+**The factory firmware has no deadman.** The motors keep their last command when the cable is unplugged, this computer
+crashes or the program is killed. The only protection is the link, which sends stop without new commands and at its end.
+Put the robot on blocks; for matches use our firmware (hardware/firmware/).
 """
 
 from collections.abc import Mapping, Sequence
@@ -12,18 +12,18 @@ from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 BAUD = 115200
-SIGNATURE, BATTERY = 0x81, 0xB1  # commands; asking for the signature also stops the motors
-FORWARD, BACK = (0xC1, 0xC5), (0xC2, 0xC6)  # commands of the left motor, M1, and of the right one, M2
-FULL = 127  # means 255 of 255; every other n means 2n
-ASK_EVERY = 0.2  # s between two questions for the battery
-PATIENCE = 0.5  # s for an answer
+SIGNATURE, BATTERY = 0x81, 0xB1  # commands; the signature query also stops the motors
+FORWARD, BACK = (0xC1, 0xC5), (0xC2, 0xC6)  # commands of the left motor (M1) and the right motor (M2)
+FULL = 127  # means speed 255 of 255; any other n means 2n
+ASK_EVERY = 0.2  # s between two battery queries
+PATIENCE = 0.5  # timeout of a reply, s
 NO_DEADMAN = OperatorMessage("radio_stock")
-NAME = b"3pi"  # what the signature begins with: 3pi1.1 and the like
-NAME_LENGTH, BATTERY_LENGTH = 6, 2  # bytes of the answers
+NAME = b"3pi"  # prefix of the signature, e.g. 3pi1.1
+NAME_LENGTH, BATTERY_LENGTH = 6, 2  # bytes of the replies
 
 
 def motors(wheels: WheelCommand | None) -> bytes:
-    """The commands that set both motors; None stops them."""
+    """Commands that set both motors; None: stop."""
     shares = wheels or WheelCommand(0.0, 0.0)
     return b"".join(_motor(*pair) for pair in zip(shares, FORWARD, BACK, strict=True))
 
@@ -34,49 +34,49 @@ def _motor(share: float, forward: int, back: int) -> bytes:
 
 
 class StockProtocol:
-    """The dialect of the serial-slave program, for the robot at the other end of this line."""
+    """RadioProtocol of the serial-slave program, for the only robot on this line."""
 
     def __init__(self, robot: int = 0) -> None:
         self._robot = robot
         self._telemetry: dict[int, Telemetry] = {}
-        self._waiting, self._expected = bytearray(), 0  # bytes that came, bytes that an answer will have
+        self._buffer, self._expected = bytearray(), 0  # bytes received, and length of the expected reply
         self.open(0.0)
 
     def open(self, now: float) -> bytes:
-        """Stop the motors and ask who is there."""
+        """Query the signature, which also stops the motors."""
         self._name = b""
         self._asked = self._answered = now
-        self._questions = self._answers = 0  # for and about the battery
-        return self._question(now)
+        self._queries = self._replies = 0  # of the battery
+        return self._query(now)
 
     @property
     def telemetry(self) -> Mapping[int, Telemetry]:
         return self._telemetry
 
     def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
-        """Both motors, and from time to time a question for the battery or, until it is known, the name."""
+        """Commands of both motors, and a periodic query of the battery, or of the signature while it is unknown."""
         asks = now - self._asked >= (ASK_EVERY if self._is_stock else PATIENCE)
-        return (self._question(now) if asks else b"") + motors(wheels[self._robot])
+        return (self._query(now) if asks else b"") + motors(wheels[self._robot])
 
     def hear(self, heard: bytes, now: float) -> None:
-        """Take in the answer; it carries no mark, so it is known by the question before it."""
-        self._waiting += heard
-        if len(self._waiting) < self._expected or not self._expected:
+        """Process the reply to the last query; replies carry no type of their own."""
+        self._buffer += heard
+        if len(self._buffer) < self._expected or not self._expected:
             return
-        answer, self._expected, self._answered = bytes(self._waiting[: self._expected]), 0, now
-        if len(answer) == NAME_LENGTH:
-            self._name = answer
+        reply, self._expected, self._answered = bytes(self._buffer[: self._expected]), 0, now
+        if len(reply) == NAME_LENGTH:
+            self._name = reply
         else:
-            self._answers += 1
-            self._telemetry[self._robot] = Telemetry(self._robot, int.from_bytes(answer, "little") / 1000, 0, now)
+            self._replies += 1
+            self._telemetry[self._robot] = Telemetry(self._robot, int.from_bytes(reply, "little") / 1000, 0, now)
 
     def quality(self, robot: int, now: float) -> LinkQuality:
-        """The share is of all questions for the battery since the line was opened."""
-        share = self._answers / self._questions if self._questions and robot == self._robot else 0.0
+        """Quality whose share is that of answered battery queries since the line was opened."""
+        share = self._replies / self._queries if self._queries and robot == self._robot else 0.0
         return LinkQuality(share, None, None)
 
     def trouble(self, now: float) -> tuple[str, str] | None:
-        """Something else answers, or nothing."""
+        """A foreign device, or no replies."""
         if self._name and not self._is_stock:
             return "stranger", ascii(self._name.decode("latin-1"))
         return ("mute", "") if now - self._answered > 2 * PATIENCE else None
@@ -85,9 +85,9 @@ class StockProtocol:
     def _is_stock(self) -> bool:
         return self._name.startswith(NAME)
 
-    def _question(self, now: float) -> bytes:
-        """Ask for the battery, or for the name as long as it is unknown."""
-        self._asked, self._waiting = now, bytearray()
+    def _query(self, now: float) -> bytes:
+        """Query of the battery, or of the signature while it is unknown."""
+        self._asked, self._buffer = now, bytearray()
         self._expected = BATTERY_LENGTH if self._is_stock else NAME_LENGTH
-        self._questions += self._is_stock
+        self._queries += self._is_stock
         return bytes((BATTERY if self._is_stock else SIGNATURE,))

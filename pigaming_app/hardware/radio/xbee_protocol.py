@@ -1,7 +1,7 @@
-"""How the link talks to our robots: packets broadcast through an XBee in API mode 1 or 2, or on a transparent line.
+"""Protocol of our firmware: packets broadcast through an XBee in API mode 1 or 2, or over a transparent line.
 
-In the API modes the radio answers every frame, so that silence means that there is none, and tells how strong a robot
-is heard. Transparent, the robots' reports are all that is known.
+In the API modes the radio acknowledges every frame, so silence means that it is missing, and it measures signal
+strength. On a transparent line the robots' reports are the only feedback.
 """
 
 from collections import Counter, deque
@@ -21,13 +21,13 @@ from pigaming_app.hardware.radio.packets import (
 from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
-REPORTS = 5  # a second, of every robot
+REPORTS = 5  # reports per second and robot
 WINDOW = 2.0  # s over which reports are counted
-SILENCE = 1.0  # s without an answer after which no radio is believed to be there
+SILENCE = 1.0  # s without an acknowledgement after which the radio counts as missing
 
 
 class XBeeMode(StrEnum):
-    """How the radio is set."""
+    """Mode of the radio, its AP parameter."""
 
     TRANSPARENT = "transparent"  # AP=0, or a cable
     API1 = "api1"
@@ -35,27 +35,29 @@ class XBeeMode(StrEnum):
 
 
 class XBeeProtocol:
-    """The dialect of our firmware."""
+    """RadioProtocol of our firmware."""
 
     def __init__(self, mode: XBeeMode = XBeeMode.API2) -> None:
         self.mode = mode
-        self.outcomes: Counter[int] = Counter()  # of broadcasts, by status: see packets.Outcome
+        self.outcomes: Counter[int] = Counter()  # broadcasts by status, see packets.TransmitStatus
         self.broadcasts = 0
         self._telemetry: dict[int, Telemetry] = {}
         self._strength: dict[int, int] = {}  # dBm, by robot
         self._echo: dict[int, float] = {}  # s, by robot
-        self._heard: dict[int, deque[float]] = {robot: deque(maxlen=int(REPORTS * WINDOW)) for robot in range(ROBOTS)}
+        self._reported: dict[int, deque[float]] = {
+            robot: deque(maxlen=int(REPORTS * WINDOW)) for robot in range(ROBOTS)
+        }  # s, times of reports by robot
         self._sent = [float("-inf")] * SEQUENCE  # s, by sequence number
         self._seq = 0
         self.open(0.0)
 
     def open(self, now: float) -> bytes:
-        """Forget half of what was heard; ask the radio for its mode."""
+        """Reset the decoders; query the radio's mode."""
         self._frames = packets.FrameDecoder(escaped=self.mode is XBeeMode.API2)
         self._packets: dict[int, packets.PacketDecoder] = {}  # by source
-        self._begun = self._understood = now
-        self._garbage = 0  # bytes, when something was understood last
-        self._set_to = ""  # the radio's mode, where it differs
+        self._opened = self._decoded = now  # s
+        self._garbage = 0  # bytes discarded until the last successful decoding
+        self._wrong_mode = ""  # the radio's mode if it is another one
         return b"" if self.mode is XBeeMode.TRANSPARENT else self._framed(packets.ATCommand(1, "AP"))
 
     @property
@@ -63,7 +65,7 @@ class XBeeProtocol:
         return self._telemetry
 
     def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
-        """One broadcast for all robots."""
+        """A broadcast for all robots."""
         self._seq = (self._seq + 1) % SEQUENCE
         self._sent[self._seq] = now
         self.broadcasts += 1
@@ -73,60 +75,60 @@ class XBeeProtocol:
         return self._framed(packets.TransmitRequest(1 + self.broadcasts % 255, BROADCAST, packet))
 
     def hear(self, heard: bytes, now: float) -> None:
-        """Take in what the radio and the robots say."""
+        """Process the frames of the radio and the reports of the robots."""
         if self.mode is XBeeMode.TRANSPARENT:
-            self._take_in(0, heard, now)
+            self._decode_reports(0, heard, now)
             if any(isinstance(packets.decode(data), ReceivedPacket) for data in self._frames.feed(heard)):
-                self._set_to = "1 or 2"
+                self._wrong_mode = "1 or 2"
             return
         for data in self._frames.feed(heard):
-            self._understand(now)
+            self._note_decoded(now)
             match packets.decode(data):
                 case ReceivedPacket(source, strength, _, part):
-                    for robot in self._take_in(source, part, now):
+                    for robot in self._decode_reports(source, part, now):
                         self._strength[robot] = strength
                 case TransmitStatus(_, status):
                     self.outcomes[status] += 1
                 case ATResponse(_, "AP", 0, value):
-                    self._set_to = "" if value == self._ap else str(int.from_bytes(value))
+                    self._wrong_mode = "" if value == self._ap else str(int.from_bytes(value))
 
     def quality(self, robot: int, now: float) -> LinkQuality:
-        """The share is of the reports of the last two seconds."""
-        expected = max(1.0, REPORTS * min(WINDOW, now - self._begun))
-        fresh = sum(heard > now - WINDOW for heard in tuple(self._heard[robot]))
+        """Quality over the last WINDOW seconds."""
+        expected = max(1.0, REPORTS * min(WINDOW, now - self._opened))
+        fresh = sum(time > now - WINDOW for time in tuple(self._reported[robot]))
         return LinkQuality(min(1.0, fresh / expected), self._strength.get(robot), self._echo.get(robot))
 
     def trouble(self, now: float) -> tuple[str, str] | None:
-        """A radio of another mode, noise, or silence."""
-        if self._set_to:
-            return "mode", self._set_to
-        if now - self._understood <= SILENCE:
+        """A radio in another mode, noise, or silence."""
+        if self._wrong_mode:
+            return "mode", self._wrong_mode
+        if now - self._decoded <= SILENCE:
             return None
-        if self._thrown_away() > self._garbage:
+        if self._discarded() > self._garbage:
             return "garbled", ""
         return None if self.mode is XBeeMode.TRANSPARENT else ("mute", "")
 
-    def _take_in(self, source: int, heard: bytes, now: float) -> list[int]:
-        """Note what robots say in these bytes; the robots, in the order of their reports."""
+    def _decode_reports(self, source: int, received: bytes, now: float) -> list[int]:
+        """Store the reports in these bytes; returns their robots in order."""
         robots = []
-        for packet in self._packets.setdefault(source, packets.PacketDecoder()).feed(heard):
-            self._understand(now)
+        for packet in self._packets.setdefault(source, packets.PacketDecoder()).feed(received):
+            self._note_decoded(now)
             if packet[0] == packets.REPORT and 1 <= packet[1] <= ROBOTS:
-                robots.append(self._note(packets.report_from(packet), now))
+                robots.append(self._store(packets.report_from(packet), now))
         return robots
 
-    def _note(self, report: RobotReport, now: float) -> int:
+    def _store(self, report: RobotReport, now: float) -> int:
         robot = report.address - 1
         self._telemetry[robot] = Telemetry(robot, report.millivolts / 1000, report.flags, now)
-        self._heard[robot].append(now)
-        if now - self._sent[report.seq] < 1.0:  # else it tells of a broadcast long ago, of the same number
+        self._reported[robot].append(now)
+        if now - self._sent[report.seq] < 1.0:  # else it acknowledges an old broadcast with the same number
             self._echo[robot] = now - self._sent[report.seq]
         return robot
 
-    def _understand(self, now: float) -> None:
-        self._understood, self._garbage = now, self._thrown_away()
+    def _note_decoded(self, now: float) -> None:
+        self._decoded, self._garbage = now, self._discarded()
 
-    def _thrown_away(self) -> int:
+    def _discarded(self) -> int:
         frames = 0 if self.mode is XBeeMode.TRANSPARENT else self._frames.garbage
         return frames + sum(decoder.garbage for decoder in self._packets.values())
 

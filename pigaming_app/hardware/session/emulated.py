@@ -1,4 +1,4 @@
-"""Emulated robots: a calibrated emulated arena, in real time for people, in simulated time for tests and jobs."""
+"""The robot session of the emulator: a calibrated emulated arena, in real time for play, in simulated time for jobs."""
 
 from collections.abc import Callable
 from math import inf
@@ -21,21 +21,21 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
 
-AHEAD = 0.03  # s by which the arena's time may run ahead of the pictures of the window
-DIM = 0.015  # s between two pictures that fall on the emulated mat
-SLICE = 0.5 * DT  # s of simulated time in which arena and rig take turns
-DARK = (1080, 1920)  # px of a picture of nothing
-FPS = 30.0  # of the emulated camera
-WHOLE, QUICK = 3, 30  # every which picture of it is painted whole, in real and in simulated time
-SEARCH = 10.0  # s in which all robots must be found
+AHEAD = 0.03  # s by which the arena's clock may lead the window's frames
+DIM = 0.015  # s between two images projected on the emulated mat
+SLICE = 0.5 * DT  # s of simulated time after which arena and rig alternate
+DARK = (1080, 1920)  # px, size of a black image
+FPS = 30.0  # frames/s of the emulated camera
+WHOLE, QUICK = 3, 30  # interval of complete renders, frames: in real and in simulated time
+SEARCH = 10.0  # timeout for finding all robots, s
 
 
 class EmulatedSession:
-    """The emulated arena of a seed. `live`: its time passes like the real one; else in `advance` alone.
+    """The emulated arena of a seed. `live`: it runs in real time; else its time passes only in `advance`.
 
-    `projection` is `Canvas.projection`, and chooses the calibration that the wizard has kept; None: the one that is
-    made with the arena, or `ground`. `lighting` lights the mat where there is no window to `show`. `pace`, `air` and
-    `unrest` (share of an exposure step) are how well the arena delivers.
+    `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
+    session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
+    `show`. `pace`, `air` and `unrest` (size of exposure steps, as a share) set the quality of camera and radio.
     """
 
     emulated = True
@@ -59,7 +59,7 @@ class EmulatedSession:
         self._made = ground
         self._rig: Rig | None = None
         self._time: PacedArena | None = None
-        self._lit = self._now = -1.0  # s of the arena's clock: when it was last lit, and asked for the time
+        self._lit = self._now = -1.0  # s of the arena's clock: last projection, and last `advance`
 
     @property
     def trouble(self) -> OperatorMessage | None:
@@ -67,7 +67,7 @@ class EmulatedSession:
 
     @property
     def arena(self) -> "EmulatedArena":
-        """The arena, made and calibrated when it is first needed; then its time passes. Raises RobotsUnavailable."""
+        """The arena, created and calibrated on first use; a live one then runs. Raises RobotsUnavailable."""
         if self._arena is None:
             from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
 
@@ -84,7 +84,7 @@ class EmulatedSession:
 
     @property
     def ground(self) -> "GroundPlane":
-        """The calibration of the wizard, or else the one that was made with the arena. Raises RobotsUnavailable."""
+        """The calibration saved by the wizard, or else the one made with the arena. Raises RobotsUnavailable."""
         from pigaming_app.hardware.calibration.ground_plane import CalibrationError
         from pigaming_app.hardware.session import store
 
@@ -99,7 +99,7 @@ class EmulatedSession:
 
     @property
     def newest(self) -> "CameraFrame | None":
-        """The newest picture that the camera gave out."""
+        """The newest frame of the emulated camera."""
         return self._arena.camera.last if self._arena else None
 
     @property
@@ -128,9 +128,9 @@ class EmulatedSession:
         return self._rig
 
     def find(self) -> None:
-        """Let the tracker find the robots on a dark floor, then show a busy one.
+        """Wait until the tracker has found all robots on a dark floor, then show a busy one.
 
-        Needs `lighting`. Raises RuntimeError if that takes more than SEARCH s.
+        Needs `lighting`. Raises RuntimeError after SEARCH s.
         """
         assert self.lighting is not None
         rig = self.open()
@@ -142,14 +142,14 @@ class EmulatedSession:
         raise RuntimeError("the tracker does not find all robots")
 
     def listen(self) -> "Link | None":
-        """None: where there is no arena, there is no radio."""
+        """Always None: without an arena there is no radio either."""
         return None
 
     def tick(self) -> None:
         self.advance(DT)
 
     def advance(self, seconds: float) -> float:
-        """Let time pass in the arena; less passes than asked for where this computer is too slow."""
+        """Advance the arena by `seconds`; returns the time that passed, less if this computer is too slow."""
         if self._rig is None:
             return seconds
         if self._time is None:
@@ -163,9 +163,9 @@ class EmulatedSession:
         return self._now - before
 
     def show(self, pixels: Callable[[], Any]) -> None:
-        """The window's picture falls on the mat, once there is one: (height, width, 4), blue first.
+        """Project the window on the mat, if there is one. `pixels` returns a BGRA image, (height, width, 4).
 
-        `pixels` is called only when the projector is due.
+        It is called only when the projector is due.
         """
         if self._arena is not None and self._arena.clock() - self._lit > DIM:
             self._lit = self._arena.clock()
@@ -174,7 +174,7 @@ class EmulatedSession:
             Projector(self._arena).see(pixels())
 
     def close(self) -> None:
-        """Stop the robots and let go of camera and radio; the arena's time goes on."""
+        """Stop the robots and release camera and radio; the arena keeps running."""
         rig, self._rig = self._rig, None
         if rig is not None:
             rig.close()
@@ -197,11 +197,11 @@ class EmulatedSession:
         refresh = WHOLE if self.live else QUICK
         arena = EmulatedArena(self.seed, self._pace or FrameTiming(FPS), self._air or MODERATE, refresh, self._unrest)
         self._made = self._made or calibrated(arena)
-        arena.project(np.zeros(DARK, np.uint8))  # until the window shows something
+        arena.project(np.zeros(DARK, np.uint8))  # until the window renders
         return arena
 
     def _light(self, rig: "Rig") -> None:
-        """Project the floor, and a disc where each robot will be when the light lands."""
+        """Project the floor, and a disc at each robot's predicted position when the light lands."""
         if self.lighting is not None:
             from pigaming_app.hardware.emulator.arena import SHOWS_AFTER
 
@@ -209,7 +209,7 @@ class EmulatedSession:
 
 
 def calibrated(arena: "EmulatedArena") -> "GroundPlane":
-    """The calibration of an arena, found and verified as the wizard does it. Raises CalibrationError."""
+    """Calibrate an arena and verify the result, by the wizard's procedure. Raises CalibrationError."""
     from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
     from pigaming_app.hardware.calibration.ground_plane import CalibrationError
     from pigaming_app.hardware.calibration.procedure import Calibration

@@ -1,4 +1,4 @@
-"""The light on an emulated mat without a window: a floor as games show it, and a grey disc under every robot."""
+"""Projected light for an emulated mat without a window: a floor like a game's, and a grey disc under every robot."""
 
 from collections.abc import Sequence
 
@@ -10,13 +10,13 @@ from pigaming_app.hardware.signals import Image
 from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.sim.plant import Sighting
 
-DISC = 72.0  # px: 95 mm; light from the side falls on a lid 70 mm up as much as 40 mm beside where it would on the mat
+DISC = 72.0  # px radius: 95 mm; oblique light is displaced by up to 40 mm on a lid 70 mm above the mat
 GREY = 128
-FARTHEST = 5000.0  # px: beyond, a robot was never seen
+FARTHEST = 5000.0  # px; positions beyond are placeholders of robots that were never seen
 
 
 class Lighting:
-    """A dark floor, or one with the hard edges of a game, each with the corner markers. Raises OpenCVMissing."""
+    """A dark floor and a busy one with hard edges, both with the corner markers. Raises OpenCVMissing."""
 
     def __init__(self, seed: int) -> None:
         self._busy, self._dark = busy_floor(seed), np.zeros((CANVAS[1], CANVAS[0]), np.uint8)
@@ -26,11 +26,11 @@ class Lighting:
         self.show(busy=False)
 
     def show(self, busy: bool) -> None:
-        """Show a floor as games have them, or a dark one."""
+        """Select the busy floor or the dark one."""
         self.floor = self._busy if busy else self._dark
 
     def picture(self, robots: Sequence[Sighting]) -> Image:
-        """The floor with a disc under each of these robots: (1080, 1920), grey."""
+        """The floor with a disc under each of these robots, grey, (1080, 1920)."""
         cv, page = opencv(), self.floor.copy()
         for robot in robots:
             if abs(robot.x) < FARTHEST and abs(robot.y) < FARTHEST:
@@ -40,7 +40,7 @@ class Lighting:
 
 
 def busy_floor(seed: int) -> Image:
-    """A floor as games have them, with hard edges: dark, with bright walls, lines and texts."""
+    """A dark floor with 60 random bright bars and frames, grey, (1080, 1920)."""
     cv, random = opencv(), np.random.default_rng(seed)
     page = np.full((CANVAS[1], CANVAS[0]), 12, np.uint8)
     for _ in range(60):

@@ -1,6 +1,6 @@
-"""Real robots: the camera and the radio of the settings, with the calibration and the measured robots of the user.
+"""The session of real robots: camera and radio of the settings, the user's calibration and identified drivetrains.
 
-A camera or radio that is missing or broken at first may be plugged in later: both report their fault and try again.
+A missing or broken camera or radio may be plugged in later: both report their fault and retry.
 """
 
 import time
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.signals import CameraFrame, CameraSource
 
-STOCK = "stock"  # one robot as it is sold, on a cable
+STOCK = "stock"  # radio setting: a single robot with factory firmware, on a cable
 NO_PORT = "no serial port"
 
 
 class RealSession:
-    """The robots of these settings. `projection` is `Canvas.projection`; None: of whichever display was calibrated."""
+    """The robots of these settings. `projection` is `Canvas.projection`; None accepts a calibration of any display."""
 
     emulated = False
 
@@ -33,7 +33,7 @@ class RealSession:
         self.mm = 0.0
         self._rig: Rig | None = None
         self._link: Link | None = None
-        self._next = time.monotonic()  # s, when the next tick is due
+        self._next = time.monotonic()  # s, time of the next tick
 
     @property
     def trouble(self) -> OperatorMessage | None:
@@ -66,7 +66,7 @@ class RealSession:
                 raise RobotsUnavailable(trouble.message) from trouble
             except (DrivetrainError, ImportError) as trouble:
                 raise RobotsUnavailable(OperatorMessage("robots_file", detail=trouble)) from trouble
-            rig.channels = tuple(one - 1 for one in self.settings.radios)
+            rig.channels = tuple(radio - 1 for radio in self.settings.radios)
             self.mm, self._rig = ground.mm, rig.start()
         return self._rig
 
@@ -93,7 +93,7 @@ class RealSession:
         self.close()
 
     def _new_link(self) -> "Link":
-        """The link of the settings, not yet started. A port that does not open is its `trouble`."""
+        """The link of the settings, not started. A port that does not open is reported as its `trouble`."""
         from pigaming_app.hardware.radio.link import Link
         from pigaming_app.hardware.radio.serial_line import ports, serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
@@ -107,7 +107,7 @@ class RealSession:
 
 
 class SizedCamera:
-    """A camera whose pictures must be as large as those it was calibrated with: others would misplace every robot."""
+    """A camera that drops frames of another size than the calibrated one, which would misplace every robot."""
 
     def __init__(self, camera: "CameraSource", ground: "GroundPlane") -> None:
         self.camera, self.ground = camera, ground
@@ -115,11 +115,11 @@ class SizedCamera:
 
     @property
     def trouble(self) -> OperatorMessage | None:
-        """The fault of the camera, or of its pictures' size."""
+        """Fault of the camera, or of its frame size."""
         return self.camera.trouble or self._misfit
 
     def newest(self) -> "CameraFrame | None":
-        """The newest frame that was not given out before, or None."""
+        """The newest frame, once; None if there is none since the last call, or if it has the wrong size."""
         from pigaming_app.hardware.calibration.ground_plane import misfit
 
         frame = self.camera.newest()
@@ -130,5 +130,5 @@ class SizedCamera:
         return frame if self._misfit is None else None
 
     def close(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         self.camera.close()

@@ -1,7 +1,7 @@
-"""A robot session: everything outside the computer that robots need, real or emulated, and its parts while in use.
+"""The robot session: lifecycle of camera, tracker and radio, real or emulated.
 
-`open` starts camera, tracker and radio for a match, a page or a job; `close` stops the robots and ends every thread.
-The session watches the projected corner markers, so that every rig it opens knows by how much the camera has moved.
+`open` starts them for a match, a page or a job; `close` stops the robots and ends all threads. Every rig that a session
+opens also measures, from the projected corner markers, how far the camera has drifted since its calibration.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pigaming_app.sim.drivetrain import Drivetrain
     from pigaming_app.storage.settings import Settings
 
-LIGHT_AFTER = 0.035  # s from a picture being painted until its light lands on the mat
+LIGHT_AFTER = 0.035  # s from rendering an image until its light reaches the mat
 
 
 class RobotsUnavailable(OperatorError):
@@ -33,33 +33,33 @@ class RobotSession(Protocol):
 
     @property
     def trouble(self) -> OperatorMessage | None:
-        """A fault of camera or radio; None: there is none, or they are not in use."""
+        """Fault of camera or radio; None if there is none, or if they are not in use."""
 
     @property
     def site(self) -> "CalibrationSite":
-        """The same mat for the calibration. Raises RobotsUnavailable."""
+        """Interface to this mat for calibration. Raises RobotsUnavailable."""
 
     @property
     def mm(self) -> float:
-        """Mm of the mat to an arena px; only while it is open."""
+        """mm of the mat per arena px, valid while the session is open."""
 
     def open(self) -> "Rig":
-        """Start camera, tracker and radio, or go on with those in use. Raises RobotsUnavailable."""
+        """Start camera, tracker and radio, or return the running rig. Raises RobotsUnavailable."""
 
     def listen(self) -> "Link | None":
-        """The radio alone, where `open` raises; None: there is none either."""
+        """The radio alone, for use when `open` raises; None if there is none either."""
 
     def tick(self) -> None:
-        """Wait until 1/50 s has passed since the last time, or let it pass in simulated time."""
+        """Sleep until 1/50 s after the last call, or advance simulated time by 1/50 s."""
 
     def advance(self, seconds: float) -> float:
-        """Let simulated time pass; the s that have passed. Real time passes by itself."""
+        """Advance simulated time by `seconds`; returns the time that passed, s. Real time passes by itself."""
 
     def close(self) -> None:
-        """Stop the robots and end the threads of camera, tracker and radio. May be called again."""
+        """Stop the robots and end the threads of camera, tracker and radio. Idempotent; `open` may follow."""
 
     def end(self) -> None:
-        """Close for good."""
+        """Close for good, including an emulated arena."""
 
 
 def new_rig(
@@ -70,7 +70,7 @@ def new_rig(
     drivetrains: "Sequence[Drivetrain]",
     tracker: "type[Tracker] | None" = None,
 ) -> "Rig":
-    """A rig whose tracker also measures the drift of the camera. Raises OpenCVMissing."""
+    """A rig whose tracker also measures camera drift. Raises OpenCVMissing."""
     from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -81,7 +81,7 @@ def new_rig(
 
 
 def unfit(settings: "Settings") -> OperatorMessage | None:
-    """Why no match may begin with robots on the radio of these settings, emulated ones included; None: it may."""
+    """Operator message if these settings forbid matches (factory firmware has no deadman), else None."""
     if settings.radio != "stock":
         return None
     from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
@@ -90,12 +90,12 @@ def unfit(settings: "Settings") -> OperatorMessage | None:
 
 
 def trouble_of(rig: "Rig") -> OperatorMessage | None:
-    """The fault of a rig's camera, or else of its radio."""
+    """Fault of a rig's camera, or else of its radio."""
     return rig.camera.trouble or rig.link.trouble
 
 
 def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:
-    """The message of the part that a fault of `safety` is about, if there is one."""
+    """Message of the camera or radio behind a fault of `safety`, or None."""
     if fault == "camera":
         return rig.camera.trouble
     return rig.link.trouble if fault == "radio" else None

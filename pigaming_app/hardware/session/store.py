@@ -1,6 +1,6 @@
-"""The user's files about real robots: the calibration of each site, the measured robots, and which radio drives which.
+"""The user's robot files: calibration by site, identified drivetrains, and the mapping of radios to robots.
 
-Those of the emulated arena have names of their own, so that they never replace those of the real one.
+Files of the emulated arena have separate names, so they never overwrite those of the real one.
 """
 
 from collections.abc import Sequence
@@ -17,15 +17,14 @@ from pigaming_app.storage.settings import Settings, folders
 
 
 def calibration_file(site: str) -> Path:
-    """The calibration of the site with this name: `real` or `emulated`."""
+    """Calibration file of a site, `real` or `emulated`."""
     return folders().config / ("calibration.toml" if site == "real" else f"calibration-{site}.toml")
 
 
 def load(path: Path, projection: str | None = None, camera: tuple[int, int] | None = None) -> GroundPlane:
-    """The calibration in a file.
+    """Load a calibration. Raises CalibrationError.
 
-    With a `projection` (`Canvas.projection`) or the size of a `camera`'s pictures (px), one made with another is
-    refused. Raises CalibrationError.
+    A calibration made with another `projection` (`Canvas.projection`) or another frame size `camera` (px) is rejected.
     """
     try:
         text = read_text(path)
@@ -37,28 +36,28 @@ def load(path: Path, projection: str | None = None, camera: tuple[int, int] | No
 
 
 def save(ground: GroundPlane, path: Path) -> None:
-    """Keep a calibration; the one before stays beside it as `.bak`. Raises NotSaved."""
+    """Save a calibration, keeping the previous one as `.bak`. Raises NotSaved."""
     write_with_backup(path, written(ground))
 
 
 def robots_file(emulated: bool) -> Path:
-    """The drivetrains that `fidelity` has identified."""
+    """File of the drivetrains identified by `fidelity`."""
     return folders().config / ("robots-emulated.toml" if emulated else "robots.toml")
 
 
 def load_robots(path: Path) -> tuple[Drivetrain, ...]:
-    """The drivetrains in a file, and unmeasured ones for the other robots. Raises DrivetrainError."""
+    """Drivetrains of all robots, UNMEASURED where the file has none. Raises DrivetrainError."""
     try:
-        found = parse(read_text(path), path.name)
+        measured = parse(read_text(path), path.name)
     except FileNotFoundError:
-        found = ()
+        measured = ()
     except (OSError, ParseError) as error:
         raise DrivetrainError(f"{path.name}: cannot be read ({describe_error(error)})") from None
-    return (*found, *(UNMEASURED,) * (ROBOTS - len(found)))
+    return (*measured, *(UNMEASURED,) * (ROBOTS - len(measured)))
 
 
 def save_radios(channels: Sequence[int]) -> None:
-    """Keep in the settings which radio, counted from 0, drives each robot. Raises NotSaved."""
+    """Save the radio of each robot, counted from 0, in the settings. Raises NotSaved."""
     config = folders().config
     settings, _ = Settings.load(config)
     settings.radios = [channel + 1 for channel in channels]

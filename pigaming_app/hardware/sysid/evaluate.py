@@ -1,7 +1,7 @@
-"""How true the simulator is to the real robots: horizon errors before and after they were measured, and replays.
+"""Fidelity of the simulator: prediction errors before and after identification, and open-loop replays.
 
-A model is asked where a robot will be in one, two and five seconds, knowing only what it will be told and where it was
-seen in the half second before. What is asked lies in the part of the run that was not used to identify the robot.
+A model predicts a robot's pose one, two and five seconds ahead from its commands and its fixes of the last half second.
+Predictions are evaluated on the part of the recording that was held out from identification.
 """
 
 from collections.abc import Sequence
@@ -18,37 +18,37 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
 
 HORIZONS = (1.0, 2.0, 5.0)  # s
-BEFORE = 0.5  # s in which the robot is watched before a prediction
+BEFORE = 0.5  # s of fixes that place the start of a prediction
 EVERY = 0.5  # s between predictions
-HELD_OUT = 0.35  # share of a run, its end, that is not used to identify
-FEWEST = 6  # fixes in the half second before
-SHORTEST = 20.0  # s
-WAY, TURN = 1500.0, 3.0  # px and rad that a robot must have driven and turned
-ODD = 2.0  # times a number may differ from the nominal one
+HELD_OUT = 0.35  # share at the end of a recording that is held out from identification
+FEWEST = 6  # fixes needed to place a start
+SHORTEST = 20.0  # s, shortest usable recording
+WAY, TURN = 1500.0, 3.0  # px and rad of motion needed for identification
+ODD = 2.0  # largest plausible ratio of a parameter to its nominal value
 
 
 class RecordingTooShort(OperatorError):
-    """A run from which no robot can be identified."""
+    """No robot can be identified from a recording."""
 
 
 class PredictionErrors(NamedTuple):
-    """Root mean squares of a model's predictions at each of HORIZONS."""
+    """Root mean square errors of a model's predictions at each of HORIZONS."""
 
     mm: tuple[float, ...]
     degrees: tuple[float, ...]
 
 
 class Identification(NamedTuple):
-    """What came out for one robot."""
+    """Result for one robot."""
 
     robot: int
     drivetrain: Drivetrain
-    before: PredictionErrors  # by the nominal drivetrain
-    after: PredictionErrors
+    before: PredictionErrors  # of the nominal drivetrain
+    after: PredictionErrors  # of the identified drivetrain
 
 
 class Prediction(NamedTuple):
-    """One look ahead: where the robot was seen (m, 3), and where the model has it at the same times."""
+    """One prediction: times (m,), observed poses (m, 3) and predicted poses (m, 3) at the same times."""
 
     seen_at: Floats
     seen: Floats
@@ -56,46 +56,49 @@ class Prediction(NamedTuple):
 
 
 def measure(run: Recording, nominal: Drivetrain = NOMINAL) -> list[Identification]:
-    """Identify every robot of a run that drove about, and say how good the model was and is. Raises RecordingTooShort.
+    """Identify every robot of a recording and evaluate both models. Raises RecordingTooShort.
 
-    Robots that hardly moved, or whose numbers make no sense, are left out.
+    Robots that hardly moved, or whose parameters are implausible, are left out.
     """
     verdicts = []
     for robot, course in run.courses.items():
         begin, end = course.seen_at[0], course.seen_at[-1]
         if end - begin < SHORTEST:
-            watched = {"seconds": f"{end - begin:.0f}", "needed": f"{SHORTEST:.0f}"}
-            raise RecordingTooShort(OperatorMessage("run_short", robot=robot + 1, **watched))
+            lengths = {"seconds": f"{end - begin:.0f}", "needed": f"{SHORTEST:.0f}"}
+            raise RecordingTooShort(OperatorMessage("run_short", robot=robot + 1, **lengths))
         cut = end - HELD_OUT * (end - begin)
-        found = identify(course.between(begin, cut), nominal) if drove(course) else None
-        if found is None or not sensible(found, nominal):
+        identified = identify(course.between(begin, cut), nominal) if drove(course) else None
+        if identified is None or not sensible(identified, nominal):
             continue
         rest = course.between(cut, end + 1.0)
-        verdicts.append(Identification(robot, found, errors(rest, nominal, run.mm), errors(rest, found, run.mm)))
+        before, after = errors(rest, nominal, run.mm), errors(rest, identified, run.mm)
+        verdicts.append(Identification(robot, identified, before, after))
     if not verdicts:
         raise RecordingTooShort(OperatorMessage("run_still"))
     return verdicts
 
 
 def drove(course: RobotRecording) -> bool:
-    """Whether a robot went and turned so much that its wheels can be known from it."""
+    """True if a robot moved and turned enough for its wheels to be identified."""
     way = np.hypot(*np.diff(course.poses[::10, :2], axis=0).T).sum()
     return bool(way > WAY and np.ptp(course.poses[:, 2]) > TURN)
 
 
-def sensible(found: Drivetrain, nominal: Drivetrain) -> bool:
-    """Whether a robot can be like that."""
-    ratios = (found.left.speed / nominal.left.speed, found.right.speed / nominal.right.speed, found.base / nominal.base)
-    bands = max(found.left.deadband, found.right.deadband)
-    return all(1.0 / ODD < ratio < ODD for ratio in ratios) and bands < 0.3
+def sensible(drivetrain: Drivetrain, nominal: Drivetrain) -> bool:
+    """True if the parameters are plausible for a robot."""
+    left, right = drivetrain.left, drivetrain.right
+    ratios = left.speed / nominal.left.speed, right.speed / nominal.right.speed, drivetrain.base / nominal.base
+    return all(1.0 / ODD < ratio < ODD for ratio in ratios) and max(left.deadband, right.deadband) < 0.3
 
 
 def errors(course: RobotRecording, drivetrain: Drivetrain, mm: float) -> PredictionErrors:
-    """How far off predictions over this course are."""
+    """Errors of the predictions over this recording; NaN at horizons without any."""
     lengths, angles = [], []
     for horizon in HORIZONS:
         misses = [
-            (one.seen - one.predicted)[-1] for one in predictions(course, drivetrain, horizon) if len(one.seen_at)
+            (ahead.seen - ahead.predicted)[-1]
+            for ahead in predictions(course, drivetrain, horizon)
+            if len(ahead.seen_at)
         ]
         miss = np.array(misses) if misses else np.full((1, 3), np.nan)
         lengths.append(float(np.sqrt(np.mean(miss[:, 0] ** 2 + miss[:, 1] ** 2)) * mm))
@@ -104,26 +107,25 @@ def errors(course: RobotRecording, drivetrain: Drivetrain, mm: float) -> Predict
 
 
 def predictions(course: RobotRecording, drivetrain: Drivetrain, horizon: float) -> list[Prediction]:
-    """Looks `horizon` s ahead, one every EVERY s; each holds the fixes from its beginning to its end."""
+    """Predictions over `horizon` s, one every EVERY s, each at the times of its fixes."""
     times = course.seen_at
     there = track(course, drivetrain, times[0], times[-1]).at(times)
-    found = []
+    ahead = []
     for now in np.arange(times[0] + BEFORE, times[-1] - horizon + 1e-9, EVERY):
         first, middle, last = np.searchsorted(times, (now - BEFORE, now, now + horizon + 1e-6))
         if middle - first < FEWEST or last <= middle or times[last - 1] < now + horizon - 0.1:
             continue
-        one = np.array([0])
-        _, move = placed(there[first:middle], course.poses[first:middle], one)
-        predicted = shifted(there[first:last], one, move)[middle - first :]
-        found.append(Prediction(times[middle:last], course.poses[middle:last], predicted))
-    return found
+        only = np.array([0])  # a single piece
+        _, move = placed(there[first:middle], course.poses[first:middle], only)
+        predicted = shifted(there[first:last], only, move)[middle - first :]
+        ahead.append(Prediction(times[middle:last], course.poses[middle:last], predicted))
+    return ahead
 
 
 def replay(run: Recording, drivetrains: Sequence[Drivetrain]) -> dict[int, Prediction]:
-    """Play a run again in the simulator: robots with these drivetrains are told what the real ones were told.
+    """Replay the commands of a recording in the simulator, with these drivetrains; predictions by robot.
 
-    They begin where the real ones were first seen and never hear of them again; what comes back is where they were
-    when the real ones were seen.
+    Robots start at the first fix of the real ones and run open loop from there.
     """
     world: Any = World()
     for robot, course in run.courses.items():
@@ -136,21 +138,22 @@ def replay(run: Recording, drivetrains: Sequence[Drivetrain]) -> dict[int, Predi
     end = max(course.seen_at[-1] for course in run.courses.values())
     times = np.arange(begin, end, DT)
     ways = np.zeros((len(times), ROBOTS, 3))
-    asked = {robot: _asked(course, drivetrains[robot], times) for robot, course in run.courses.items()}
+    twists = {robot: _commanded(course, drivetrains[robot], times) for robot, course in run.courses.items()}
     for tick in range(len(times)):
-        ways[tick] = [(one.x, one.y, one.heading) for one in world.robots]
-        plant.drive([asked[i][tick] if i in asked else (0.0, 0.0) for i in range(ROBOTS)], DT)
+        ways[tick] = [(simulated.x, simulated.y, simulated.heading) for simulated in world.robots]
+        plant.drive([twists[i][tick] if i in twists else (0.0, 0.0) for i in range(ROBOTS)], DT)
     ways[:, :, 2] = np.unwrap(ways[:, :, 2], axis=0)
     return {robot: _seen_along(course, times, ways[:, robot]) for robot, course in run.courses.items()}
 
 
-def _asked(course: RobotRecording, drivetrain: Drivetrain, times: Floats) -> list[tuple[float, float]]:
-    """The twist that was in force at each time."""
+def _commanded(course: RobotRecording, drivetrain: Drivetrain, times: Floats) -> list[tuple[float, float]]:
+    """Commanded twist at each time."""
     acting = np.searchsorted(course.told_at, times + 0.5 * DT, side="right") - 1
     return [twist(drivetrain, *course.wheels[i]) if i >= 0 else (0.0, 0.0) for i in acting]
 
 
 def _seen_along(course: RobotRecording, times: Floats, way: Floats) -> Prediction:
-    kept = course.seen_at <= times[-1]
-    at = course.seen_at[kept]
-    return Prediction(at, course.poses[kept], np.column_stack([np.interp(at, times, way[:, i]) for i in range(3)]))
+    """Simulated poses `way` (n, 3) at `times` (n,), interpolated at the times of the fixes."""
+    covered = course.seen_at <= times[-1]
+    at = course.seen_at[covered]
+    return Prediction(at, course.poses[covered], np.column_stack([np.interp(at, times, way[:, i]) for i in range(3)]))

@@ -1,4 +1,4 @@
-"""A dance that tells much about a robot's wheels: all speeds, all bends, slow and fast, each held for a moment."""
+"""Excitation for identification: random twists of all speeds and curvatures, each held for a moment."""
 
 from collections.abc import Sequence
 from math import atan2, cos, sin, sqrt
@@ -10,12 +10,12 @@ from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
 SHORT, LONG = 0.3, 1.0  # s for which a step is held
 FAST, SPIN = 320.0, 3.0  # px/s, rad/s
-SLOW = 0.3  # share of the steps that are slow
-ROOM = 170.0  # px from the edge, or from another robot, at which it turns back
+SLOW = 0.3  # share of slow steps
+ROOM = 170.0  # px from an edge or another robot within which a step leads away
 
 
 class ExcitationPattern:
-    """What the robots are asked, by the clock; the same seed dances the same steps."""
+    """Random twists for all robots; equal seeds draw equal steps."""
 
     def __init__(self, seed: int = 1) -> None:
         self._random = Random(f"dance {seed}")
@@ -23,7 +23,7 @@ class ExcitationPattern:
         self._step: list[Twist] = [(0.0, 0.0)] * ROBOTS
 
     def twists(self, now: float, sightings: Sequence[Sighting]) -> list[Twist]:
-        """What to ask of each robot now."""
+        """Twist of each robot at time `now` (s), px/s and rad/s."""
         for robot, seen in enumerate(sightings):
             if now < self._until[robot]:
                 continue
@@ -32,20 +32,20 @@ class ExcitationPattern:
         return self._step
 
     def _drawn(self, seen: Sighting, away: tuple[float, float]) -> Twist:
-        """Any step; near an edge or another robot, one that leads away from it."""
+        """A random step; near an edge or another robot, one that leads away from it."""
         random = self._random
         scale = 0.2 if random.random() < SLOW else 1.0
         speed, turn = scale * random.uniform(-FAST, FAST), scale * random.uniform(-SPIN, SPIN)
         if away != (0.0, 0.0):
             ahead = away[0] * cos(seen.heading) + away[1] * sin(seen.heading)
             speed = abs(speed) if ahead > 0.0 else -abs(speed)
-            wished = turn_to(atan2(away[1], away[0]) - seen.heading - (0.0 if ahead > 0.0 else 3.14159))
-            turn = abs(turn) if wished > 0.0 else -abs(turn)
+            wanted = turn_to(atan2(away[1], away[0]) - seen.heading - (0.0 if ahead > 0.0 else 3.14159))
+            turn = abs(turn) if wanted > 0.0 else -abs(turn)
         return speed, turn
 
 
 def _repelled(robot: int, sightings: Sequence[Sighting]) -> tuple[float, float]:
-    """The direction away from what is near; (0, 0) if nothing is."""
+    """Direction away from close edges and robots, px; (0, 0) if there are none."""
     own = sightings[robot]
     x = max(0.0, ROOM - own.x) - max(0.0, own.x - (WIDTH - ROOM))
     y = max(0.0, ROOM - own.y) - max(0.0, own.y - (HEIGHT - ROOM))

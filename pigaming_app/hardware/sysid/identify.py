@@ -1,8 +1,8 @@
-"""Finds out what a robot's wheels are like from a recorded run: gains, deadbands, lag, dead time, wheel base.
+"""Identification of a drivetrain from a recording: wheel gains, deadbands, lag, dead time and wheel base.
 
-Multiple shooting: the run is cut into windows of a second, each with a start pose of its own that is fitted along, so
-that noise and slip do not add up; what the wheels do follows from what they were told, over all of the run.
-Levenberg-Marquardt with the start poses projected out (Golub and Pereyra 1973), for each dead time of a grid.
+Multiple shooting: the recording is cut into windows of one second, each with its own fitted start pose, so that noise
+and slip do not accumulate; wheel speeds follow from the commands of the whole recording. Levenberg-Marquardt with the
+start poses projected out (variable projection, Golub and Pereyra 1973), for each dead time of a grid.
 """
 
 from dataclasses import replace
@@ -19,33 +19,33 @@ from pigaming_app.sim.drivetrain import Drivetrain, Wheel
 Index = NDArray[np.intp]
 
 WINDOW = 1.0  # s
-STEP = 0.005  # s of the model
-NOISE = np.array([0.8, 0.8, 0.012])  # px, px, rad: of a fix
-FEWEST = 8  # fixes in a window that counts
-HUBER = 3.0  # standard deviations beyond which a fix counts less
-LATEST, COARSE = 0.20, 0.02  # s: the longest dead time that is tried, and from one to the next
-EARLY = 2.0  # s before which what was told does not matter any more
-ROUNDS = 25
-SETTLED = 1e-5  # share of the cost that a round must gain
-LATE = 6  # the place of the dead time among the numbers: left, right, their deadbands, lag, base, dead time
-NUDGES = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1, 1e-3])  # of these, to see what they do
-LEAST = np.array([100.0, 100.0, 0.0, 0.0, 0.01, 20.0, 0.0])
-MOST = np.array([3000.0, 3000.0, 0.5, 0.5, 0.5, 300.0, 0.5])
+STEP = 0.005  # time step of the model, s
+NOISE = np.array([0.8, 0.8, 0.012])  # standard deviations of a fix: px, px, rad
+FEWEST = 8  # fixes needed in a window
+HUBER = 3.0  # standard deviations beyond which a fix is down-weighted
+LATEST, COARSE = 0.20, 0.02  # s, end and spacing of the grid of dead times
+EARLY = 2.0  # s before the start from which commands still have an effect
+ROUNDS = 25  # iteration limit
+SETTLED = 1e-5  # relative decrease of the cost at convergence
+LATE = 6  # index of the dead time in the parameters: left, right, their deadbands, lag, base, dead time
+NUDGES = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1, 1e-3])  # finite-difference steps of the parameters
+LEAST = np.array([100.0, 100.0, 0.0, 0.0, 0.01, 20.0, 0.0])  # lower bounds
+MOST = np.array([3000.0, 3000.0, 0.5, 0.5, 0.5, 300.0, 0.5])  # upper bounds
 
 
 class Trajectory(NamedTuple):
-    """A robot on an endless floor from (0, 0, 0): times (n,) and poses (n, 3)."""
+    """A simulated path from (0, 0, 0) on an unbounded floor: times (n,) and poses (n, 3)."""
 
     times: Floats
     poses: Floats
 
     def at(self, times: Floats) -> Floats:
-        """Poses (m, 3) at these times."""
+        """Poses (m, 3) interpolated at these times (m,)."""
         return np.column_stack([np.interp(times, self.times, self.poses[:, i]) for i in range(3)])
 
 
 def track(course: RobotRecording, drivetrain: Drivetrain, begin: float, end: float) -> Trajectory:
-    """Where the commands lead a robot with this drivetrain, from `begin` to `end`."""
+    """Simulate the commands of a recording with this drivetrain from `begin` to `end`, s."""
     times = np.asarray(begin - EARLY + STEP * np.arange(int((end - begin + EARLY) / STEP) + 2), dtype=np.float64)
     acts = course.told_at + drivetrain.dead_time
     left, right = (
@@ -61,9 +61,9 @@ def track(course: RobotRecording, drivetrain: Drivetrain, begin: float, end: flo
 
 
 def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
-    """Pieces of a track (m, 3) that begin at `firsts` (w,), each moved rigidly to where it fits its fixes (m, 3) best.
+    """Move each piece of a track (m, 3) rigidly to its best fit with the fixes (m, 3); pieces start at `firsts` (w,).
 
-    Gives back the poses (m, 3) and the moves (w, 3): where the first point of each piece goes, and the turn about it.
+    Returns the poses (m, 3) and the moves (w, 3): new position of each piece's first point, and the turn about it.
     """
     counts = np.diff(np.append(firsts, len(there)))
     move = seen[firsts].copy()
@@ -84,7 +84,7 @@ def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
 
 
 def shifted(there: Floats, firsts: Index, move: Floats) -> Floats:
-    """Pieces of a track (m, 3) that begin at `firsts` (w,), moved by `move` (w, 3)."""
+    """Pieces of a track (m, 3) that start at `firsts` (w,), moved by `move` (w, 3) as in `placed`."""
     counts = np.diff(np.append(firsts, len(there)))
     begin, to = np.repeat(there[firsts], counts, axis=0), np.repeat(move, counts, axis=0)
     c, s = np.cos(to[:, 2]), np.sin(to[:, 2])
@@ -93,35 +93,35 @@ def shifted(there: Floats, firsts: Index, move: Floats) -> Floats:
 
 
 def identify(course: RobotRecording, start: Drivetrain) -> Drivetrain:
-    """The drivetrain that explains a course best, sought from `start`."""
+    """The drivetrain that fits a recording best, searched from `start`."""
     grid = np.arange(0.0, LATEST + 1e-9, COARSE)
-    tried = [_fitted(course, replace(start, dead_time=float(dead)), LATE) for dead in grid]
-    return _fitted(course, min(tried, key=lambda one: one[0])[1], LATE + 1)[1]
+    fits = [_fitted(course, replace(start, dead_time=float(dead)), LATE) for dead in grid]
+    return _fitted(course, min(fits, key=lambda fit: fit[0])[1], LATE + 1)[1]
 
 
 def _fitted(course: RobotRecording, start: Drivetrain, free: int) -> tuple[float, Drivetrain]:
-    """Fit the first `free` numbers of the drivetrain: the cost, and the drivetrain."""
+    """Fit the first `free` parameters of the drivetrain; returns the cost and the drivetrain."""
     fixed = _vector(start)[free:]
 
     def residual(numbers: Floats) -> Floats:
-        """The start poses are fitted anew for each drivetrain, which projects them out."""
+        """Residuals with the start poses refitted for each drivetrain, which projects them out."""
         return _residual(course, _drivetrain(np.concatenate([numbers, fixed])))
 
     bounds = LEAST[:free], MOST[:free]
-    found = least_squares(residual, _vector(start)[:free], ROUNDS, NUDGES[:free], bounds, HUBER, SETTLED)
-    return found.cost, _drivetrain(np.concatenate([found.at, fixed]))
+    solution = least_squares(residual, _vector(start)[:free], ROUNDS, NUDGES[:free], bounds, HUBER, SETTLED)
+    return solution.cost, _drivetrain(np.concatenate([solution.at, fixed]))
 
 
 def _residual(course: RobotRecording, drivetrain: Drivetrain) -> Floats:
-    """What is left of all windows, in sigmas, each placed where it fits best."""
+    """Residuals of all windows in standard deviations, each window placed at its best fit."""
     whole = track(course, drivetrain, course.seen_at[0], course.seen_at[-1])
     window = ((course.seen_at - course.seen_at[0]) / WINDOW).astype(int)
-    kept = np.bincount(window)[window] >= FEWEST
-    seen, window = course.poses[kept], window[kept]
+    usable = np.bincount(window)[window] >= FEWEST
+    seen, window = course.poses[usable], window[usable]
     if not len(seen):
         return np.zeros(1)
     firsts = np.flatnonzero(np.diff(window, prepend=-1))
-    fitted, _ = placed(whole.at(course.seen_at[kept]), seen, firsts)
+    fitted, _ = placed(whole.at(course.seen_at[usable]), seen, firsts)
     return np.asarray(((seen - fitted) / NOISE).ravel())
 
 
@@ -132,7 +132,7 @@ def _vector(drivetrain: Drivetrain) -> Floats:
 
 
 def _drivetrain(vector: Floats) -> Drivetrain:
-    """The drivetrain of these numbers, each kept to what is possible."""
+    """The drivetrain of a parameter vector, clipped to its bounds."""
     left, right, left_band, right_band, lag, base, dead = np.clip(vector, LEAST, MOST).tolist()
     return Drivetrain(Wheel(left, left_band), Wheel(right, right_band), base, lag, dead)
 
@@ -143,17 +143,17 @@ def _speed(shares: Floats, wheel: Wheel) -> Floats:
 
 
 def _mean(acts: Floats, speeds: Floats, times: Floats) -> Floats:
-    """Of speeds that hold from `acts` on, the mean over each step between two times."""
+    """Mean over each step of `times` of a piecewise constant speed that changes at `acts`."""
     way = np.concatenate(([0.0], np.cumsum(speeds[:-1] * np.diff(acts))))  # up to each command
     acts, way = np.append(acts, times[-1] + 1.0), np.append(way, way[-1] + speeds[-1] * (times[-1] + 1.0 - acts[-1]))
     return np.asarray(np.diff(np.interp(times, acts, way)) / STEP)
 
 
 def _follow(target: Floats, lag: float) -> Floats:
-    """First-order motors, exact for steps: the mean speed of each step."""
-    kept = exp(-STEP / lag)
+    """Mean speed over each step of first-order motors, exact for piecewise constant targets."""
+    decay = exp(-STEP / lag)
     count = min(len(target), int(12.0 * lag / STEP) + 1)
-    answer = (1.0 - kept) * kept ** np.arange(count)
-    reached = np.concatenate(([0.0], np.convolve(target, answer)[: len(target)]))
-    mean = (1.0 - kept) * lag / STEP
+    response = (1.0 - decay) * decay ** np.arange(count)
+    reached = np.concatenate(([0.0], np.convolve(target, response)[: len(target)]))
+    mean = (1.0 - decay) * lag / STEP
     return np.asarray(target + (reached[:-1] - target) * mean)

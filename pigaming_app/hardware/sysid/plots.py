@@ -1,4 +1,4 @@
-"""Pictures of how true the simulator is. They need the extra `plots` (matplotlib), which is imported only here."""
+"""Plots of the simulator's fidelity. They need the extra `plots` (matplotlib), which is imported only here."""
 
 from collections.abc import Sequence
 from io import BytesIO
@@ -11,32 +11,32 @@ from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Identificat
 from pigaming_app.sim.drivetrain import NOMINAL
 from pigaming_app.storage.safe_files import write_atomic
 
-SHOWN = 6  # predictions drawn for each robot
+SHOWN = 6  # predictions drawn per robot
 
 
 class PlotsUnavailable(OperatorError):
-    """Pictures cannot be made."""
+    """matplotlib is not installed."""
 
 
 def draw(run: Recording, verdicts: Sequence[Identification], folder: Path) -> list[Path]:
-    """Write horizon.png and paths.png into the folder; their paths. Raises PlotsUnavailable, NotSaved."""
+    """Write horizon.png and paths.png into the folder; returns their paths. Raises PlotsUnavailable, NotSaved."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
         raise PlotsUnavailable(OperatorMessage("no_plots")) from None
-    made = []
+    files = []
     for name, paint in (("horizon.png", _horizons), ("paths.png", _paths)):
         figure = Figure(figsize=(10, 6), layout="constrained")
         paint(figure, run, verdicts)
         picture = BytesIO()
         figure.savefig(picture, dpi=120, format="png")
         write_atomic(folder / name, picture.getvalue())
-        made.append(folder / name)
-    return made
+        files.append(folder / name)
+    return files
 
 
 def _horizons(figure: Any, run: Recording, verdicts: Sequence[Identification]) -> None:
-    """How far off the model is, before and after, at each horizon."""
+    """Prediction errors before and after identification, by horizon."""
     axes = figure.add_subplot()
     for verdict in verdicts:
         colour = f"C{verdict.robot}"
@@ -52,18 +52,18 @@ def _horizons(figure: Any, run: Recording, verdicts: Sequence[Identification]) -
 
 
 def _paths(figure: Any, run: Recording, verdicts: Sequence[Identification]) -> None:
-    """Some predictions of five seconds beside what was seen."""
+    """Some predictions over five seconds against the observed paths."""
     grid = figure.subplots(2, 2, squeeze=True).ravel()
     for axes, verdict in zip(grid, verdicts, strict=False):
         course = run.courses[verdict.robot]
         begin, end = course.seen_at[0], course.seen_at[-1]
         rest = course.between(end - HELD_OUT * (end - begin), end + 1.0)
         for model, style, label in ((NOMINAL, "C3:", "nominal"), (verdict.drivetrain, "C0-", "identified")):
-            found = predictions(rest, model, HORIZONS[-1])
-            for i, one in enumerate(found[:: max(1, len(found) // SHOWN)]):
+            ahead = predictions(rest, model, HORIZONS[-1])
+            for i, path in enumerate(ahead[:: max(1, len(ahead) // SHOWN)]):
                 if model is NOMINAL:
-                    axes.plot(one.seen[:, 0], one.seen[:, 1], "k.", markersize=2, label="seen" if not i else None)
-                axes.plot(one.predicted[:, 0], one.predicted[:, 1], style, label=label if not i else None)
+                    axes.plot(path.seen[:, 0], path.seen[:, 1], "k.", markersize=2, label="seen" if not i else None)
+                axes.plot(path.predicted[:, 0], path.predicted[:, 1], style, label=label if not i else None)
         axes.set_title(f"robot {verdict.robot + 1}")
         axes.set_aspect("equal")
         axes.invert_yaxis()

@@ -1,7 +1,7 @@
-"""One robot, followed: its pose at the newest correction, what its wheels make of commands, and the commands since.
+"""Extended Kalman filter of one robot: its pose and the five parameters of its `WheelCorrection`.
 
-An extended Kalman filter over the pose and the five numbers of `WheelCorrection`: wheels differ from robot to robot
-and with their batteries, and a prediction over 80 ms of dead time depends on it.
+Wheels differ between robots and with battery voltage, and the prediction over 80 ms of dead time depends on them. The
+filter keeps the pose at the newest correction and the commands sent since.
 """
 
 from collections import deque
@@ -17,72 +17,72 @@ from pigaming_app.sim.angles import wrap
 from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 
-FASTEST = 1000.0  # mm/s: a 3pi flat out
-LEEWAY = 30.0  # mm by which a marker may be further than that (HARDWARE.md)
-PATIENCE = 3  # sights elsewhere that agree with each other, after which the robot is believed to be there
-MEMORY = 2.0  # s for which commands are kept
-COAST = 1.0  # s for which a robot that is not seen is predicted; then it takes PATIENCE sights to believe again
-STEP = 0.02  # s, the longest step of a prediction
-NEVER = 1e9  # s since a robot was seen that never was
+FASTEST = 1000.0  # mm/s, top speed of a 3pi
+LEEWAY = 30.0  # mm, tolerance of the check that a robot can have driven to a fix
+PATIENCE = 3  # consistent implausible fixes after which the pose is reset to them
+MEMORY = 2.0  # s of commands to keep
+COAST = 1.0  # s of prediction without a fix; after that it takes PATIENCE fixes to resume
+STEP = 0.02  # s, longest step of a prediction
+NEVER = 1e9  # age of the fix of a robot that was never seen, s
 
 FIX_PX, FIX_RAD = 0.6, 0.008  # noise of a fix, standard deviations
-SLIP_PX, SLIP_RAD = 6.0, 0.1  # what the model does not know of: random walk, per root of a second
-NUMBERS = 8  # in the filter
+SLIP_PX, SLIP_RAD = 6.0, 0.1  # process noise of the pose: random walk, per root of a second
+NUMBERS = 8  # dimension of the state
 START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02, 20.0]))
 WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001, 0.5]))  # per second
 NEW = WheelCorrection(1.0, 1.0, 1.0, 0.0, 0.0)
 LOW, HIGH = WheelCorrection(0.6, 0.6, 0.6, -0.06, -30.0), WheelCorrection(1.4, 1.4, 1.4, 0.12, 60.0)
-SURPRISE = 36.0  # squared standard deviations: beyond, it was pushed or lifted, which teaches nothing about wheels
-STUCK = 0.4  # of the way or turn that was predicted, below which it does not do as it is told
-CLEAR_PX, CLEAR_RAD = 1.5, 0.03  # ways and turns from which that can be said
-UNTAUGHT = 0.25  # s after such a surprise in which nothing is learnt
+SURPRISE = 36.0  # squared Mahalanobis distance of an outlier: it was pushed or lifted, so wheels are not updated
+STUCK = 0.4  # share of the predicted motion below which the robot counts as blocked
+CLEAR_PX, CLEAR_RAD = 1.5, 0.03  # smallest predicted motions for that test
+UNTAUGHT = 0.25  # s after an outlier or a block without updates of the wheels
 NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
 
 Matrix = NDArray[np.float64]
 
 
 class PoseFilter:
-    """The filter of one robot; `mm` of the mat to an arena px."""
+    """Filter of one robot. `mm`: mm of the mat per arena px."""
 
     def __init__(self, drivetrain: Drivetrain, mm: float) -> None:
         self.drivetrain, self.mm = drivetrain, mm
-        self._told: deque[tuple[float, float, float]] = deque()  # when it was sent, wheels in px/s
-        self._rolling = MotionState(0.0, 0.0, 0.0)
+        self._commands: deque[tuple[float, float, float]] = deque()  # time sent, left and right wheel in px/s
+        self._motion = MotionState(0.0, 0.0, 0.0)
         self.wear = NEW
-        self._spread = START.copy()
+        self._covariance = START.copy()
         self._seen = self._surprised = -inf
-        self._elsewhere: list[Fix] = []  # where it was seen and not believed
+        self._implausible: list[Fix] = []  # fixes rejected lately, consistent with each other
 
-    def told(self, time: float, twist: Twist) -> None:
-        """Remember what was sent to the robot."""
+    def record_command(self, time: float, twist: Twist) -> None:
+        """Record a command: the twist (px/s, rad/s) sent to the robot at `time`."""
         turn = 0.5 * self.drivetrain.base * twist[1]
-        self._told.append((time, twist[0] + turn, twist[0] - turn))
+        self._commands.append((time, twist[0] + turn, twist[0] - turn))
         oldest = min(max(self._seen, time - MEMORY), time) - self.drivetrain.dead_time - HIGH.late
-        while len(self._told) > 1 and self._told[1][0] <= oldest:
-            self._told.popleft()
+        while len(self._commands) > 1 and self._commands[1][0] <= oldest:
+            self._commands.popleft()
 
     def unseen(self, now: float) -> float:
-        """Seconds since it was seen and believed; NEVER if it never was."""
+        """Age of the newest accepted fix, s; NEVER if there is none."""
         return min(now - self._seen, NEVER)
 
     def at(self, now: float) -> Sighting:
-        """Where it is at a time, by the commands sent since it was seen."""
+        """Pose predicted for a time from the commands since the newest fix."""
         return self.along((now,))[0]
 
     def along(self, times: Sequence[float]) -> list[Sighting]:
-        """Where it is at these times (s, in rising order): one prediction that goes on from each to the next."""
-        rolling, at, found = self._rolling.copy(), self._seen, []
+        """Poses predicted for these times (s, in rising order), in one pass."""
+        motion, at, poses = self._motion.copy(), self._seen, []
         for time in times:
             if self._seen > -inf:
                 until = min(time, self._seen + COAST)
                 for left, right, dt in self._acting(at, until):
-                    rolling.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
+                    motion.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
                 at = max(at, until)
-            found.append(Sighting(rolling.x, rolling.y, wrap(rolling.heading % tau), self.unseen(time)))
-        return found
+            poses.append(Sighting(motion.x, motion.y, wrap(motion.heading % tau), self.unseen(time)))
+        return poses
 
     def correct(self, fix: Fix) -> bool:
-        """Take in where the camera saw it; false if that is not believed."""
+        """Update the filter with a fix; False if the fix is rejected."""
         dt = fix.captured - self._seen
         if dt == inf:
             self._begin(fix)
@@ -90,45 +90,45 @@ class PoseFilter:
         if dt <= 0.0:
             return False
         if dt > COAST:
-            return self._again(fix)
-        rolling = self._rolling.copy()
-        flow = self._predict(rolling, fix.captured)
-        if hypot(fix.x - rolling.x, fix.y - rolling.y) * self.mm > FASTEST * dt + LEEWAY:
-            return self._again(fix)
-        self._elsewhere.clear()
-        if _stuck(self._rolling, rolling, fix):
+            return self._reacquire(fix)
+        motion = self._motion.copy()
+        flow = self._predict(motion, fix.captured)
+        if hypot(fix.x - motion.x, fix.y - motion.y) * self.mm > FASTEST * dt + LEEWAY:
+            return self._reacquire(fix)
+        self._implausible.clear()
+        if _stuck(self._motion, motion, fix):
             self._surprised = fix.captured
-        self._seen, self._rolling = fix.captured, rolling
-        self._blend(fix, flow @ self._spread @ flow.T + WALK * dt)
+        self._seen, self._motion = fix.captured, motion
+        self._update(fix, flow @ self._covariance @ flow.T + WALK * dt)
         return True
 
     def _acting(self, since: float, until: float) -> Iterator[tuple[float, float, float]]:
-        """What the wheels were told in this time (px/s, px/s) and for how long: steps of at most STEP."""
-        dead, told = self.drivetrain.dead_time + self.wear.late, self._told
+        """Commands in effect during this time, as (left px/s, right px/s, duration s) of at most STEP s each."""
+        dead, commands = self.drivetrain.dead_time + self.wear.late, self._commands
         at = since
-        for i in range(-1, len(told)):
-            left, right = told[i][1:] if i >= 0 else (0.0, 0.0)
-            end = min(told[i + 1][0] + dead, until) if i + 1 < len(told) else until
+        for i in range(-1, len(commands)):
+            left, right = commands[i][1:] if i >= 0 else (0.0, 0.0)
+            end = min(commands[i + 1][0] + dead, until) if i + 1 < len(commands) else until
             while at < end - 1e-9:
                 dt = min(STEP, end - at)
                 yield left, right, dt
                 at += dt
 
-    def _predict(self, rolling: MotionState, until: float) -> Matrix:
-        """Move it to a time; how the numbers of the filter there depend on those of the newest correction."""
+    def _predict(self, motion: MotionState, until: float) -> Matrix:
+        """Advance `motion` to a time; returns the Jacobian of the state (8, 8) since the newest correction."""
         rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
         for row in rows:
             row += [0.0] * len(self.wear)
         for left, right, dt in self._acting(self._seen, until):
-            before = rolling.copy()
-            rolling.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
-            self._step(rows, before, rolling, dt)
+            before = motion.copy()
+            motion.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
+            self._step(rows, before, motion, dt)
         flow = np.eye(NUMBERS)
         flow[:3] = rows
         return flow
 
     def _step(self, rows: list[list[float]], before: MotionState, after: MotionState, dt: float) -> None:
-        """Take a step, to first order in `dt`, into how x, y and heading depend on the numbers before."""
+        """Propagate the Jacobian rows of x, y and heading through one step, to first order in `dt`."""
         wear, way = self.wear, 0.5 * dt
         left, right = way * (before.left + after.left), way * (before.right + after.right)
         faster_left, faster_right = wear.left * (after.left - before.left), wear.right * (after.right - before.right)
@@ -148,51 +148,51 @@ class PoseFilter:
         heading[5] += (after.heading - before.heading) / wear.turning
 
     def _begin(self, fix: Fix) -> None:
-        """It is there, standing; what was learnt about its wheels stays."""
-        self._rolling, self._seen = MotionState(fix.x, fix.y, fix.heading), fix.captured
+        """Reset the pose to a fix, at rest; the wheel parameters are kept."""
+        self._motion, self._seen = MotionState(fix.x, fix.y, fix.heading), fix.captured
         self._forget_pose()
-        self._elsewhere.clear()
+        self._implausible.clear()
 
-    def _again(self, fix: Fix) -> bool:
-        """It was seen where it cannot have driven: believed the third time that it is about there, else not."""
-        if self._elsewhere:
-            last = self._elsewhere[-1]
+    def _reacquire(self, fix: Fix) -> bool:
+        """Collect an implausible fix; after PATIENCE consistent ones reset the pose to it and return True."""
+        if self._implausible:
+            last = self._implausible[-1]
             way = hypot(fix.x - last.x, fix.y - last.y) * self.mm
             if way > FASTEST * (fix.captured - last.captured) + LEEWAY:
-                self._elsewhere.clear()
-        self._elsewhere.append(fix)
-        if len(self._elsewhere) < PATIENCE:
+                self._implausible.clear()
+        self._implausible.append(fix)
+        if len(self._implausible) < PATIENCE:
             return False
         self._begin(fix)
         return True
 
-    def _blend(self, fix: Fix, spread: Matrix) -> None:
-        """Kalman's correction; one that surprises too much moves the pose only."""
-        rolling = self._rolling
-        turned = _turn_to(rolling.heading, fix.heading)
-        miss = np.array((fix.x - rolling.x, fix.y - rolling.y, turned))
-        doubt = np.linalg.inv(spread[:3, :3] + NOISE)
-        if miss @ doubt @ miss > SURPRISE:
+    def _update(self, fix: Fix, covariance: Matrix) -> None:
+        """Kalman update; after an outlier or a block only the pose is set."""
+        motion = self._motion
+        turned = _turn_to(motion.heading, fix.heading)
+        innovation = np.array((fix.x - motion.x, fix.y - motion.y, turned))
+        information = np.linalg.inv(covariance[:3, :3] + NOISE)
+        if innovation @ information @ innovation > SURPRISE:
             self._surprised = fix.captured
         if fix.captured - self._surprised < UNTAUGHT:
-            rolling.x, rolling.y, rolling.heading = fix.x, fix.y, rolling.heading + turned
+            motion.x, motion.y, motion.heading = fix.x, fix.y, motion.heading + turned
             self._forget_pose()
             return
-        share = spread[:, :3] @ doubt
-        change = share @ miss
+        gain = covariance[:, :3] @ information
+        change = gain @ innovation
         x, y, heading = change[:3].tolist()
-        rolling.x, rolling.y, rolling.heading = rolling.x + x, rolling.y + y, rolling.heading + heading
+        motion.x, motion.y, motion.heading = motion.x + x, motion.y + y, motion.heading + heading
         self.wear = WheelCorrection(*np.clip(change[3:] + self.wear, LOW, HIGH).tolist())
-        self._spread = spread - share @ spread[:3, :]
+        self._covariance = covariance - gain @ covariance[:3, :]
 
     def _forget_pose(self) -> None:
-        """What is known of the pose is the newest fix, and nothing that ties it to the wheels."""
-        self._spread[:3, :], self._spread[:, :3] = 0.0, 0.0
-        self._spread[:3, :3] = NOISE
+        """Reset the covariance of the pose to that of a fix, uncorrelated with the wheels."""
+        self._covariance[:3, :], self._covariance[:, :3] = 0.0, 0.0
+        self._covariance[:3, :3] = NOISE
 
 
 def _stuck(before: MotionState, predicted: MotionState, fix: Fix) -> bool:
-    """Whether a robot went or turned much less than predicted: it is blocked, held, empty, or does not hear."""
+    """True if the robot moved or turned much less than predicted: blocked, held, battery empty or out of reach."""
     dx, dy = predicted.x - before.x, predicted.y - before.y
     turn = predicted.heading - before.heading
     way = hypot(dx, dy)
@@ -202,5 +202,5 @@ def _stuck(before: MotionState, predicted: MotionState, fix: Fix) -> bool:
 
 
 def _turn_to(heading: float, other: float) -> float:
-    """The turn from one heading to another, the short way round."""
+    """Shortest signed turn from one heading to another, rad."""
     return (other - heading + pi) % tau - pi

@@ -1,8 +1,8 @@
-"""A camera, read by a thread that keeps the newest picture and throws the rest away.
+"""Camera capture in a thread that keeps only the newest frame.
 
-Health is the age of the newest picture: drivers repeat, block and lie. `trouble` is the fault as a message; a camera
-that comes back is used again. Exposure, white balance, gain and focus are locked once they have settled, because what a
-camera corrects by itself looks to the tracker as if the arena had changed.
+Health is judged by the age of the newest frame, since drivers repeat frames, block and report wrong states. A camera
+that fails is reported as `trouble` and reopened. Exposure, white balance, gain and focus are locked after they settle,
+because automatic corrections look to the tracker like changes of the arena.
 """
 
 import sys
@@ -16,16 +16,16 @@ from pigaming_app.hardware.signals import CameraFrame, Clock
 from pigaming_app.hardware.vision.discovery import why_not
 from pigaming_app.hardware.vision.markers import opencv
 
-SETTLE = 2.0  # s until exposure and the like are locked
-STALE = 1.0  # s without a picture after which the camera is opened anew
-RETRY = 1.0  # s between two tries
-PLAUSIBLE = 0.3  # s that a driver's time of a picture may lie in the past to be believed
-ASSUMED = 0.03  # s from light to picture, where the driver does not tell
-PATIENCE = 0.8  # s that `close` waits for a driver that hangs
+SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked
+STALE = 1.0  # s without a frame after which the camera is reopened
+RETRY = 1.0  # s between two attempts to open
+PLAUSIBLE = 0.3  # s, largest plausible age of a driver's timestamp
+ASSUMED = 0.03  # s from exposure to delivery if the driver gives no plausible timestamp
+PATIENCE = 0.8  # s for which `close` waits for a hanging driver
 
 
 class CaptureSettings(NamedTuple):
-    """How the camera is asked to deliver; it may do otherwise."""
+    """Requested format, px and frames/s; the camera may deliver another."""
 
     width: int = 1920
     height: int = 1080
@@ -33,9 +33,9 @@ class CaptureSettings(NamedTuple):
 
 
 class Camera:
-    """The camera with this number. `trouble` is its fault, if there is one. Use it in a `with`, or close it.
+    """The camera with this device number; a context manager. `trouble` is its present fault, or None.
 
-    `open_capture` makes a `cv2.VideoCapture`. Raises OpenCVMissing.
+    `open_capture` returns a `cv2.VideoCapture` for a number. Raises OpenCVMissing.
     """
 
     def __init__(
@@ -49,9 +49,9 @@ class Camera:
     ) -> None:
         self._cv = opencv()
         self.number, self.wanted, self.clock, self.settle = number, wanted or CaptureSettings(), clock, settle
-        self.fresh = fresh  # whether exposure and the like are found anew; else they stay as a calibration locked them
+        self.fresh = fresh  # True: restart automatic exposure etc.; False: keep the values that a calibration locked
         self.trouble: OperatorMessage | None = OperatorMessage("yet", number=number)
-        self.loose: Sequence[str] = ()  # what it goes on correcting by itself
+        self.loose: Sequence[str] = ()  # properties that could not be locked
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: CameraFrame | None = None
         self._count = 0
@@ -67,13 +67,13 @@ class Camera:
         self.close()
 
     def newest(self) -> CameraFrame | None:
-        """The newest frame that was not given out before, or None."""
+        """The newest frame, once; None if there is none since the last call."""
         with self._lock:
             frame, self._newest = self._newest, None
             return frame
 
     def close(self) -> None:
-        """Let go of the camera, within a second."""
+        """Release the camera, within a second."""
         self._closing.set()
         self._thread.join(PATIENCE)
 
@@ -91,7 +91,7 @@ class Camera:
         try:
             capture = self._open_capture(self.number)
             if capture.isOpened():
-                self._ask(capture)
+                self._configure(capture)
                 return capture
             capture.release()
         except (self._cv.error, OSError):
@@ -99,7 +99,7 @@ class Camera:
         self.trouble = why_not(self.number)
         return None
 
-    def _ask(self, capture: Any) -> None:
+    def _configure(self, capture: Any) -> None:
         cv, wanted = self._cv, self.wanted
         if self.fresh:
             free(cv, capture)
@@ -110,18 +110,18 @@ class Camera:
         capture.set(cv.CAP_PROP_BUFFERSIZE, 1)
 
     def _read(self, capture: Any) -> None:
-        """Read until it is closed or falls silent."""
+        """Read until closed, or until no frame has come for STALE s."""
         opened = last = time.monotonic()
         locked = False
         while not self._closing.is_set():
             try:
-                well, picture = capture.read()
+                ok, picture = capture.read()
             except (self._cv.error, OSError):
-                well, picture = False, None
+                ok, picture = False, None
             now = time.monotonic()
-            if well and picture is not None and picture.size:
+            if ok and picture is not None and picture.size:
                 last = now
-                self._keep(capture, picture)
+                self._store(capture, picture)
             elif now - last > STALE:
                 self.trouble = OperatorMessage("stopped", number=self.number)
                 return
@@ -130,28 +130,28 @@ class Camera:
             if not locked and now - opened > self.settle:
                 locked, self.loose = True, lock(self._cv, capture)
 
-    def _keep(self, capture: Any, picture: Any) -> None:
+    def _store(self, capture: Any, picture: Any) -> None:
         grey = picture if picture.ndim == 2 else self._cv.cvtColor(picture, self._cv.COLOR_BGR2GRAY)
         now = self.clock()
-        told = float(capture.get(self._cv.CAP_PROP_POS_MSEC)) / 1000.0  # V4L2: of the same clock as time.monotonic
-        captured = told if 0.0 < now - told < PLAUSIBLE else now - ASSUMED
+        stamp = float(capture.get(self._cv.CAP_PROP_POS_MSEC)) / 1000.0  # V4L2: same clock as time.monotonic
+        captured = stamp if 0.0 < now - stamp < PLAUSIBLE else now - ASSUMED
         with self._lock:
             self._count += 1
             self._newest, self.trouble = CameraFrame(grey, captured, self._count), None
 
 
 def free(cv: Any, capture: Any) -> None:
-    """Let the camera find its exposure and the like anew: drivers keep a lock when the camera is closed."""
-    automatic = 3.0 if sys.platform.startswith("linux") else 0.75  # two drivers, two words for it
+    """Restart automatic exposure, white balance and focus: drivers keep a lock when the camera is closed."""
+    automatic = 3.0 if sys.platform.startswith("linux") else 0.75  # V4L2 and DirectShow use different codes
     for name, on in ((cv.CAP_PROP_AUTO_EXPOSURE, automatic), (cv.CAP_PROP_AUTO_WB, 1.0), (cv.CAP_PROP_AUTOFOCUS, 1.0)):
         capture.set(name, on)
 
 
 def lock(cv: Any, capture: Any) -> list[str]:
-    """Keep exposure, white balance, focus and gain as they are now; which of them the camera goes on changing."""
+    """Lock exposure, white balance, focus and gain at their present values; returns those that stay automatic."""
     loose = []
     gain = capture.get(cv.CAP_PROP_GAIN)
-    manual = 1.0 if sys.platform.startswith("linux") else 0.25  # two drivers, two words for it
+    manual = 1.0 if sys.platform.startswith("linux") else 0.25  # V4L2 and DirectShow use different codes
     for name, automatic, off, value in (
         ("exposure", cv.CAP_PROP_AUTO_EXPOSURE, manual, cv.CAP_PROP_EXPOSURE),
         ("white balance", cv.CAP_PROP_AUTO_WB, 0.0, cv.CAP_PROP_WB_TEMPERATURE),

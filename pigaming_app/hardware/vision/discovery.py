@@ -1,4 +1,4 @@
-"""Which cameras there are, and why one cannot be used."""
+"""Camera discovery, and diagnosis of cameras that do not open."""
 
 import os
 import re
@@ -13,26 +13,26 @@ NODES = Path("/dev")
 
 
 class CameraInfo(NamedTuple):
-    """A camera that the system knows."""
+    """A camera known to the operating system."""
 
     number: int
     name: str
 
 
 def cameras() -> list[CameraInfo]:
-    """The cameras that are plugged in, by number; where the system does not tell, the first three numbers."""
+    """Connected cameras by number; outside Linux, where they cannot be listed, numbers 0 to 2."""
     if not sys.platform.startswith("linux"):
         return [CameraInfo(number, f"camera {number}") for number in range(3)]
-    found = []
+    connected = []
     for folder in sorted(DEVICES.glob("video*")):
         number = re.fullmatch(r"video(\d+)", folder.name)
-        if number and _text(folder / "index") in ("0", ""):  # the others of a camera carry data, not pictures
-            found.append(CameraInfo(int(number[1]), _text(folder / "name") or folder.name))
-    return sorted(found)
+        if number and _text(folder / "index") in ("0", ""):  # other nodes of a camera carry metadata
+            connected.append(CameraInfo(int(number[1]), _text(folder / "name") or folder.name))
+    return sorted(connected)
 
 
 def why_not(number: int) -> OperatorMessage:
-    """Why the camera with this number could not be opened."""
+    """Operator message for a camera that could not be opened."""
     if not sys.platform.startswith("linux"):
         return OperatorMessage("unusable", number=number)
     node = NODES / f"video{number}"

@@ -1,8 +1,8 @@
-"""The corners of markers to a few hundredths of a pixel: a line along each of their edges, and where the lines meet.
+"""Subpixel refinement of marker corners: a line is fitted to each edge, and adjacent lines are intersected.
 
-Profiles across an edge go from the black rim of a marker to the white round it. How much of a profile is black says
-where the edge is, whatever the blur; what is brighter than the marker's own white is cut off, so that what is projected
-across it counts for little. All markers of a picture are refined at once: each by itself would cost four times as much.
+Intensity profiles cross each edge from the black rim of the marker to the white around it. The black share of a profile
+locates the edge independently of blur. Values brighter than the marker's own white are clipped, so projected light has
+little influence. All markers of an image are refined together, four times faster than one by one.
 """
 
 from typing import Any
@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.signals import Image
 
-CELLS = 6  # of a marker with its black rim, across; one more is white all round
-PROFILES, SAMPLES = 8, 11  # along an edge, and across it
-REACH, FARTHEST = 0.7, 5.0  # cells that a profile goes to either side, and px: its samples must be about 1 px apart
-ASIDE = 0.35  # of the reach off the others: a profile that something crosses
-FLAT = 0.3  # of a marker's contrast, below which a profile says nothing
-BRIGHT = 1.25  # medians of a marker's white: above, something is projected there; below, light just is uneven
-ROUNDS = 2  # the second begins where the first ended, and so has the edges in the middle of its profiles
+CELLS = 6  # cells across a marker with its black rim; the white margin is one cell more on each side
+PROFILES, SAMPLES = 8, 11  # profiles per edge, and samples per profile
+REACH, FARTHEST = 0.7, 5.0  # half length of a profile, cells, and its limit, px: samples must be about 1 px apart
+ASIDE = 0.35  # share of the reach by which an outlier's edge is off the median
+FLAT = 0.3  # share of the marker's contrast below which a profile is ignored
+BRIGHT = 1.25  # clipping level, medians of the marker's white: above is projected light, below uneven lighting
+ROUNDS = 2  # iterations; the second has the edges in the middle of its profiles
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -28,11 +28,11 @@ ACROSS = np.linspace(-1.0, 1.0, SAMPLES)
 
 
 def refined(cv: Any, image: Image, corners: Floats) -> tuple[Floats, Bools]:
-    """Corners (n, 4, 2), in ArUco's order and right to a third of a cell, made exact; and which could be, (n,).
+    """Refined corners (n, 4, 2), and True where the refinement succeeded (n,); the others are returned unchanged.
 
-    The others are left as they were.
+    The input must be in ArUco's order and accurate to a third of a cell.
     """
-    well = np.zeros(len(corners), np.bool_)
+    valid = np.zeros(len(corners), np.bool_)
     for _ in range(ROUNDS if len(corners) else 0):
         way = corners[:, NEXT] - corners  # of each edge, clockwise
         length = np.sqrt((way * way).sum(axis=2, keepdims=True))
@@ -45,13 +45,16 @@ def refined(cv: Any, image: Image, corners: Floats) -> tuple[Floats, Bools]:
         offsets, clear = _crossings(values.reshape(len(corners), 4 * PROFILES, SAMPLES).astype(np.float64))
         begin, slope, sure = _lines(offsets, clear)
         exact = _meetings(corners + step * begin[..., None], way + step * slope[..., None])
-        well = np.asarray(sure.all(axis=1))
-        corners = np.where(well[:, None, None], exact, corners)
-    return corners, well
+        valid = np.asarray(sure.all(axis=1))
+        corners = np.where(valid[:, None, None], exact, corners)
+    return corners, valid
 
 
 def _crossings(values: Floats) -> tuple[Floats, Bools]:
-    """Where each profile turns white, from -1 inside to 1 outside, and whether it is clear: (n, 4, PROFILES) each."""
+    """Edge position on each profile, from -1 inside to 1 outside, and True where its contrast suffices.
+
+    `values`: (n, 4 * PROFILES, SAMPLES); results: (n, 4, PROFILES) each.
+    """
     white, black = _middle(values[..., -2:]), _middle(values[..., :2])
     values = np.minimum(values, BRIGHT * white[..., None])
     low, high = 0.5 * (values[..., 0] + values[..., 1]), 0.5 * (values[..., -2] + values[..., -1])
@@ -64,13 +67,13 @@ def _crossings(values: Floats) -> tuple[Floats, Bools]:
 
 
 def _middle(values: Floats) -> Floats:
-    """The median of each marker's values, (n, 1)."""
+    """Median of each marker's values, (n, 1)."""
     flat = values.reshape(len(values), -1)
     return np.asarray(np.partition(flat, flat.shape[1] // 2, axis=1)[:, flat.shape[1] // 2, None])
 
 
 def _lines(offsets: Floats, clear: Bools) -> tuple[Floats, Floats, Bools]:
-    """The line along each edge: offset at its begin, how much more at its end, whether it is sure; (n, 4) each."""
+    """Line along each edge: offset at its start, increase to its end, True if it is reliable; (n, 4) each."""
     aside = np.abs(offsets - np.sort(offsets, axis=2)[..., PROFILES // 2, None])
     near = (clear & (aside < ASIDE)).astype(np.float64)
     total = near.sum(axis=2)
@@ -82,7 +85,7 @@ def _lines(offsets: Floats, clear: Bools) -> tuple[Floats, Floats, Bools]:
 
 
 def _meetings(begins: Floats, ways: Floats) -> Floats:
-    """Where each edge meets the one before it: the corners."""
+    """Intersections of each edge with the one before it: the corners, (n, 4, 2)."""
     before, way_before = begins[:, LAST], ways[:, LAST]
     gap = begins - before
     cross = way_before[..., 0] * ways[..., 1] - way_before[..., 1] * ways[..., 0]

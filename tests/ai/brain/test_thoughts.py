@@ -1,4 +1,4 @@
-"""What brains show of themselves: true to what they do, plain, and without any effect on the match."""
+"""Explanations of brains: consistent with their actions, plain values, without side effects on the match."""
 
 from math import isfinite, pi
 
@@ -23,11 +23,11 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.i18n import texts
 
 ALL = [(game, name) for game in games() for name in BRAINS[game]]
-KEPT = 0.9  # of a table's best move, for the second best
+KEPT = 0.9  # value of the second best move, as a share of the best
 
 
 def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> BrainPlayer:
-    """A player who knows of every state that one move is worth most, and the next one nearly as much."""
+    """A player whose table has the same best move in every state, and a second best nearly as good."""
     table = QTable()
     for name, value in vars(Recipe()).items():
         setattr(table.knobs, name, value)
@@ -74,7 +74,7 @@ def run(match: Match, ticks: int) -> Match:
 
 @pytest.mark.parametrize(("game", "name"), ALL)
 def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
-    """Asked on every tick, on every seat: the same match, to the last bit of every mind."""
+    """With `explain` called on every tick and seat, match and minds stay bit-identical."""
     others = (["hard"] if name == "easy" else ["easy"]) * 3
     watched, alone = play(game, name, *others), play(game, name, *others)
     for tick in range(400):
@@ -115,7 +115,7 @@ def check(told: Thoughts, words: dict[str, str]) -> None:
 
 
 def test_no_text_is_written_that_no_brain_says():
-    """Each key of the table [brain] stands in the sources of a brain, or of the overlay."""
+    """Each key of the table [brain] occurs in the sources of a brain or of the overlay."""
     from pigaming_app import ASSETS
 
     package = ASSETS.parent / "pigaming_app"

@@ -1,4 +1,4 @@
-"""Nobody who plays by a table is stuck on a seat, and the reflex that sees to that is off where it would falsify."""
+"""The recovery reflex: players with a table never stay stuck in a match, and it is off in measurements."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
-from pigaming_app.ai.brain.unstick import PATIENCE, Reflex
+from pigaming_app.ai.brain.unstick import PUSHING, Reflex
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.qlearning.learner import MOVES, LearnerMind, Move
 from pigaming_app.ai.qlearning.player import Learned, player
@@ -21,7 +21,7 @@ AHEAD = Move(1.0, 0.0, 0)
 
 
 def single_minded(move: Move, reflex: bool) -> BrainKind:
-    """A player whose table knows one move, whatever it sees."""
+    """A player whose table prefers the same move in every state."""
     table = training.fresh_table(1)
     table.knobs.period, table.knobs.cold = 5, 0.02
     table.q[MOVES.index(move) :: len(MOVES)] = [10.0] * (len(table.q) // len(MOVES))
@@ -29,7 +29,7 @@ def single_minded(move: Move, reflex: bool) -> BrainKind:
 
 
 def driven(reflex: bool, variant: str = "classic") -> list[tuple[float, float]]:
-    """Where it has been at the end of each second of half a minute, with the opponent standing still far away."""
+    """Positions at the end of each second of half a minute, with the opponent standing still far away."""
     match = Match(replace(training.training_setup(1, minutes=0.5), variant=variant))
     match.sit(0, BrainPlayer(single_minded(AHEAD, reflex), 1))
     places = []
@@ -69,7 +69,7 @@ def test_by_the_rules_of_the_measured_results_it_only_comes_off_the_wall_now_and
 
 
 def test_whoever_gets_on_never_feels_it():
-    assert PATIENCE / HZ > 1.0  # a second's push against something that gives way is none of its business
+    assert PUSHING / HZ > 1.0  # one second of pushing a movable object must not trigger it
     match = Match(training.training_setup(1, minutes=0.02))
     brain = BrainPlayer(single_minded(AHEAD, reflex=True), 1)
     match.sit(0, brain)

@@ -1,4 +1,4 @@
-"""An exam comes out as the same matches in one go, whoever has how little time for it."""
+"""Incremental evaluation: the result does not depend on the size of the steps."""
 
 import pytest
 
@@ -9,31 +9,31 @@ from pigaming_app.ai.experiments.training import GAME, contest
 HARD, IDLE, OWN = BRAINS[GAME]["hard"], BRAINS[GAME]["idle"], BRAINS[GAME][HANDMADE]
 
 
-def played(exam: Evaluation, ticks: int) -> Evaluation:
-    while not exam.over:
-        exam.play(ticks)
-    return exam
+def played(evaluation: Evaluation, ticks: int) -> Evaluation:
+    while not evaluation.over:
+        evaluation.play(ticks)
+    return evaluation
 
 
 @pytest.mark.parametrize("ticks", [7, 10_000])
 def test_a_little_at_a_time_comes_to_the_same(ticks: int) -> None:
-    exam = played(Evaluation(HARD, IDLE, 4, 3, minutes=0.3), ticks)
-    assert (exam.wins, exam.ties, exam.losses) == contest(HARD, IDLE, 4, 3, minutes=0.3, fast=False)
+    evaluation = played(Evaluation(HARD, IDLE, 4, 3, minutes=0.3), ticks)
+    assert (evaluation.wins, evaluation.ties, evaluation.losses) == contest(HARD, IDLE, 4, 3, minutes=0.3, fast=False)
 
 
 def test_whoever_is_better_wins_on_both_sides() -> None:
-    exam = played(Evaluation(HARD, IDLE, 4, 3, minutes=0.5), 500)
-    assert (exam.wins, exam.share) == (4, 1.0)
+    evaluation = played(Evaluation(HARD, IDLE, 4, 3, minutes=0.5), 500)
+    assert (evaluation.wins, evaluation.share) == (4, 1.0)
     assert played(Evaluation(IDLE, HARD, 4, 3, minutes=0.5), 500).share == 0.0
 
 
 def test_against_one_like_itself_it_is_a_half() -> None:
-    exam = played(Evaluation(OWN, OWN, 20, 9, minutes=0.3), 500)
-    assert exam.share == pytest.approx(0.5, abs=0.25)
+    evaluation = played(Evaluation(OWN, OWN, 20, 9, minutes=0.3), 500)
+    assert evaluation.share == pytest.approx(0.5, abs=0.25)
     assert played(Evaluation(IDLE, IDLE, 2, 9, minutes=0.05), 500).share == 0.5
 
 
 def test_after_its_end_nothing_more_is_played() -> None:
-    exam = played(Evaluation(IDLE, IDLE, 2, 1, minutes=0.02), 50)
-    exam.play(50)
-    assert exam.wins + exam.ties + exam.losses == 2
+    evaluation = played(Evaluation(IDLE, IDLE, 2, 1, minutes=0.02), 50)
+    evaluation.play(50)
+    assert evaluation.wins + evaluation.ties + evaluation.losses == 2

@@ -1,4 +1,4 @@
-"""Who is better: the interval is Wilson's, and nobody is favoured by seed or side."""
+"""Duels and leagues: Wilson's interval, and pairing that favours neither seed nor side."""
 
 from math import sqrt
 
@@ -37,7 +37,7 @@ def test_more_matches_say_more():
 
 @pytest.mark.parametrize("brain", ["random", "fsm"])
 def test_a_duel_with_oneself_is_even(brain):
-    """Both sides of a pair are the same match, so what one wins on one side it loses on the other."""
+    """Both matches of a pair are identical, so a win on one side is a loss on the other."""
     result = duel("pitanks", brain, brain, matches=8, seed=5, minutes=0.5, variant="plain", fast=False)
     assert result.wins == result.losses
     assert result.mean_score_left == result.mean_score_right
@@ -45,7 +45,7 @@ def test_a_duel_with_oneself_is_even(brain):
 
 
 class Rigged:
-    """A batch in which whoever sits on the first seat wins by 3 to 1."""
+    """A batch in which the first seat wins every match by 3 to 1."""
 
     seen: list[tuple[list[str], list[int]]]
 

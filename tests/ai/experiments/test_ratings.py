@@ -1,4 +1,4 @@
-"""Ratings say by how much who is better: the formula by hand, whatever was won, and how sure that is."""
+"""Ratings: the formula by hand, finite values for any results, and coverage of the intervals."""
 
 import itertools
 import random
@@ -8,11 +8,11 @@ import pytest
 
 from pigaming_app.ai.experiments.ratings import ratings
 
-SWEEP, DRAW, HALF = (2.0, 0.0), (1.0, 1.0), (1.5, 0.5)  # what came of the two matches of a seed
+SWEEP, DRAW, HALF = (2.0, 0.0), (1.0, 1.0), (1.5, 0.5)  # points from the two matches of a seed
 
 
 def test_three_wins_of_four_by_hand():
-    """With the lent tie 3.5 points against 1.5: 400 log10(3.5 / 1.5) points apart, half of it each side of 0."""
+    """With the prior tie 3.5 points against 1.5: 400 log10(3.5 / 1.5) points apart, symmetric about 0."""
     strong, weak = ratings(2, {(0, 1): [SWEEP, DRAW]}, seed=1)
     assert strong.rating == pytest.approx(200 * log10(3.5 / 1.5))
     assert weak.rating == pytest.approx(-strong.rating)
@@ -59,7 +59,7 @@ def test_in_what_order_brains_are_named_does_not_matter():
 
 
 def test_ratings_find_the_strengths_that_made_the_results():
-    """Of strengths that are known 95 % lie within their intervals; fewer than 88 % of 160 would be no chance."""
+    """95 % of known strengths lie within their intervals; fewer than 88 % of 160 would not be chance."""
     rng, truth, inside = random.Random(5), [150.0, 50.0, -20.0, -180.0], 0
     for league in range(40):
         shares = {}

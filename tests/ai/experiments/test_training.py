@@ -1,4 +1,4 @@
-"""Training: the same table in both bodies, stopped and gone on with, kept in checked files."""
+"""Training: the same table compiled and plain, resumed training, and validation of table files."""
 
 import json
 import os
@@ -159,7 +159,7 @@ def test_a_table_of_an_older_version_is_read_and_learns_on(version):
 
 
 def rewritten(path, **parts):
-    """The file with some of its parts replaced by what functions make of them; the zip itself is whole."""
+    """Replace parts of the file by functions of them; the zip itself stays valid."""
     with np.load(path) as file:
         arrays = {name: file[name] for name in file.files}
     for name, change in parts.items():
@@ -219,7 +219,7 @@ def test_a_truncated_file_is_refused(kept, share):
 
 
 def test_a_file_with_a_bit_of_rot_anywhere_is_refused_or_the_same(kept):
-    """Some bytes of a zip mean nothing, such as its dates: what is read is then what was written."""
+    """Some bytes of a zip, such as its dates, have no effect; the table read is then the one written."""
     raw, whole = kept.read_bytes(), digest(read(kept).rows[0])
     for at in range(0, len(raw), 61):
         kept.write_bytes(raw[:at] + bytes([raw[at] ^ 0x10]) + raw[at + 1 :])
@@ -246,7 +246,7 @@ def test_foreign_files_are_refused(kept):
 
 @pytest.mark.parametrize("name", ["q1", "q2"])
 def test_the_tables_that_come_with_the_arcade_were_trained_on_this_engine(name):
-    """After a change to sim/ or games/: `python -m tests.bench.reproduce_table --ship` trains them anew."""
+    """After a change to sim/ or games/ retrain them with `python -m tests.bench.reproduce_table --ship`."""
     trained = read(ASSETS / "brains" / f"{name}.npz")
     assert (trained.name, trained.reward, trained.recipe) == (name, int(name[1]), RECIPES[int(name[1])])
     assert (trained.matches, trained.minutes, trained.arena) == (200, 2.0, "classic")
@@ -258,7 +258,7 @@ def test_they_fare_against_the_frozen_machine_about_as_published():
     """32 / 68 / 0 and 94 / 6 / 0 of 100; here of 10, which tests/bench/reproduce_table.py plays in full."""
     wins, losses = {}, {}
     for name in ("q1", "q2"):
-        robot = player(name, tables.shipped(name))  # without the reflex that it has on a seat
+        robot = player(name, tables.shipped(name))  # without the reflex that it has in the arcade
         wins[name], _, losses[name] = training.contest(robot, BRAINS["pitanks"]["classic"], 10, 1000, fast=False)
     assert wins["q1"] <= 6 < 8 <= wins["q2"]
     assert losses["q1"] + losses["q2"] <= 1

@@ -1,4 +1,4 @@
-"""The hand-written driver: it never spoils anything, every match ends, it shares the work, yields and says its aim."""
+"""The factory brain: it damages nothing, finishes every match, divides the work, yields, and announces its target."""
 
 from functools import cache
 from math import hypot
@@ -85,7 +85,7 @@ def test_mixed_company_gets_to_the_end():
 
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_eight_pallets_are_no_dead_end(floor):
-    """Machines and entries are full all the time then."""
+    """Machines and entries are always full then."""
     assert played(("hard",) * 4, floor, 3, pallets=8).state.winner
 
 
@@ -93,7 +93,7 @@ def test_eight_pallets_are_no_dead_end(floor):
     ("better", "worse", "least"), one_in(3, [("hard", "easy", 9), ("hard", "normal", 6), ("normal", "easy", 9)])
 )
 def test_the_strengths_are_ordered(better, worse, least):
-    """In nine matches on all three floors, whichever side it is on; `normal` beats `hard` in one of five."""
+    """In nine matches on all three floors, on either side; `normal` beats `hard` in one of five."""
     won = 0
     for i, floor in enumerate(FLOORS * 3):
         brains = (worse, better) * 2 if i % 2 else (better, worse) * 2
@@ -135,18 +135,18 @@ def test_it_thinks_without_changing_anything_but_its_action(strength):
     assert digest(match.state) == before
 
 
-# ---------------------------------------------------------------------------------------------------- what it makes for
+# ----------------------------------------------------------------------------------------------------- choice of target
 
 
 def first_aim(shop, seat=0, strength="hard", seconds=0.6):
-    """The slot that a driver makes for when it has looked about for a moment."""
+    """Target slot of a driver after `seconds`."""
     shop.match.sit(seat, make("factory", strength, seat))
     shop.tick(round(seconds * HZ))
     return shop.loads[seat].aim - 1
 
 
 def test_it_says_what_it_makes_for_and_then_uses_that_slot():
-    """Every time a pallet is lifted or set down, the driver has shown that slot for a while."""
+    """Before every lift and put-down the driver has announced that slot for a while."""
     match = begun(("hard",) * 4, "hall", 9)
     state, shown, uses = match.state, [[0] * 25 for _ in range(4)], 0
     where = [(pallet.place, pallet.at) for pallet in state.pallets]
@@ -220,7 +220,7 @@ def test_two_laden_mates_never_make_for_the_same_slot():
 
 
 def test_what_it_cannot_get_rid_of_it_brings_back_after_a_while():
-    """Both machines B are full of the others' pallets, and nobody comes for them."""
+    """Both machines B are full of the other team's pallets, which nobody removes."""
     match = begun(("hard", "idle", "off", "off"))
     state = match.state
     state.rules.collect = 10**6
@@ -244,7 +244,7 @@ def test_what_it_cannot_get_rid_of_it_brings_back_after_a_while():
 
 
 def test_it_leaves_to_a_person_what_the_person_is_about():
-    """Two pallets are to be fetched. Whichever of them the person stands at, the driver takes the other."""
+    """Of two raw pallets the driver takes the one that the person is not standing at."""
     aims = []
     for mine in (0, 1):
         shop = Shop(present=(0, 2))
@@ -267,7 +267,7 @@ def test_it_wins_with_a_mate_who_does_nothing():
 
 
 def test_it_clears_the_machine_of_a_person_who_is_busy():
-    """A half-done pallet blocks an output, and the person near it carries something already."""
+    """A half-done pallet blocks an output, and the person near it is already carrying one."""
     shop = Shop(present=(0, 2))
     out = shop.output_of(A)
     shop.press(2, shop.slot(ENTRY, ICE, which=3))
@@ -278,7 +278,7 @@ def test_it_clears_the_machine_of_a_person_who_is_busy():
 
 @pytest.mark.parametrize("strength", STRENGTHS)
 def test_it_drives_round_people(strength):
-    """Somebody stands between it and its first pallet."""
+    """A person stands between it and its first pallet."""
     match = begun((strength, "off", "off", "off"), "hall", 2, pallets=2)
     hits = 0
     while not match.over:
@@ -291,7 +291,7 @@ def test_it_drives_round_people(strength):
 
 
 def test_somebody_else_can_take_over_at_any_time():
-    """A driver hands over to one that knows nothing of what was before, laden or not, again and again."""
+    """A driver hands over to one with a fresh mind, laden or not, repeatedly."""
     match = begun(("hard", "off", "hard", "off"), "lines", 8)
     changes = 0
     while not match.over:

@@ -1,4 +1,4 @@
-"""The hand-written opponent: stronger where it is meant to be, and never stuck."""
+"""The hand-written opponent of PiTanks: ordered strengths, and never stuck."""
 
 from collections import deque
 from math import hypot
@@ -24,7 +24,7 @@ def test_hard_beats_easy():
 
 
 def test_fsm_beats_random():
-    """Of 100 such matches it won 73 and lost 5 when this was written: here, of those decided, surely more than half."""
+    """Of 100 such matches it won 73 and lost 5 when measured; here it must win more than half of those decided."""
     result = duel("pitanks", "fsm", "random", matches=40, seed=200, minutes=1.0, variant="plain", fast=False)
     assert wilson(result.wins, result.wins + result.losses)[0] > 0.5
     assert result.mean_score_left > 0
@@ -44,7 +44,7 @@ def test_every_strength_thinks_without_changing_anything_but_its_action(strength
 
 
 def stuck(arena, seed, strengths):
-    """(seat, second, x, y) of every time that a seat pushed its stick for 3 s and stayed within 10 px.
+    """(seat, second, x, y) whenever a seat held its stick for 3 s and moved less than 10 px.
 
     Against an opponent that is in contact it may push for long: such times do not count.
     """

@@ -1,4 +1,4 @@
-"""The Q-learner: what it sees, what it is rewarded for, how it learns and how it chooses."""
+"""The Q-learner: features, rewards, updates and choice of moves."""
 
 from dataclasses import replace
 from math import cos, exp, pi, sin, tau
@@ -64,7 +64,7 @@ def taught(recipe=RECIPES[1]):
     return table
 
 
-# ------------------------------------------------------------------------------------------ what it sees
+# ------------------------------------------------------------------------------------------ features
 
 
 def test_there_are_as_many_states_and_actions_as_published():
@@ -130,7 +130,7 @@ def test_among_several_the_nearest_of_another_team_is_the_opponent():
     assert nearest_opponent(match, 0) == -1
 
 
-# ------------------------------------------------------------------------------------------ what it is rewarded for
+# ------------------------------------------------------------------------------------------ rewards
 
 
 def act(match, linear, fire):
@@ -140,7 +140,7 @@ def act(match, linear, fire):
 
 
 def shot(match, recipe=RECIPES[1], linear=1.0):
-    """The reward of seat 0 for a shot as things stand."""
+    """Reward of seat 0 for a shot in the present state."""
     return action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, linear, 1), recipe)
 
 
@@ -208,7 +208,7 @@ def test_a_kernel_reads_the_same_numbers_as_a_recipe_has():
     assert [field.name for field in RecipeRecord()._fields] == list(vars(Recipe()))
 
 
-# ------------------------------------------------------------------------------------------ how it learns
+# ------------------------------------------------------------------------------------------ learning
 
 
 def experience(table, state, move, worth, here):
@@ -237,7 +237,7 @@ def test_what_follows_counts_by_gamma():
 
 @pytest.mark.long
 def test_rewards_of_10_for_ever_tend_to_25():
-    """10 / (1 - 0.6): each visit averages over all wishes so far, so it gets there slowly, and never beyond."""
+    """10 / (1 - 0.6): each visit averages over all targets so far, so Q approaches slowly and from below."""
     table = taught()
     x = state(0, NONE, NONE)
     worths = []
@@ -307,7 +307,7 @@ def test_a_player_draws_at_the_last_temperature_and_changes_nothing_but_its_acti
     for _ in range(50):
         think(match, 0, mind, table)
         moves.add(mind.move)
-    assert moves == {FIRE, DRIVE}  # equals are drawn alike: it is a roulette, not the first of the best
+    assert moves == {FIRE, DRIVE}  # equal values are equally likely: a draw, not the first maximum
     assert digest(table) == known
     set_action(match.actions[0], 0.0, 0.0, 0, 0)
     assert digest(match) == before

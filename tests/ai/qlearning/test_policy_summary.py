@@ -1,4 +1,4 @@
-"""What a table makes of a direction, told on tables filled by hand."""
+"""Policy summaries of tables filled by hand."""
 
 import pytest
 
@@ -13,7 +13,7 @@ LEFT = next(k for k, move in enumerate(MOVES) if move == (0.0, -1.0, 0))
 
 
 def filled(*entries: tuple[int, int, int, int, float]) -> QTable:
-    """A table of entries (opponent's sector, wall's sector, move, how often, Q)."""
+    """A table from entries (opponent's sector, wall's sector, move, visits, Q)."""
     table = QTable()
     for opponent, wall, move, often, q in entries:
         k = state(opponent, wall, NONE) * ACTIONS + move

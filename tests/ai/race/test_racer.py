@@ -1,4 +1,4 @@
-"""The hand-written driver: as fast as it is meant to be, past whoever is in the way, never stuck, never lost."""
+"""The race brain: lap times by strength, overtaking, and recovery from any position."""
 
 import re
 from collections import deque
@@ -31,7 +31,7 @@ def race(brains, track="classic", seed=1, laps=3):
 
 
 def the_other_way_round(track):
-    """A track with its corners in the opposite order, and new lines."""
+    """The track driven in the opposite direction, with new lines."""
     source = load("race", track).source
     head, *corners = source.split("[[corner]]")
     turned = "[[corner]]".join([head, *(corner.rstrip() + "\n\n" for corner in reversed(corners))])
@@ -45,7 +45,7 @@ def alone(strength, track="classic", laps=3):
 @pytest.mark.parametrize("track", TRACKS)
 @pytest.mark.parametrize("strength", TARGETS)
 def test_each_strength_is_as_fast_as_it_is_meant_to_be(strength, track):
-    """Flying laps without turbo against the fastest lap there is, which has none either."""
+    """Flying laps without turbo against the fastest possible lap without turbo."""
     match = alone(strength, track, laps=5)
     match.state.robots[0].turbo = match.state.rules.turbo_refill = 0.0
     while not match.over:
@@ -140,7 +140,7 @@ def test_it_drives_round_robots_that_stand_on_the_course(track):
 
 @pytest.mark.parametrize(("slower", "faster"), [("easy", "hard"), ("normal", "hard"), ("easy", "normal")])
 def test_it_overtakes_whoever_is_slower(slower, faster):
-    """The slower begins a line ahead. Without having to pass it the faster would win by 8 s at least."""
+    """The slower one starts a line ahead. On a free course the faster one would win by at least 8 s."""
     match = race((slower, "off", "off", faster), laps=9)
     ahead, behind = match.state.racers[0], match.state.racers[3]
     while not match.over:
@@ -152,7 +152,7 @@ def test_it_overtakes_whoever_is_slower(slower, faster):
 
 
 def goes_on(match, seat=0, seconds=8.0):
-    """Whether a robot drives at least 300 px of the course within that time."""
+    """True if a robot drives at least 300 px along the course within `seconds`."""
     before = match.state.racers[seat].progress
     for _ in range(round(seconds * HZ)):
         match.tick()
@@ -183,7 +183,7 @@ def test_it_turns_round_when_it_faces_the_wrong_way(track):
 @pytest.mark.parametrize("track", TRACKS)
 @pytest.mark.parametrize("past", [30.0, 200.0, 700.0])
 def test_it_goes_back_to_a_line_that_it_has_been_carried_over(track, past):
-    """As when somebody who has missed one hands over."""
+    """As when a person who has missed a line hands over."""
     match = alone("hard", track, laps=1)
     state = match.state
     while state.racers[0].passed < 1:

@@ -1,4 +1,4 @@
-"""Which radio drives which marker, and how late it all is, on the mat without light or air."""
+"""Pairing and latency on a simulated mat without rendering or radio noise."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from tests.hardware.mat import LATE, STARTS, TRUE, Mat
 
 
 def paired(mat, channels=None, meddle=lambda pairing: None):
-    """The pairing of a mat, done."""
+    """A completed pairing on a mat."""
     pairing = Pairing(mat.rig, channels)
     for _ in range(1000):
         meddle(pairing)

@@ -1,14 +1,13 @@
-/* A 3pi on the bench of simavr, for test_firmware.py: board ROBOT.ELF BAUD ADDRESS
+/* Simulated 3pi (simavr) for test_firmware.py. Usage: board ROBOT.ELF BAUD ADDRESS
  *
- * It opens a pseudo-terminal, says its name, and then does what comes on standard input, line by line. Simulated time
- * passes only in `run`, so what is measured does not depend on how fast or busy this computer is.
- *   run US        let so many microseconds of simulated time pass
- *   await N       wait, in real time, until N more bytes have come over the terminal; they go in at the baud rate
- *   battery MV    set the battery's voltage
- *   hang          put an endless loop where the program is, outside interrupts; a reset takes it away
- * It says, each on a line with the simulated time in microseconds first: `US motors LEFT RIGHT` when what reaches the
- * motors changes, of 256, ahead positive; `US byte` when the robot sends one; `US reset`; and `US done` when a line is dealt
- * with.
+ * It opens a pseudo-terminal, prints its name and executes commands from standard input, one per line. Simulated time
+ * passes only in `run`, so measurements do not depend on the speed or load of this computer.
+ *   run US        advance simulated time by US microseconds
+ *   await N       wait, in real time, until N more bytes have come over the terminal; they arrive at the baud rate
+ *   battery MV    set the battery voltage
+ *   hang          insert an endless loop at the present instruction, outside interrupts; a reset removes it
+ * Output lines begin with the simulated time in microseconds: `US motors LEFT RIGHT` when the duty of a motor changes,
+ * of 256, forward positive; `US byte` when the robot sends a byte; `US reset`; `US done` when a command has finished.
  * SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE
 #include <fcntl.h>
@@ -49,7 +48,7 @@ static int hangs;
 static unsigned long long microseconds(avr_cycle_count_t cycle) { return cycle * 1000000ULL / HERTZ; }
 static unsigned long long now(void) { return microseconds(avr->cycle); }
 
-/* For how much of the time, of 256, a pin is low. The driver pulls low what is no output, unless we pull it up. */
+/* Share of the time, of 256, for which a pin is low. The driver pulls inputs low unless the pull-up is on. */
 static int low(uint8_t ddr, uint8_t port, int bit, uint8_t control, uint8_t clock, uint8_t compare, int mode_at)
 {
     int mode = control >> mode_at & 3;
@@ -62,7 +61,7 @@ static int low(uint8_t ddr, uint8_t port, int bit, uint8_t control, uint8_t cloc
     return mode == 3 ? compare + 1 : mode == 2 ? 255 - compare : 0;
 }
 
-/* What the motors get counts once it has lasted: a program that changes both writes four registers, one by one. */
+/* A change of the duties counts only after it has lasted: setting both motors writes four registers in turn. */
 static void watch_motors(void)
 {
     static int was_left, was_right, said_left = 9999, said_right = 9999;

@@ -1,4 +1,4 @@
-"""A robot on the bench: its program on a simulated ATmega328P (board.c), told over a pseudo-terminal what to do."""
+"""Test bench of the firmware: a simulated ATmega328P (board.c) with its serial port on a pseudo-terminal."""
 
 import os
 import shutil
@@ -18,14 +18,14 @@ AHEAD = WheelCommand(1.0, 1.0)
 
 
 def missing():
-    """What this computer lacks to build and run the firmware."""
+    """Missing tools to build and run the firmware."""
     tools = [tool for tool in ("avr-gcc", "make", "gcc") if shutil.which(tool) is None]
     files = ["/usr/lib/avr/include/avr/io.h", "/usr/include/simavr/sim_avr.h", "/usr/include/libelf.h"]
     return tools + [file for file in files if not os.path.exists(file)]
 
 
 class Event(NamedTuple):
-    """Something that the board said: `motors` with the two duties of 256, `byte`, `reset`."""
+    """An output of the board: `motors` with both duties of 256, `byte`, or `reset`."""
 
     at: int  # µs
     kind: str
@@ -33,7 +33,7 @@ class Event(NamedTuple):
 
 
 class Board:
-    """A robot on the bench."""
+    """A simulated robot."""
 
     def __init__(self, program, firmware, address):
         self.process = subprocess.Popen(
@@ -51,7 +51,7 @@ class Board:
         self.run(50)
 
     def do(self, line):
-        """Let the board do it; what it said."""
+        """Execute a command of the board; returns its output."""
         self.process.stdin.write(line + "\n")
         self.process.stdin.flush()
         new = []
@@ -63,11 +63,11 @@ class Board:
         return new
 
     def run(self, milliseconds):
-        """Let simulated time pass; what happened in it."""
+        """Advance simulated time; returns its events."""
         return self.do(f"run {round(1000 * milliseconds)}")
 
     def say(self, data):
-        """Send bytes to the robot; they go in one by one as time passes."""
+        """Send bytes to the robot; they arrive one by one as time passes."""
         self.port.write(data)
         self.do(f"await {len(data)}")
 
@@ -79,7 +79,7 @@ class Board:
         return next(event.motors for event in reversed(self.events) if event.kind == "motors")
 
     def reports(self):
-        """What the robot said since the last time, and when each report was complete."""
+        """Reports of the robot since the last call, and the times at which they were complete."""
         times = [event.at for event in self.events if event.kind == "byte"][self._read :]
         self._read += len(times)
         decoder = PacketDecoder()
@@ -95,7 +95,7 @@ class Board:
 
 
 def build(folder):
-    """Build the board's program and the robot's; their files."""
+    """Build the board and the firmware; returns their files."""
     board = folder / "board"
     gcc = ["gcc", "-O2", "-I/usr/include/simavr", "-o", board, HERE / "board.c", "-lsimavr", "-lelf"]
     subprocess.run(gcc, check=True)

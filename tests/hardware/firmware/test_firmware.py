@@ -1,6 +1,6 @@
-"""The robots' own program runs on a simulated ATmega328P and is spoken to over a pseudo-terminal.
+"""The firmware on a simulated ATmega328P, controlled over a pseudo-terminal.
 
-All times are those of the simulated processor, which stands still unless a test lets it run: see board.c.
+All times are simulated; the processor stands still unless a test advances it, see board.c.
 """
 
 import random
@@ -25,7 +25,7 @@ FULL = (256, 256)
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """The board's program and the robot's."""
+    """Executable of the board and ELF file of the firmware."""
     return build(tmp_path_factory.mktemp("firmware"))
 
 
@@ -48,7 +48,7 @@ def board(make_board):
 
 
 def duty(speed):
-    """What a speed from -63 to 63 is at the motors, of 256, if the eight-bit timer gets the nearest of 255."""
+    """Duty of 256 for a speed from -63 to 63, after rounding to the eight-bit timer's 255 steps."""
     share = (abs(speed) * 255 + 31) // 63
     return 0 if speed == 0 else (share + 1) * (1 if speed > 0 else -1)
 
@@ -124,7 +124,7 @@ def test_after_noise_the_next_packet_is_understood(board, seed):
 
 
 def scraps(chance):
-    """Something between packets: noise, the beginning of a packet, a packet with a wrong bit, a report, or nothing."""
+    """Bytes between packets: noise, a truncated packet, a packet with a bit error, a report, or nothing."""
     packet = bytearray(drive_packet(chance.randrange(128), [AHEAD]))
     wrong = bytearray(packet)
     wrong[chance.randrange(12)] ^= 1 << chance.randrange(8)
@@ -156,7 +156,7 @@ def test_the_speed_that_nobody_sends_is_a_stop(board):
 
 
 def test_when_the_program_hangs_the_watchdog_stops_the_motors(board):
-    """The timer's interrupt goes on, and packets come, but the program stands."""
+    """The timer interrupt runs and packets arrive, but the main loop hangs."""
     board.drive(1)
     board.run(20)
     hung = board.at
@@ -181,7 +181,7 @@ def test_without_a_hang_there_is_no_restart(board):
 
 @pytest.mark.parametrize("address", [1, 2, 3, 4])
 def test_reports_come_five_times_a_second_each_robot_in_its_slot(make_board, address):
-    """Counted from the end of a packet with a number that ten divides. Two such packets in five are lost."""
+    """Counted from the end of a packet whose number is divisible by 10. Two in five of these are lost."""
     board = make_board(address)
     begun = {}
     board.run(33)
@@ -227,7 +227,7 @@ def test_a_low_battery_is_told_and_an_empty_one_stops_the_motors(board):
     assert drive(2000) == (FULL, LOW)
     board.do("battery 3900")
     assert drive(2000) == ((0, 0), LOW | EMPTY)
-    board.do("battery 4200")  # as it recovers when nothing draws
+    board.do("battery 4200")  # it recovers without load
     assert drive(2000) == ((0, 0), LOW | EMPTY)
     board.do("battery 5200")
     assert drive(2000) == (FULL, 0)
@@ -243,7 +243,7 @@ def test_a_short_sag_of_the_battery_is_no_reason_to_stop(board):
 
 
 class Terminal:
-    """The board's serial port for a Link; every byte is handed over before time goes on."""
+    """The board's serial port for a Link; every byte is delivered before time advances."""
 
     def __init__(self, board):
         self.board = board
@@ -264,8 +264,8 @@ class Terminal:
 
 @pytest.mark.parametrize("end", ["closed", "silent", "killed"])
 def test_the_whole_way_from_the_link_to_the_motors(make_board, end):
-    """Closed: it says stop. Silent: nobody gives commands any more. Killed: the link, too, has stopped from one moment
-    to the next, as with kill -9; then only the robot's own deadman is left."""
+    """Closed: the link sends stop. Silent: no more commands. Killed: the link ends at once, as with kill -9, and only
+    the robot's deadman is left."""
     board = make_board(3)
     link = Link(lambda: Terminal(board), lambda: board.at / 1e6, XBeeProtocol(XBeeMode.TRANSPARENT))
     for _ in range(50):

@@ -1,4 +1,4 @@
-"""The proof of the robot loop, in small: `bench robots` does the same for longer."""
+"""Short acceptance trials of the robot loop; `bench robots` runs longer ones."""
 
 import pytest
 
@@ -13,7 +13,7 @@ from pigaming_app.sim.world import World
 
 @pytest.fixture(scope="module")
 def trail():
-    """Robots that drive on a calibrated mat; whatever happens to them leaves it as it was."""
+    """Robots that drive on a calibrated mat; every test restores its state."""
     return FigureEight(testbed.Testbed(5, 30.0))
 
 

@@ -1,4 +1,4 @@
-"""The link in simulated time: the newest command 50 times a second, stop when nobody commands, stop at the end."""
+"""The link in simulated time: the newest command 50 times a second, stop without commands, stop at the end."""
 
 import os
 import subprocess
@@ -99,7 +99,7 @@ def test_a_fifth_robot_is_refused_where_it_is_named(link):
 
 @pytest.mark.parametrize("mode", XBeeMode)
 def test_robots_are_heard_in_every_mode(mode, time):
-    """Two reports come in one piece, the second one cut in two, as a transparent radio cuts them."""
+    """Two reports in one chunk, the second cut in two, as a transparent radio delivers them."""
     wire = Wire(time) if mode is XBeeMode.TRANSPARENT else Radio(time, escaped=mode is XBeeMode.API2)
     link = Link(lambda: wire, time, XBeeProtocol(mode))
     link.pump()
@@ -185,7 +185,7 @@ def test_a_radio_of_the_other_api_mode_is_named(time):
 
 
 def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
-    """Robots would be heard, from inside the frames, but would hear nothing."""
+    """The robots' reports would be received, from inside the frames, but no command would reach them."""
     radio = Radio(time)
     link = Link(lambda: radio, time, XBeeProtocol(XBeeMode.TRANSPARENT), name="COM3")
     link.pump()
@@ -196,7 +196,7 @@ def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
 
 
 def test_a_quiet_transparent_line_is_no_trouble(time):
-    """Robots that are switched off say nothing."""
+    """Robots that are switched off send nothing."""
     link = Link(lambda: Wire(time), time, XBeeProtocol(XBeeMode.TRANSPARENT))
     run(link, time, 5.0)
     assert link.trouble is None
@@ -242,7 +242,7 @@ from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.signals import WheelCommand
 
 link = Link(serial_port(sys.argv[1]), time.monotonic, XBeeProtocol(XBeeMode.TRANSPARENT)).start()
-while link._dialect.broadcasts < 3:
+while link._protocol.broadcasts < 3:
     link.send([WheelCommand(1.0, 1.0)])
     time.sleep(0.001)
 link.send([WheelCommand(1.0, 1.0)])

@@ -1,4 +1,4 @@
-"""The bytes of HARDWARE.md, whatever arrives between them, and back again."""
+"""Packets and frames: reference bytes, round trips, and recovery from noise."""
 
 import pytest
 from hypothesis import given
@@ -23,7 +23,7 @@ from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.robot_packets import Drive, drive_from, report_packet
 
 SENT = TransmitRequest(1, 0x0001, bytes.fromhex("5007117E"))
-GOLDEN = {  # the frames of HARDWARE.md
+GOLDEN = {  # reference frames
     "AP1 TX16": (False, "7E 00 09 01 01 00 01 00 50 07 11 7E 16", SENT),
     "AP2 TX16": (True, "7E 00 09 01 01 00 01 00 50 07 7D 31 7D 5E 16", SENT),
     "RX16": (False, "7E 00 07 81 00 01 28 00 10 27 1E", ReceivedPacket(1, -40, 0, b"\x10\x27")),
@@ -48,7 +48,7 @@ reports = st.builds(RobotReport, st.integers(1, 4), st.integers(0, 127), st.inte
 
 
 def in_pieces(data, sizes):
-    """The data cut where the sizes say, the rest in one."""
+    """The data in chunks of these sizes, then the rest."""
     for size in sizes:
         yield data[:size]
         data = data[size:]
@@ -60,7 +60,7 @@ def heard(decoder, data, sizes=()):
 
 
 @pytest.mark.parametrize(("escaped", "line", "message"), GOLDEN.values(), ids=GOLDEN)
-def test_the_frames_of_hardware_md_are_made_and_understood(escaped, line, message):
+def test_reference_frames_are_encoded_and_decoded(escaped, line, message):
     raw = bytes.fromhex(line)
     assert frame(encode(message), escaped) == raw
     assert [decode(data) for data in FrameDecoder(escaped).feed(raw)] == [message]
@@ -71,7 +71,7 @@ def test_the_crc_is_that_of_the_catalogue():
 
 
 def test_a_drive_packet_by_hand():
-    """Robot 0 full ahead, robot 1 off, robot 2 turns on the spot at a third, robot 3 stands."""
+    """Robot 0 at full speed, robot 1 disabled, robot 2 spins at a third of full speed, robot 3 stands."""
     packet = packets.drive_packet(
         5, [WheelCommand(1.0, 1.0), None, WheelCommand(-1 / 3, 1 / 3), WheelCommand(0.0, 0.0)]
     )
@@ -135,7 +135,7 @@ def test_after_any_noise_an_escaped_frame_is_found(noise, message):
 def test_a_truncated_frame_does_not_take_the_next_one_with_it(broken, message, escaped, data):
     raw = frame(encode(broken), escaped)
     cut = raw[: data.draw(st.integers(1, len(raw) - 1))]
-    room = bytes(packets.LONGEST + 4)  # with AP=1 a frame that promised much ends only when that much has come
+    room = bytes(packets.LONGEST + 4)  # with AP=1 a frame with a large size field ends only after that many bytes
     assert message in [
         decode(one) for one in heard(FrameDecoder(escaped), cut + frame(encode(message), escaped) + room)
     ]
@@ -168,7 +168,7 @@ def test_after_any_noise_our_packets_are_found(noise, crew, report, sizes):
 def test_a_line_stuck_at_the_escape_fills_no_memory():
     decoder = FrameDecoder(True)
     decoder.feed(b"\x7e" + b"\x7d" * 1000)
-    assert len(decoder._line) == 0
+    assert len(decoder._buffer) == 0
 
 
 @given(st.binary(max_size=400), st.booleans())
@@ -177,8 +177,8 @@ def test_noise_never_raises_and_is_never_kept(noise, escaped):
     for data in frames.feed(noise):
         decode(data)
     ours.feed(noise)
-    assert len(frames._line) <= 2 * (packets.LONGEST + 4)
-    assert len(ours._line) < 12
+    assert len(frames._buffer) <= 2 * (packets.LONGEST + 4)
+    assert len(ours._buffer) < 12
 
 
 def test_a_packet_of_a_flipped_bit_is_refused():

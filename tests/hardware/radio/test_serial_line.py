@@ -188,7 +188,7 @@ def test_a_reader_that_pauses_is_not_taken_for_an_unplugged_radio():
     device, time = os.ttyname(near), Time()
     line = SerialLine(serial_port(device), time, device)
     assert line.open()
-    while not line._held_up:  # the buffer of the terminal fills up
+    while not line._blocked_since:  # the buffer of the terminal fills up
         line.write(bytes(1000))
     assert line.is_open
     assert line.trouble is None
@@ -211,7 +211,7 @@ def test_stale_commands_in_a_full_buffer_are_dropped():
     device, time = os.ttyname(near), Time()
     line, taken = SerialLine(serial_port(device), time, device), 0
     assert line.open()
-    while not line._held_up:
+    while not line._blocked_since:
         line.write(b"old!" * 250)
         taken += 1000
     line.write(b"new!")

@@ -10,7 +10,7 @@ from tests.hardware.wire import Time, Wire, run
 
 
 class Robot(Wire):
-    """A 3pi with the serial-slave program: it does what HARDWARE.md's table says, and has no deadman."""
+    """A 3pi with the serial-slave program: it implements Pololu's commands and has no deadman."""
 
     def __init__(self, time, name=b"3pi1.1"):
         super().__init__(time)

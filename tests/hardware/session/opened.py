@@ -1,4 +1,4 @@
-"""A session of robots on this computer: a window, a calibration, and waiting for threads."""
+"""Helpers for tests of sessions: a real session, a saved calibration, and waiting for threads."""
 
 import threading
 import time
@@ -18,14 +18,14 @@ def real_mat(settings: Settings | None = None) -> RealSession:
 
 
 def calibrate(projection: str) -> None:
-    """Keep a calibration made on this projection."""
+    """Save a calibration made with this projection."""
     folder = folders().config
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "calibration.toml").write_text(written(replace(nominal(), display=projection)), encoding="utf-8")
 
 
 def soon(true: Callable[[], bool], most: float = 30.0) -> bool:
-    """Whether it is so before long."""
+    """Wait until the condition is true; False after `most` s."""
     end = time.monotonic() + most
     while time.monotonic() < end:
         if true():

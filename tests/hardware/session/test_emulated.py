@@ -1,4 +1,4 @@
-"""The emulated session: it measures the drift of the camera for whoever drives, and closes what it has opened, once."""
+"""The emulated session: drift supervision in every rig, and closing of camera and radio exactly once."""
 
 from collections.abc import Iterator
 from typing import Any

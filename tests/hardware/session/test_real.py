@@ -1,4 +1,4 @@
-"""A calibration counts only for pictures of the size with which it was made."""
+"""The real session's camera: frames of another size than the calibrated one are dropped."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from tests.hardware.sentences import sentence
 
 
 class Eye:
-    """A camera that has one picture of each of these sizes."""
+    """A fake camera with one frame of each of these sizes."""
 
     trouble: OperatorMessage | None = None
 

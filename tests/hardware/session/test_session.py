@@ -1,4 +1,4 @@
-"""What real robots need: opened, closed, and one sentence for whatever is missing."""
+"""Sessions: opening, closing, and the operator message for each missing part."""
 
 import sys
 from pathlib import Path

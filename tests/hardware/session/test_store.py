@@ -1,4 +1,4 @@
-"""The files about real robots: a calibration of version 1.3.0 is still read, and whatever is wrong is a message."""
+"""Robot files: a calibration of version 1.3.0 is still read, and every fault is an operator message."""
 
 from pathlib import Path
 

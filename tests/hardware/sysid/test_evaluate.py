@@ -1,4 +1,4 @@
-"""Finding out what robots are like from a recorded run, and how much better the simulator knows them then."""
+"""Identification of robots from recordings, and the simulator's prediction errors before and after."""
 
 import json
 
@@ -21,7 +21,7 @@ ODD = Drivetrain(Wheel(700.0, 0.045), Wheel(790.0, 0.025), 64.0, 0.09, 0.05)
 
 
 def danced(seconds, noise=0.0, train=TRUE, fps=30):
-    """A run on the mat: what all were told, and where they were seen, with some noise."""
+    """A recording on the mat: commands, and fixes with noise."""
     mat = Mat(train=train)
     world = floor(poses=[(robot.x, robot.y, robot.heading) for robot in mat.robots])
     plant, dance, chance = RealPlant(world, mat.rig), ExcitationPattern(), np.random.default_rng(1)

@@ -1,4 +1,4 @@
-"""Pictures of how true the simulator is; without matplotlib, one sentence instead."""
+"""Fidelity plots, and the message without matplotlib."""
 
 import sys
 

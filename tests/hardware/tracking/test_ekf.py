@@ -1,4 +1,4 @@
-"""One robot, followed: told in physics, with a robot that the filter is not told about."""
+"""The pose filter against simulated robots whose parameters it does not know."""
 
 from dataclasses import replace
 from math import cos, degrees, hypot, pi, sin, sqrt, tau
@@ -21,16 +21,16 @@ def fix(x, y, heading=0.0, captured=0.0):
 
 
 def follower(x=500.0, y=400.0, heading=0.0, train=PROMPT):
-    """One that saw its robot at time 0."""
+    """A filter with a first fix at time 0."""
     robot = PoseFilter(train, MM)
     assert robot.correct(fix(x, y, heading))
     return robot
 
 
 def drive(robot, twist, begin, end):
-    """Commands 50 times a second."""
+    """Record a command 50 times a second."""
     for tick in range(round(begin * 50), round(end * 50)):
-        robot.told(tick / 50, twist)
+        robot.record_command(tick / 50, twist)
 
 
 def test_the_motors_follow_exactly_whatever_the_steps():
@@ -94,7 +94,7 @@ def test_a_jump_is_not_believed_before_the_third_time_and_then_the_robot_stands_
     believed = [robot.correct(fix(900.0, 700.0, 2.0, (i + 1) / 30.0)) for i in range(3)]
     assert believed == [False, False, True]
     assert robot.at(0.1)[:3] == pytest.approx((900.0, 700.0, 2.0))
-    assert robot._rolling.left == 0.0
+    assert robot._motion.left == 0.0
 
 
 def test_jumps_here_and_there_are_never_believed():
@@ -150,7 +150,7 @@ def test_headings_go_round():
 
 
 class Stranger:
-    """A robot that the filter knows nothing of: its own gains, base, lag, deadband and dead time; steps of 2 ms."""
+    """A robot with gains, base, lag, deadband and dead time unknown to the filter; steps of 2 ms."""
 
     def __init__(self, left=0.94, right=1.04, base=65.0, lag=0.09, stuck=25.0, dead=0.03):
         self.gains, self.base, self.lag, self.stuck, self.dead = (left, right), base, lag, stuck, dead
@@ -168,7 +168,7 @@ class Stranger:
 
 
 def errors(stranger, seconds, seed=1, noise=(0.7, 0.012), fps=30, late=0.06):
-    """Play for so long, a random stick: what `at` says less the truth, every tick (s, mm, degrees)."""
+    """Drive with a random stick; errors of `at` at every tick (s, mm, degrees)."""
     random = np.random.default_rng(seed)
     robot, twist, told, frames, found = PoseFilter(NOMINAL, MM), (0.0, 0.0), [], [], []
     for step in range(round(seconds * 500)):
@@ -177,7 +177,7 @@ def errors(stranger, seconds, seed=1, noise=(0.7, 0.012), fps=30, late=0.06):
             if random.random() < 0.04:
                 twist = (260.0 * random.integers(-1, 2), 3.0 * random.integers(-1, 2))
             told.append((now, twist))
-            robot.told(now, twist)
+            robot.record_command(now, twist)
         acting = [one for sent, one in told[-10:] if sent + stranger.dead <= now]
         stranger.step(acting[-1] if acting else (0.0, 0.0))
         x, y, heading = stranger.pose
@@ -218,27 +218,27 @@ def test_a_robot_that_stands_still_teaches_nothing():
     for frame in range(3000):
         x, y, heading = random.normal((500.0, 400.0, 1.0), (0.7, 0.7, 0.012)).tolist()
         robot.correct(fix(x, y, heading, frame / 30.0))
-        robot.told(frame / 30.0, (0.0, 0.0))
+        robot.record_command(frame / 30.0, (0.0, 0.0))
     assert robot.wear == pytest.approx(FRESH, abs=1e-6)
-    assert np.isfinite(robot._spread).all()
-    assert np.linalg.eigvalsh(robot._spread).min() > -1e-12
+    assert np.isfinite(robot._covariance).all()
+    assert np.linalg.eigvalsh(robot._covariance).min() > -1e-12
 
 
 def test_a_robot_whose_cells_are_empty_is_not_thought_to_have_lost_its_wheels():
-    """It is told to drive and stands: its pose stays where it is seen."""
+    """It is commanded to drive but stands: its pose stays at its fixes."""
     robot = follower()
     for frame in range(1, 60):
-        robot.told(frame / 30.0 - 0.033, (260.0, 0.0))
+        robot.record_command(frame / 30.0 - 0.033, (260.0, 0.0))
         robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
         assert abs(robot.at(frame / 30.0).x - 500.0) < 6.0
     assert robot.wear == pytest.approx(FRESH, abs=0.1)
 
 
 def test_a_robot_that_is_blocked_again_and_again_keeps_its_wheels():
-    """It pushes against another, turns, pushes: what does not follow its motors teaches nothing about them."""
+    """It pushes another robot, turns, pushes: motion against the motors must not change the wheel estimate."""
     robot = follower()
     for frame in range(1, 300):
-        robot.told(frame / 30.0 - 0.033, (260.0 * (frame % 15 < 10), 3.0 * (frame % 20 < 6)))
+        robot.record_command(frame / 30.0 - 0.033, (260.0 * (frame % 15 < 10), 3.0 * (frame % 20 < 6)))
         robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
     assert robot.wear[:3] == pytest.approx(FRESH[:3], abs=0.2)
     assert robot.wear.stiction < 30.0

@@ -1,4 +1,4 @@
-"""From pictures to poses: robots that drive, hide and come back, hands, and markers that come twice."""
+"""The tracker from images to poses: driving, occlusion and recovery, hands, and duplicate markers."""
 
 from math import hypot, pi, tau
 
@@ -18,7 +18,7 @@ POSES = ((300.0, 200.0, 0.4), (1300.0, 250.0, 2.5), (1200.0, 700.0, 4.0), (250.0
 
 
 def marks(poses, height=70.0):
-    """What a perfect camera sees of robots: {robot: pose}, or pairs."""
+    """Markers as seen by a perfect camera; `poses`: {robot: pose}, or pairs."""
     pairs = poses.items() if isinstance(poses, dict) else poses
     return [DetectedMarker(robot, GROUND.seen_at(square(pose, EDGE), height)) for robot, pose in pairs]
 
@@ -36,7 +36,7 @@ class Clock:
 
 
 class Mat:
-    """A tracker over a mat; `show` lets it see where robots are, 30 times a second."""
+    """A tracker above a mat; `show` feeds it frames of the robots at 30 Hz."""
 
     def __init__(self, robots=range(4)):
         self.clock = Clock()
@@ -53,7 +53,7 @@ class Mat:
         return {fix.robot for fix in fixes}
 
     def away(self, robot, pose):
-        """How far (px, rad) the tracker is from the truth."""
+        """Errors of the tracker (px, rad)."""
         sight = self.tracker.sense(self.clock.now)[robot]
         return hypot(sight.x - pose[0], sight.y - pose[1]), abs((sight.heading - pose[2] + pi) % tau - pi)
 
@@ -76,7 +76,7 @@ def test_they_are_found_again_picture_after_picture_near_where_they_were():
     for step in range(12):
         driving = (300.0 + 8.0 * step, 200.0, 0.4)
         assert mat.show({0: driving, **dict(enumerate(POSES[1:], 1))}) == {0, 1, 2, 3}
-    assert len(looks) <= 4  # 0.4 s, and one look everywhere in 0.1 s
+    assert len(looks) <= 4  # 0.4 s, with one search of the whole image every 0.1 s
 
 
 def test_a_robot_that_comes_onto_the_mat_is_found_within_a_tenth_of_a_second():
@@ -162,7 +162,7 @@ def test_an_old_picture_is_not_looked_at_twice():
 
 
 def test_a_robot_that_drives_is_where_its_commands_have_brought_it():
-    """200 px/s, seen 0.1 s ago: the tracker is asked about now."""
+    """200 px/s with a fix 0.1 s old: the pose is predicted for now."""
     mat = Mat()
     mat.show({0: (300.0, 450.0, 0.0)}, times=2)
     seen = mat.clock.now
@@ -174,12 +174,12 @@ def test_a_robot_that_drives_is_where_its_commands_have_brought_it():
 
 
 def test_a_robot_that_drives_into_another_is_not_predicted_to_be_inside_of_it():
-    """Rim to rim, and one is told to go on: half of its way is taken back, and given to the other."""
+    """Rim to rim, and one drives on: half of the overlap is taken from it and half given to the other."""
     mat = Mat()
     mat.tracker.correct(marks({0: (500.0, 400.0, 0.0), 1: (572.0, 400.0, 0.0)}), 0.0)
     for tick in range(6):
         mat.tracker.sent(tick * 0.02, [(260.0, 0.0), None, None, None])
-    alone = mat.tracker._followers[0].at(0.1)
+    alone = mat.tracker._filters[0].at(0.1)
     one, other = mat.tracker.sense(0.1)[:2]
     assert alone.x > 505.0
     assert other.x - one.x == pytest.approx(72.0)

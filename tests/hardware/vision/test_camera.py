@@ -1,4 +1,4 @@
-"""The reader of a camera, with a driver of the tests': what it delivers, what it does when it fails, what it says."""
+"""Camera capture with a fake driver: delivered frames, recovery from faults, and messages."""
 
 import os
 import threading
@@ -19,7 +19,7 @@ LONG = 5.0  # s after which a test gives up waiting
 
 
 class Driver:
-    """A camera that sends a picture whenever `go` is given; `opens`: whether each try to open it succeeds."""
+    """A fake capture that delivers a frame for each `go`; `opens`: success of each attempt to open it."""
 
     def __init__(self, opens=(True,)):
         self.opens, self.tries = list(opens), 0
@@ -92,7 +92,7 @@ def test_the_driver_knows_when_a_picture_was_taken_and_is_believed_if_that_can_b
         driver.go.release()
         wait_for(lambda: camera._count == 1)
         first = camera.newest()
-        driver.stamp = 12.0  # a driver that counts from its own beginning
+        driver.stamp = 12.0  # a driver whose timestamps start at its own start
         driver.go.release()
         wait_for(lambda: camera._count == 2)
         second = camera.newest()
@@ -163,7 +163,7 @@ def test_what_a_camera_does_not_let_be_locked_is_named():
 
 @pytest.fixture
 def system(tmp_path, monkeypatch):
-    """A Linux with folders of its own for devices."""
+    """A Linux system with temporary device folders."""
     monkeypatch.setattr(cameras.sys, "platform", "linux")
     monkeypatch.setattr(cameras, "DEVICES", tmp_path / "class")
     monkeypatch.setattr(cameras, "NODES", tmp_path / "dev")
@@ -220,7 +220,7 @@ def test_without_opencv_there_is_one_sentence(monkeypatch):
 def test_a_calibration_finds_the_exposure_anew_and_a_match_leaves_it_as_it_was_locked(monkeypatch, fresh, modes):
     quick(monkeypatch)
     driver = Driver()
-    driver.settings[cv2.CAP_PROP_AUTO_EXPOSURE] = 1.0  # as the one before has left it
+    driver.settings[cv2.CAP_PROP_AUTO_EXPOSURE] = 1.0  # as left locked by the previous user
     with Camera(0, open_capture=driver, settle=1e9, fresh=fresh):
         wait_for(lambda: driver.tries == 1 and cv2.CAP_PROP_BUFFERSIZE in driver.settings)
         assert driver.settings[cv2.CAP_PROP_AUTO_EXPOSURE] in modes

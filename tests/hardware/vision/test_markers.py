@@ -1,4 +1,4 @@
-"""Markers in pictures: whatever their size, whatever is projected across them; and both lines of OpenCV."""
+"""Marker detection: all sizes, projected light, blur, dim light, and both major versions of OpenCV."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def striped(corners, bright=210):
 
 
 def test_what_is_projected_across_a_marker_does_not_hide_it():
-    """Hard bright edges hide a marker from the plain detector (HARDWARE.md: 0 to 48 %); its black is still darkest."""
+    """Hard bright edges hide a marker from the plain detector (it finds 0 to 48 %); its black stays darkest."""
     markers = MarkerDetector(ROBOT_IDS)
     near, glanced, tries = 0, 0, 20
     for i in range(tries):
@@ -58,7 +58,7 @@ def test_what_is_projected_across_a_marker_does_not_hide_it():
 
 
 def test_a_blurred_marker_is_found_where_it_must_be():
-    """As behind a lens out of focus, or in a long exposure of a robot that turns."""
+    """As with a defocused lens, or in a long exposure of a turning robot."""
     markers = MarkerDetector(ROBOT_IDS)
     for i in range(10):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
