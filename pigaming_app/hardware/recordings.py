@@ -73,9 +73,8 @@ class RecordingWriter:
     def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
         """Record the commands of all robots, sent at `time` (s)."""
         self._seq += 1
-        self._write(
-            {"kind": "sent", "time": time, "seq": self._seq, "wheels": [pair and list(pair) for pair in wheels]}
-        )
+        pairs = [pair and list(pair) for pair in wheels]
+        self._write({"kind": "sent", "time": time, "seq": self._seq, "wheels": pairs})
 
     def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
         """Record the fixes of a picture taken at `captured` and processed at `now` (s)."""
@@ -153,10 +152,7 @@ class _RecordingLines:
                     robot, x, y, heading = _list(fix, 4)
                     if robot not in range(ROBOTS) or not isinstance(robot, int) or isinstance(robot, bool):
                         raise ValueError(f"{quote(robot)} is no robot; there are 0 to {ROBOTS - 1}")
-                    place = _number(x, -MAX_COORDINATE, MAX_COORDINATE), _number(y, -MAX_COORDINATE, MAX_COORDINATE)
-                    self.observations[robot].append(
-                        (captured, *place, _number(heading, -MAX_COORDINATE, MAX_COORDINATE))
-                    )
+                    self.observations[robot].append((captured, _coordinate(x), _coordinate(y), _coordinate(heading)))
 
 
 def _list(value: Any, count: int | None = None) -> list[Any]:

@@ -97,7 +97,7 @@ def homography(places: Points, points: Points) -> Vector:
 
 
 def _fit(places: Points, points: Points, size: tuple[int, int]) -> Vector:
-    """Parameters (12,): eight of the homography from arena to camera, in picture widths; k1, k2; the centre's offset."""
+    """Parameters (12,): 8 of the homography from arena to camera in picture widths; k1, k2; offset of the centre."""
     middle = np.array(Lens(size).centre)
     start = np.concatenate([homography(places / 1000.0, (points - middle) / size[0]).reshape(-1)[:8], np.zeros(4)])
     weak = CORNER_NOISE / size[0] / OFF_CENTRE
