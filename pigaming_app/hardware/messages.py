@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 
 class OperatorMessage:
-    """A key of the table `hardware` and the values to put into its sentence. `str` is for logs that have no texts."""
+    """A key of the text table `hardware` and the values of its placeholders. `str` serves logs without texts."""
 
     __slots__ = ("key", "values")
 
@@ -26,7 +26,7 @@ class OperatorMessage:
 
 
 class OperatorError(Exception):
-    """Hardware that cannot be used, with the message for the operator."""
+    """Unusable hardware; `message` is for the operator."""
 
     def __init__(self, message: OperatorMessage) -> None:
         super().__init__(message)

@@ -1,7 +1,7 @@
-"""What passes between the parts of the robot loop: frames, fixes, wheels, telemetry. Nothing here knows cv2 or serial.
+"""Data types of the robot loop: frames, fixes, wheel commands, telemetry. No dependency on cv2 or pyserial.
 
 CameraFrame -> DetectedMarker -> GroundPlane -> Fix -> Tracker -> Sighting -> match -> twist -> Safety -> WheelCommand.
-Every time is in seconds of one clock, which is handed in: `time.monotonic` in the arena, simulated time in the tests.
+All times are s of one injected clock: `time.monotonic` in the arena, simulated time in the tests.
 """
 
 from collections.abc import Callable
@@ -17,35 +17,35 @@ Image = NDArray[np.uint8]  # (height, width), grey
 
 
 class CameraFrame(NamedTuple):
-    """One picture of the mat."""
+    """One camera picture of the mat."""
 
     image: Image
-    captured: float  # s, when the light fell on the sensor, as well as that can be known
+    captured: float  # s, best estimate of the time of exposure
     number: int
 
 
 class CameraSource(Protocol):
-    """A camera. Its health is the age of its newest frame, never the word of the driver."""
+    """A camera. Its health is judged by the age of its newest frame, not by the driver's status."""
 
     @property
     def trouble(self) -> OperatorMessage | None:
-        """What is wrong with it; None: nothing."""
+        """The present fault, or None."""
 
     def newest(self) -> CameraFrame | None:
-        """The newest frame that was not given out before, or None."""
+        """The newest frame not returned before, or None."""
 
     def close(self) -> None: ...
 
 
 class DetectedMarker(NamedTuple):
-    """A marker as the camera sees it."""
+    """A marker in a camera picture."""
 
     number: int
     corners: NDArray[np.float64]  # (4, 2) camera px, in ArUco's order
 
 
 class Fix(NamedTuple):
-    """Where the ground says that a robot was when the frame was taken."""
+    """Pose of a robot at the time of exposure, by the ground plane."""
 
     robot: int
     x: float  # arena px
@@ -55,23 +55,23 @@ class Fix(NamedTuple):
 
 
 class WheelCommand(NamedTuple):
-    """What one robot's motors are told, as shares of full speed in [-1, 1]."""
+    """Command for the motors of one robot, as shares of full speed in [-1, 1]."""
 
     left: float
     right: float
 
 
 class Telemetry(NamedTuple):
-    """What a robot said last."""
+    """The latest report of a robot."""
 
     robot: int
     battery: float  # V
     flags: int
-    heard: float  # s, when it was heard
+    heard: float  # s, when it was received
 
 
 class SerialPort(Protocol):
-    """The part of a serial port that the link uses, as pyserial has it. When the peer is gone, all raise OSError."""
+    """The subset of pyserial's port that the link uses. All raise OSError once the device is gone."""
 
     @property
     def in_waiting(self) -> int: ...

@@ -1,61 +1,61 @@
-"""Work that is done bit by bit beside the pictures of the arcade, so that nobody has to wait for a camera.
+"""Background work in small steps, so that no frame of the arcade waits for a camera.
 
-A thread does it, which ends soon after `close`, or, where time is made up, whoever owns the time calls `pump`.
+A thread carries out the steps until shortly after `close`; in simulated time the owner of the clock calls `pump`.
 """
 
 import logging
 import threading
 from typing import Self
 
-PERIOD = 0.005  # s between two bits of work
+PERIOD = 0.005  # s between two steps
 
 log = logging.getLogger("pigaming")
 
 
 class BackgroundWorker:
-    """Subclasses give `step`, one bit of work, and `end`, which lets go of what they hold."""
+    """Subclasses implement `step`, a small unit of work, and `end`, which releases their resources."""
 
     def __init__(self) -> None:
         self._closing = threading.Event()
         self._thread: threading.Thread | None = None
-        self._before: BackgroundWorker | None = None
+        self._predecessor: BackgroundWorker | None = None
 
     def start(self, before: "BackgroundWorker | None" = None) -> Self:
-        """Work in a thread until close(), but not before another one has ended, which may hold the same camera."""
-        self._before = before
+        """Run in a thread until `close`, once `before`, which may hold the same camera, has ended."""
+        self._predecessor = before
         self._thread = threading.Thread(target=self._run, name=type(self).__name__.lower(), daemon=True)
         self._thread.start()
         return self
 
     def pump(self) -> None:
-        """Do one bit of work, if no thread does it."""
+        """Carry out one step, unless a thread does."""
         if self._thread is None and not self._closing.is_set():
             self.step()
 
     def close(self) -> None:
-        """Ask the work to end; its thread lets go of everything within a second. May be called again."""
+        """Request the end; a thread releases its resources within a second. Idempotent."""
         if self._thread is None and not self._closing.is_set():
             self.end()
         self._closing.set()
 
     def wait(self, seconds: float) -> None:
-        """Wait for the thread to end, at most so long."""
+        """Wait for the end of the thread, at most `seconds`."""
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join(seconds)
 
     def step(self) -> None:
-        """One bit of work."""
+        """Carry out one small unit of work."""
         raise NotImplementedError
 
     def end(self) -> None:
-        """Let go of everything."""
+        """Release all resources."""
 
     def failed(self, error: Exception) -> None:
-        """Something broke that should not; by now it is in the log."""
+        """Handle an unexpected error of `step`; it has been logged."""
 
     def _run(self) -> None:
-        if self._before is not None:
-            self._before.wait(2.0)
+        if self._predecessor is not None:
+            self._predecessor.wait(2.0)
         try:
             while not self._closing.wait(PERIOD):
                 self.step()

@@ -36,7 +36,7 @@ def run(arguments: Namespace) -> int:
 
 
 def show(options: "Options") -> int:
-    """Open the arcade until it is closed; its exit code. Raises Refusal where there is no display."""
+    """Run the arcade until it is closed; returns its exit code. Raises Refusal without a display."""
     from pigaming_app.scenes.app import run
     from pigaming_app.ui.window import NoDisplay
 

@@ -42,11 +42,10 @@ class Operator:
         self.stack = Stack(self.page)
 
     def press(self, button: Button) -> None:
-        """Press a button."""
         self.stack.turn(self.stack.top.on(InputEvent(button, Device("keys", 0))))
 
     def frame(self) -> None:
-        """One frame."""
+        """Update and draw one frame."""
         self.stack.turn(self.stack.top.update(FRAME))
         self.stack.top.draw(self.context.canvas.screen)
         self.context.canvas.flip()
@@ -89,19 +88,19 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
             operator.press(Button.FIRE)
             trouble = page.navigation.sentence or None
         saved = finding.good and operator.stack.top is operator.page
-        told: dict[str, Any] = {
+        result: dict[str, Any] = {
             "saved": saved,
             "trouble": trouble,
             "file": str(store.calibration_file(operator.site.name)),
         }
         if finding.residuals and finding.ground:
-            told |= {
+            result |= {
                 "calibration_mean_mm": finding.residuals.mean_mm,
                 "calibration_max_mm": finding.residuals.max_mm,
                 **_compared(finding.ground, operator.site),
                 "marker_mm": finding.marker_mm or None,
             }
-        return {**told, "made_up_seconds": operator.site.clock(), "seconds": perf_counter() - began}
+        return {**result, "made_up_seconds": operator.site.clock(), "seconds": perf_counter() - began}
     finally:
         operator.close()
 
@@ -111,15 +110,15 @@ def _compared(ground: GroundPlane, site: EmulatedCalibrationSite) -> dict[str, f
     optics = site.arena.optics
     places = np.array(GRID, dtype=np.float64)
     on_mat = optics.mat(places + ARENA_AT)
-    misses = {}
+    errors = {}
     for name, height in (("mat", 0.0), ("lids", ground.lid)):
-        there = ground.at_height(optics.sensor(on_mat, height), height)
-        misses[name] = np.sqrt(((there - places) ** 2).sum(axis=1)) * ground.mm
+        projected = ground.at_height(optics.sensor(on_mat, height), height)
+        errors[name] = np.sqrt(((projected - places) ** 2).sum(axis=1)) * ground.mm
     eye = optics.lens.eye
     return {
-        "true_mean_mm": float(misses["mat"].mean()),
-        "true_max_mm": float(misses["mat"].max()),
-        "lids_max_mm": float(misses["lids"].max()),
+        "true_mean_mm": float(errors["mat"].mean()),
+        "true_max_mm": float(errors["mat"].max()),
+        "lids_max_mm": float(errors["lids"].max()),
         "height_mm": ground.height,
         "true_height_mm": float(eye[2]),
     }

@@ -24,20 +24,20 @@ from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import folders
 
-ROOM = 100_000_000  # bytes of free disk below which there is a note
-PATIENCE = 15.0  # s for the drivers to answer
-ANEW = "install the package again" if INSTALLED else "get the whole folder of the program again"
-AGAIN = ANEW if INSTALLED else "start main.py again"
+MIN_FREE = 100_000_000  # bytes of free disk space, below which the report has a note
+TIMEOUT = 15.0  # s for the drivers to answer
+REINSTALL = "install the package again" if INSTALLED else "get the whole folder of the program again"
+RESTART = REINSTALL if INSTALLED else "start main.py again"
 EXTRAS = {
     "train": "bench, duel, league and train are slow without it; the arcade does not need it",
     "hardware": "only real robots need it",
 }
 DEVICES = {  # state and advice where it is missing
-    "pygame": ("problem", ANEW if INSTALLED else "delete the folder .venv and start main.py again"),
+    "pygame": ("problem", REINSTALL if INSTALLED else "delete the folder .venv and start main.py again"),
     "displays": ("note", "connect one to play; play --headless, duel and bench go without"),
     "sound": ("note", "the arcade is silent, and works"),
     "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
-    "fonts": ("problem", ANEW),
+    "fonts": ("problem", REINSTALL),
 }
 
 
@@ -58,15 +58,15 @@ def options(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print the report; 1 if something prevents playing."""
     lines = report()
-    well = all(line.state != "problem" for line in lines)
+    ok = all(line.state != "problem" for line in lines)
     if arguments.json:
-        print(json.dumps({"ok": well, "lines": [asdict(line) for line in lines]}))
-        return int(not well)
+        print(json.dumps({"ok": ok, "lines": [asdict(line) for line in lines]}))
+        return int(not ok)
     for line in lines:
         advice = f"  ->  {line.advice}" if line.advice else ""
         print(one_line(f"{line.state:8} {line.what:24} {line.found}{advice}"))
-    print("All is well." if well else "Something prevents playing: see the lines that begin with problem.")
-    return int(not well)
+    print("All is well." if ok else "Something prevents playing: see the lines that begin with problem.")
+    return int(not ok)
 
 
 def report() -> list[Line]:
@@ -82,22 +82,22 @@ def _system() -> Iterator[Line]:
 
 
 def _packages() -> Iterator[Line]:
-    there = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
+    installed = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
     for group in (ARCADE, *EXTRAS):
         try:
             wanted = requirements(group)
         except Trouble as trouble:
-            yield Line("packages", "problem", str(trouble), ANEW)
+            yield Line("packages", "problem", str(trouble), REINSTALL)
             return
-        for one in wanted:
-            name = re.split("[<>]", one)[0]
-            if not lacks(there, one):
-                yield Line(name, "ok", there[name])
+        for requirement in wanted:
+            name = re.split("[<>]", requirement)[0]
+            if not lacks(installed, requirement):
+                yield Line(name, "ok", installed[name])
             elif group == ARCADE:
-                yield Line(name, "problem", f"{there.get(name, 'missing')}, but {one} is needed", AGAIN)
+                yield Line(name, "problem", f"{installed.get(name, 'missing')}, but {requirement} is needed", RESTART)
             else:
-                yield Line(name, "note", there.get(name, "not installed"), _advice(group))
-    if both_pygames(there):
+                yield Line(name, "note", installed.get(name, "not installed"), _advice(group))
+    if both_pygames(installed):
         yield Line(
             "pygame", "problem", "it is installed beside pygame-ce and they overwrite each other", "uninstall both"
         )
@@ -112,7 +112,7 @@ def requirements(group: str) -> list[str]:
     except metadata.PackageNotFoundError:
         raise Trouble("the list of packages is missing") from None
     extra = "" if group == ARCADE else group
-    return [one.strip() for one, _, marker in lines if marker.partition("==")[2].strip(" '\"") == extra]
+    return [requirement.strip() for requirement, _, marker in lines if marker.partition("==")[2].strip(" '\"") == extra]
 
 
 def _advice(extra: str) -> str:
@@ -122,14 +122,14 @@ def _advice(extra: str) -> str:
 def _folders() -> Iterator[Line]:
     where = folders()
     for what, folder in (("settings", where.config), ("scores", where.data), ("cache", where.cache)):
-        there = _nearest(folder)
+        existing = _nearest(folder)
         try:
-            tempfile.TemporaryFile(dir=there).close()
+            tempfile.TemporaryFile(dir=existing).close()
         except OSError as error:
             yield Line(what, "note", f"{folder} ({error.strerror})", "it cannot be written, so nothing will be kept")
             continue
-        room = shutil.disk_usage(there).free
-        full = f"only {room // 1_000_000} MB are free: make room, or nothing will be kept" if room < ROOM else ""
+        free = shutil.disk_usage(existing).free
+        full = f"only {free // 1_000_000} MB are free: make room, or nothing will be kept" if free < MIN_FREE else ""
         yield Line(what, "note" if full else "ok", str(folder), full)
 
 
@@ -137,11 +137,11 @@ def _older_scores() -> Iterator[Line]:
     """Scores carried over from version 1.3.0: when, how many, and their backup."""
     data = folders().data
     done, waits = migrations(data)
-    for one in done:
-        games = ", ".join(f"{one_line(game, 20)} {rows}" for game, rows in one.rows.items()) or "none"
-        day, backup = f"{one.when:%Y-%m-%d %H:%M}", data / one.backup
+    for migration in done:
+        games = ", ".join(f"{one_line(game, 20)} {rows}" for game, rows in migration.rows.items()) or "none"
+        day, backup = f"{migration.when:%Y-%m-%d %H:%M}", data / migration.backup
         found = f"rows of version 1.3.0 carried over on {day}: {games}; shown as older, backup {backup}"
-        lost = "" if backup.is_file() else f"the backup has gone: keep a copy of {data / one.file}"
+        lost = "" if backup.is_file() else f"the backup has gone: keep a copy of {data / migration.file}"
         yield Line("older scores", "note" if lost else "ok", found, lost)
     if waits:
         yield Line("older scores", "note", "those of version 1.3.0 wait to be carried over", "start the arcade once")
@@ -169,11 +169,11 @@ def _assets() -> Iterator[Line]:
             except ArenaError as error:
                 yield Line("arena", "note", str(error), "mend the file, or take it away")
         yield Line(
-            "arenas", "ok" if names else "problem", f"{game}: {', '.join(names) or 'none'}", "" if names else ANEW
+            "arenas", "ok" if names else "problem", f"{game}: {', '.join(names) or 'none'}", "" if names else REINSTALL
         )
     for what, files, state in (("texts", "text/*.toml", "problem"), ("sounds", "sounds/*.ogg", "note")):
         count = len(list(ASSETS.glob(files)))
-        yield Line(what, "ok" if count else state, f"{count} files", "" if count else ANEW)
+        yield Line(what, "ok" if count else state, f"{count} files", "" if count else REINSTALL)
 
 
 def _devices() -> Iterator[Line]:
@@ -189,18 +189,18 @@ def _devices() -> Iterator[Line]:
 
 
 def _probed() -> dict[str, tuple[str, str]]:
-    """The answers of the probe until it ended, crashed or ran out of time: found and wrong, by name."""
+    """Answers of the probe up to its end, crash or timeout: (found, wrong) by name."""
     command = [sys.executable, "-m", "pigaming_app.ui.probe"]
-    surroundings = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
+    environment = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
     try:
         output = subprocess.run(
-            command, cwd=ROOT, env=surroundings, capture_output=True, timeout=PATIENCE, check=False
+            command, cwd=ROOT, env=environment, capture_output=True, timeout=TIMEOUT, check=False
         ).stdout
     except subprocess.TimeoutExpired as stopped:
         output = stopped.stdout or b""
     answers: dict[str, tuple[str, str]] = {}
     for line in output.decode(errors="replace").splitlines():
-        with contextlib.suppress(ValueError):  # a driver may print as well
+        with contextlib.suppress(ValueError):  # other output of a driver
             name, found, wrong = parse_json(line)
             answers[str(name)] = str(found), str(wrong)
     return answers
@@ -214,6 +214,6 @@ def _engine() -> Line:
         match = seated(make_setup("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
         for _ in range(50):
             match.tick()
-    except Exception as error:  # whatever is broken in it, the report is wanted
-        return Line("engine", "problem", f"{type(error).__name__}: {error}", ANEW)
+    except Exception as error:  # a broken engine must not prevent the report
+        return Line("engine", "problem", f"{type(error).__name__}: {error}", REINSTALL)
     return Line("engine", "ok", "a second of a match was played")

@@ -18,7 +18,7 @@ from pigaming_app.ui.i18n import english
 
 LONGEST = 3600  # s of a recording
 HZ = 50
-LOST = 5.0  # s of robots that cannot drive after which a recording is given up
+LOST = 5.0  # s, timeout of a recording while the robots cannot drive
 
 
 def options(parser: ArgumentParser) -> None:
@@ -64,7 +64,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
         recorder = RecordingWriter(arguments.file, session.mm, arguments.emulate is not None)
         try:
             rig.recorder = recorder
-            _dance(session, rig, present, arguments.seconds)
+            _excite(session, rig, present, arguments.seconds)
             rig.recorder = None
             recorder.close()
         finally:
@@ -74,8 +74,8 @@ def record(arguments: Namespace) -> dict[str, Any]:
     finally:
         session.end()
     robots = ", ".join(str(robot + 1) for robot in present)
-    said = [f"{arguments.file}: {arguments.seconds:g} s of robots {robots}. Now: fidelity identify {arguments.file}"]
-    return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": said}
+    lines = [f"{arguments.file}: {arguments.seconds:g} s of robots {robots}. Now: fidelity identify {arguments.file}"]
+    return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": lines}
 
 
 def _present(session: RobotSession, rig: Any) -> list[int]:
@@ -89,8 +89,8 @@ def _present(session: RobotSession, rig: Any) -> list[int]:
     return present
 
 
-def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) -> None:
-    """Drive these robots for so many s. Raises Refusal."""
+def _excite(session: RobotSession, rig: Any, present: list[int], seconds: float) -> None:
+    """Drive these robots in the excitation pattern for `seconds`. Raises Refusal."""
     from pigaming_app.hardware.control.real_plant import RealPlant
     from pigaming_app.hardware.sysid.excitation import ExcitationPattern
     from pigaming_app.sim.world import DT, World
@@ -98,9 +98,9 @@ def _dance(session: RobotSession, rig: Any, present: list[int], seconds: float) 
     world: Any = World()
     for i in present:
         world.robots[i].present = 1
-    plant, dance, begun, stuck = RealPlant(world, rig, present), ExcitationPattern(), rig.clock(), 0
+    plant, pattern, begun, stuck = RealPlant(world, rig, present), ExcitationPattern(), rig.clock(), 0
     while rig.clock() - begun < seconds:
-        plant.drive(dance.twists(rig.clock(), plant.sense()), DT)
+        plant.drive(pattern.twists(rig.clock(), plant.sense()), DT)
         session.tick()
         stuck = stuck + 1 if plant.safety.pauses else 0
         if stuck > LOST * HZ:
@@ -124,37 +124,39 @@ def identify(arguments: Namespace) -> dict[str, Any]:
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
         write_with_backup(out, to_toml(drivetrains))
-    said = [f"root mean square error in mm after {', '.join(f'{one:g}' for one in HORIZONS)} s, on held-out data"]
-    for one in verdicts:
-        before, after = (" ".join(f"{mm:7.1f}" for mm in errors.mm) for errors in (one.before, one.after))
-        said.append(f"robot {one.robot + 1}  nominal {before}   identified {after}")
-    left_out = sorted(run.courses.keys() - {one.robot for one in verdicts})
-    said += [f"robot {robot + 1}  left out: it hardly moved, or its result is implausible" for robot in left_out]
-    said.append(f"kept in {out}")
+    lines = [
+        f"root mean square error in mm after {', '.join(f'{horizon:g}' for horizon in HORIZONS)} s, on held-out data"
+    ]
+    for verdict in verdicts:
+        before, after = (" ".join(f"{mm:7.1f}" for mm in errors.mm) for errors in (verdict.before, verdict.after))
+        lines.append(f"robot {verdict.robot + 1}  nominal {before}   identified {after}")
+    left_out = sorted(run.courses.keys() - {verdict.robot for verdict in verdicts})
+    lines += [f"robot {robot + 1}  left out: it hardly moved, or its result is implausible" for robot in left_out]
+    lines.append(f"kept in {out}")
     if arguments.plots:
-        said += _draw(run, verdicts, arguments.plots)
+        lines += _draw(run, verdicts, arguments.plots)
     robots = {
-        str(one.robot + 1): {
-            "before_mm": _known(one.before.mm),
-            "after_mm": _known(one.after.mm),
-            "before_deg": _known(one.before.degrees),
-            "after_deg": _known(one.after.degrees),
-            **asdict(one.drivetrain),
+        str(verdict.robot + 1): {
+            "before_mm": _finite(verdict.before.mm),
+            "after_mm": _finite(verdict.after.mm),
+            "before_deg": _finite(verdict.before.degrees),
+            "after_deg": _finite(verdict.after.degrees),
+            **asdict(verdict.drivetrain),
         }
-        for one in verdicts
+        for verdict in verdicts
     }
-    return {"horizons": HORIZONS, "robots": robots, "out": str(out), "said": said}
+    return {"horizons": HORIZONS, "robots": robots, "out": str(out), "said": lines}
 
 
-def _known(figures: tuple[float, ...]) -> list[float | None]:
+def _finite(figures: tuple[float, ...]) -> list[float | None]:
     """Figures for JSON: None where there are too few samples."""
     return [figure if isfinite(figure) else None for figure in figures]
 
 
 def replay(arguments: Namespace) -> dict[str, Any]:
-    """Play a run again in the simulator, with the drivetrains of a file or the saved ones. Raises Refusal."""
+    """Replay a run in the simulator with the drivetrains of a file, by default the saved ones. Raises Refusal."""
     from pigaming_app.hardware.session.store import load_robots, robots_file
-    from pigaming_app.hardware.sysid.evaluate import replay as play_again
+    from pigaming_app.hardware.sysid.evaluate import replay as simulate
     from pigaming_app.sim.drivetrain import DrivetrainError
 
     run = _load(arguments.file)
@@ -162,14 +164,14 @@ def replay(arguments: Namespace) -> dict[str, Any]:
         raise Refusal(f"{arguments.robots}: there is no such file")
     with refused(DrivetrainError):
         drivetrains = load_robots(arguments.robots or robots_file(run.emulated))
-    said, robots = [], {}
-    for robot, found in play_again(run, drivetrains).items():
-        apart = ((found.seen - found.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm
-        after = found.seen_at - found.seen_at[0]
-        marks = {second: float(apart[after >= second][0]) for second in (1, 2, 5, 10, 30) if after[-1] >= second}
+    lines, robots = [], {}
+    for robot, result in simulate(run, drivetrains).items():
+        errors = ((result.seen - result.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm
+        elapsed = result.seen_at - result.seen_at[0]
+        marks = {second: float(errors[elapsed >= second][0]) for second in (1, 2, 5, 10, 30) if elapsed[-1] >= second}
         robots[str(robot + 1)] = {str(second): miss for second, miss in marks.items()}
-        said.append(f"robot {robot + 1}  " + "   ".join(f"after {s} s {miss:.0f} mm" for s, miss in marks.items()))
-    return {"robots": robots, "said": said}
+        lines.append(f"robot {robot + 1}  " + "   ".join(f"after {s} s {miss:.0f} mm" for s, miss in marks.items()))
+    return {"robots": robots, "said": lines}
 
 
 def _load(file: Path) -> Any:

@@ -30,7 +30,7 @@ def options(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Play the league and print its tables. Raises Refusal."""
     with refused(ChoiceError, ArenaError):
-        found = leagues.league(
+        result = leagues.league(
             arguments.game,
             arguments.brains,
             arguments.matches,
@@ -44,34 +44,34 @@ def run(arguments: Namespace) -> int:
     if sys.stderr.isatty():
         print(end="\r\x1b[K", file=sys.stderr)
     if arguments.json:
-        print(json.dumps(plain(found)))
+        print(json.dumps(plain(result)))
     else:
-        print("\n".join(line.rstrip() for line in table(found)))
+        print("\n".join(line.rstrip() for line in table(result)))
     return 0
 
 
-def plain(found: League) -> dict[str, object]:
+def plain(result: League) -> dict[str, object]:
     """A league as plain values, each rating among the other numbers of its brain."""
-    whole = asdict(found)
+    whole = asdict(result)
     for standing in whole["standings"]:
         rating = standing.pop("rating")
         standing.update(rating=rating["rating"], rating95=(rating["low"], rating["high"]))
     return whole
 
 
-def table(found: League) -> Iterator[str]:
+def table(result: League) -> Iterator[str]:
     """The lines of both tables."""
-    brains = [standing.brain for standing in found.standings]
+    brains = [standing.brain for standing in result.standings]
     name = max(len(brain) for brain in brains) + 2
-    yield f"{found.game}, {found.arena}, {found.minutes:g} min, {found.variant}: {found.matches} matches a pair,"
-    yield f"the seeds from {found.seed} on, each from both sides; {found.seconds:.1f} s"
+    yield f"{result.game}, {result.arena}, {result.minutes:g} min, {result.variant}: {result.matches} matches a pair,"
+    yield f"the seeds from {result.seed} on, each from both sides; {result.seconds:.1f} s"
     yield ""
     yield f"{'':4}{'':{name}}{'rating':>7}{'':16}{'W / T / L':>17}{'wins':>8}{'':17}{'mean score':>11}"
-    for place, standing in enumerate(found.standings, 1):
+    for place, standing in enumerate(result.standings, 1):
         yield f"{place:>3} {standing.brain:{name}}{_row(standing)}"
     yield ""
     yield "W/T/L of each row against each column, and its wins in %"
-    yield from _cross(found.duels, brains, name)
+    yield from _cross(result.duels, brains, name)
     yield ""
     yield from NOTES
 
@@ -111,5 +111,5 @@ def _cells(duel: Duel) -> Iterator[tuple[tuple[str, str], tuple[str, str]]]:
         yield (left, right), (f"{wins}/{duel.ties}/{losses}", f"[{100 * low:.0f}, {100 * high:.0f}]")
 
 
-def _progress(number: int, of: int, left: str, right: str) -> None:
-    print(end=f"\r\x1b[Kduel {number + 1} of {of}: {left} and {right}", file=sys.stderr, flush=True)
+def _progress(number: int, total: int, left: str, right: str) -> None:
+    print(end=f"\r\x1b[Kduel {number + 1} of {total}: {left} and {right}", file=sys.stderr, flush=True)

@@ -37,15 +37,15 @@ from pigaming_app.storage.parsing import ParseError, describe_error, quote, read
 from pigaming_app.storage.safe_files import NotSaved, require_writable
 from pigaming_app.storage.settings import Settings, folders
 
-HELD_UP = 4.0  # s after which a picture is taken of a match that real robots hold up
-FASTEST = 64.0  # times real time that a window shows
-SLOWEST_RATE, FASTEST_RATE = 0.01, 10_000.0  # times real time that can be asked for
-WATCHED = 150  # ticks before a picture in which its shots, sparks and tread marks begin
+HELD_UP = 4.0  # s, timeout of the picture in a match delayed by real robots
+FASTEST = 64.0  # times real time, maximum in a window
+SLOWEST_RATE, FASTEST_RATE = 0.01, 10_000.0  # times real time, limits of --speed
+WATCHED = 150  # ticks before a picture, for its shots, sparks and tread marks
 
 
 def options(parser: ArgumentParser) -> None:
     game_option(parser)
-    parser.add_argument("--game", dest="named_game", help=argparse.SUPPRESS)  # the only way up to 1.4.0
+    parser.add_argument("--game", dest="named_game", help=argparse.SUPPRESS)  # the only syntax up to 1.4.0
     parser.set_defaults(game=None)  # to notice a contradiction
     parser.add_argument("--seats", help="human, off, or an AI for each seat; default human,normal")
     parser.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; default: the game's own")
@@ -105,7 +105,7 @@ def _teams(text: str | None) -> list[int] | None:
 
 
 def _check_targets(record: Path | None, screenshot: Path | None) -> None:
-    """Check before the match that its files can be written after it. Raises Refusal or NotSaved."""
+    """Check before the match that its files will be writable. Raises Refusal or NotSaved."""
     if screenshot is not None and screenshot.suffix.lower() != ".png":
         raise Refusal(f"--screenshot: {screenshot}: the name of a picture ends in .png")
     if record is not None and screenshot is not None and os.path.realpath(record) == os.path.realpath(screenshot):
@@ -116,7 +116,7 @@ def _check_targets(record: Path | None, screenshot: Path | None) -> None:
 
 
 def _plant(arguments: Namespace, real: list[int]) -> Callable[[Any], Plant]:
-    """The maker of the simulated robots: ideal ones, or with --robots those that `fidelity` measured."""
+    """The factory of the simulated plant: ideal robots, or with --robots the drivetrains measured by `fidelity`."""
     if arguments.robots is None:
         return SimPlant
     if real or arguments.record is not None:
@@ -133,12 +133,12 @@ def _plant(arguments: Namespace, real: list[int]) -> Callable[[Any], Plant]:
 def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
     """The seats with real robots, from 0; in an emulated arena by default all."""
     text = arguments.real if arguments.real is not None else "all" if arguments.emulate is not None else ""
-    there = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
+    taken = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
     try:
-        seats = there if text == "all" else sorted({int(one) - 1 for one in text.split(",") if one})
+        seats = taken if text == "all" else sorted({int(number) - 1 for number in text.split(",") if number})
     except ValueError:
         raise Refusal(f"--real: {quote(text)}; numbers such as 1,3, or all, are needed") from None
-    if stray := [seat + 1 for seat in seats if seat not in there]:
+    if stray := [seat + 1 for seat in seats if seat not in taken]:
         raise Refusal(f"--real: nobody sits on seat {quote(stray[0])}")
     if seats and arguments.record is not None:
         raise Refusal("--record: a match of real robots cannot be played out again; use `fidelity record`")
@@ -213,7 +213,7 @@ class Photographer:
             self._take()
 
     def watch(self) -> None:
-        """A tick has been played."""
+        """Call it after every tick."""
         tick, over = self.match.state.tick, self.match.over
         if self._taken or (tick < self.due - WATCHED and not over):
             return
@@ -239,7 +239,7 @@ def _on_screen(
     plant: Callable[[Any], Plant],
     chosen: dict[str, Any],
 ) -> int:
-    """In a window; or, with emulated robots, without one and as fast as this machine can."""
+    """Play in a window; with --headless and emulated robots without one, as fast as possible."""
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.flow.context import Context
     from pigaming_app.scenes.flow.stack import Scene
@@ -248,11 +248,11 @@ def _on_screen(
     from pigaming_app.scenes.robots.start_match import match_of
     from pigaming_app.ui.input.events import Device
 
-    made: list[MatchScene] = []
+    scenes: list[MatchScene] = []
     began, shot = perf_counter(), False
 
     def scene(context: Context) -> Scene:
-        """People take the pads that are there, then the key clusters."""
+        """People take the connected pads first, then the key clusters."""
         nonlocal began
         began = perf_counter()
         free = [*context.controls.pads(), *(Device("keys", k) for k in range(ROBOTS))]
@@ -260,24 +260,24 @@ def _on_screen(
         devices = dict(zip(people, free, strict=False))
         seats = [devices.get(i) for i in range(ROBOTS)]
         if real:
-            shown = match_of(context, setup, seats, real, speed, game_choice)
+            first = match_of(context, setup, seats, real, speed, game_choice)
         else:
-            shown = MatchScene(context, setup, seats, speed, plant, game_choice)
-        if isinstance(shown, MatchScene):
-            made.append(shown)
-        return shown
+            first = MatchScene(context, setup, seats, speed, plant, game_choice)
+        if isinstance(first, MatchScene):
+            scenes.append(first)
+        return first
 
     def due() -> bool:
-        """Whether the time of the picture has come, or cannot come because real robots are missing."""
+        """True when the picture is due, or when missing real robots have delayed it too long."""
         nonlocal shot
-        if made and not made[0].stuck:
-            shot = bool(made[0].match.over or made[0].match.seconds >= arguments.at)
+        if scenes and not scenes[0].stuck:
+            shot = bool(scenes[0].match.over or scenes[0].match.seconds >= arguments.at)
         else:
             shot = perf_counter() - began > arguments.at + HELD_UP
         return shot
 
     def over() -> bool:
-        return bool(arguments.headless and (not made or made[0].match.over))
+        return bool(arguments.headless and (not scenes or scenes[0].match.over))
 
     code = show(
         Options(
@@ -293,13 +293,13 @@ def _on_screen(
             chosen=chosen,
         )
     )
-    if made and arguments.headless and not arguments.screenshot:
-        _print(made[0].match, arguments.json, made[0].match.seconds)
-    if made and arguments.record:
-        save_replay(made[0].match, arguments.record)
+    if scenes and arguments.headless and not arguments.screenshot:
+        _print(scenes[0].match, arguments.json, scenes[0].match.seconds)
+    if scenes and arguments.record:
+        save_replay(scenes[0].match, arguments.record)
     if code == 0 and arguments.screenshot and not shot:
         raise Refusal("--screenshot: the match was left before its time, so there is no picture")
-    return code if made or not arguments.headless else 2  # no match: the reason has been printed
+    return code if scenes or not arguments.headless else 2  # no match: the reason has been printed
 
 
 def _camera(match: Match) -> Any:

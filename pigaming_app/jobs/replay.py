@@ -18,15 +18,15 @@ def options(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Show or verify the replay; 1: it plays out differently. Raises Refusal."""
     with refused(ReplayError):
-        found = load_replay(arguments.file)
-        if found.other_engine:
+        replay = load_replay(arguments.file)
+        if replay.other_engine:
             name = arguments.file.name
             print(f"{name}: recorded with another version of the engine; it may play out differently", file=sys.stderr)
         if arguments.verify:
-            same = verify(found)
+            same = verify(replay)
             print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
             return 0 if same else 1
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.play.replay import ReplayScene
 
-    return show(Options(first=lambda house: ReplayScene(house, found), alone=True))
+    return show(Options(first=lambda context: ReplayScene(context, replay), alone=True))

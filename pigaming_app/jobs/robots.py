@@ -39,11 +39,11 @@ def run(arguments: Namespace) -> int:
     mat_settings(arguments)
     if arguments.emulate is not None or arguments.pair or arguments.latency:
         require("hardware")
-    told = look(arguments)
+    status = look(arguments)
     if arguments.json:
-        print(json.dumps(told))
+        print(json.dumps(status))
     else:
-        _print(told)
+        _print(status)
     return 0
 
 
@@ -52,46 +52,46 @@ def look(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.hardware.radio.serial_line import ports
     from pigaming_app.hardware.vision.discovery import cameras
 
-    told: dict[str, Any] = {
-        "ports": [found._asdict() for found in ports()],
-        "cameras": [known._asdict() for known in cameras()],
+    status: dict[str, Any] = {
+        "ports": [port._asdict() for port in ports()],
+        "cameras": [camera._asdict() for camera in cameras()],
     }
     with refused(RobotsUnavailable):
         session = new_session(arguments.emulate, arguments.camera, arguments.port)
     try:
-        return {**told, **_looked(session, arguments)}
+        return {**status, **_full_status(session, arguments)}
     except RobotsUnavailable as trouble:
         if arguments.pair or arguments.latency:
             raise Refusal(f"Robots move only in view of the camera. {sentence(trouble)}") from None
-        return {**told, **_heard(session), "eyes": sentence(trouble)}
+        return {**status, **_radio_status(session), "eyes": sentence(trouble)}
     finally:
         session.end()
 
 
-def _heard(session: RobotSession) -> dict[str, Any]:
+def _radio_status(session: RobotSession) -> dict[str, Any]:
     """The status by radio alone."""
     link = session.listen()
     time.sleep(LISTEN)
     return {"radio": _sentence(session.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
 
 
-def _looked(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
+def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     """The status by radio and camera; then pairing and latency on request. Raises RobotsUnavailable or Refusal."""
-    rig, told = session.open(), dict[str, Any]()
+    rig, status = session.open(), dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
         session.tick()
         rig.pump()
     seen = rig.sense()
-    told["radio"], told["eyes"] = _sentence(rig.link.trouble), _sentence(rig.camera.trouble)
-    told["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
-    movable = [i for i in range(4) if told["robots"][i]["heard"]]
+    status["radio"], status["eyes"] = _sentence(rig.link.trouble), _sentence(rig.camera.trouble)
+    status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
+    movable = [i for i in range(4) if status["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
-        raise Refusal(told["radio"] or "No robot answers: are they switched on?")
+        raise Refusal(status["radio"] or "No robot answers: are they switched on?")
     if arguments.pair:
-        told["pairing"] = _paired(session, rig, kept=arguments.emulate is None)
+        status["pairing"] = _pair(session, rig, save=arguments.emulate is None)
     if arguments.latency:
-        told["latency"] = [_late(session, rig, i) for i in movable if told["robots"][i]["seen"]]
-    return told
+        status["latency"] = [_latency(session, rig, i) for i in movable if status["robots"][i]["seen"]]
+    return status
 
 
 def _sentence(message: OperatorMessage | None) -> str | None:
@@ -101,7 +101,7 @@ def _sentence(message: OperatorMessage | None) -> str | None:
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
     """One robot: its radio, battery (V), share of reports received, and pose (px, px, rad) if it is seen."""
     report, quality = link.telemetry.get(channel), link.quality(channel)
-    there = seen is not None and seen.age < 1.0
+    visible = seen is not None and seen.age < 1.0
     return {
         "robot": robot + 1,
         "radio": channel + 1,
@@ -110,12 +110,12 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
         "share": round(quality.share, 2),
         "strength": quality.strength,
         "echo_ms": None if quality.echo is None else round(1000 * quality.echo),
-        "seen": there,
-        "at": [round(float(one), 2) for one in seen[:3]] if there else None,
+        "seen": visible,
+        "at": [round(float(value), 2) for value in seen[:3]] if visible else None,
     }
 
 
-def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any]]:
+def _pair(session: RobotSession, rig: "Rig", save: bool) -> list[dict[str, Any]]:
     """Spin each robot in turn; the pairing is saved if it is unambiguous. Raises Refusal."""
     from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
     from pigaming_app.hardware.session.store import save_radios
@@ -124,47 +124,52 @@ def _paired(session: RobotSession, rig: "Rig", kept: bool) -> list[dict[str, Any
     while not pairing.tick():
         session.tick()
     rig.channels = pairing.channels
-    if kept and {one.case for one in pairing.findings} <= {PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT}:
+    unambiguous = {PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT}
+    if save and {finding.case for finding in pairing.findings} <= unambiguous:
         save_radios(pairing.channels)
     return [
-        {"radio": one.channel + 1, "marker": None if one.marker is None else one.marker + 1, "case": str(one.case)}
-        for one in sorted(pairing.findings)
+        {
+            "radio": finding.channel + 1,
+            "marker": None if finding.marker is None else finding.marker + 1,
+            "case": str(finding.case),
+        }
+        for finding in sorted(pairing.findings)
     ]
 
 
-def _late(session: RobotSession, rig: "Rig", robot: int) -> dict[str, Any]:
+def _latency(session: RobotSession, rig: "Rig", robot: int) -> dict[str, Any]:
     """The latency of one robot, in ms; None where it did not move or was hardly seen."""
     from pigaming_app.hardware.commissioning.latency import LatencyTest
 
-    shake = LatencyTest(rig, robot)
-    while not shake.tick():
+    test = LatencyTest(rig, robot)
+    while not test.tick():
         session.tick()
-    found = shake.result()
+    result = test.result()
     names = ("acts", "picture", "total", "lag")
-    return {"robot": robot + 1, **{f"{name}_ms": found and round(1000 * getattr(found, name)) for name in names}}
+    return {"robot": robot + 1, **{f"{name}_ms": result and round(1000 * getattr(result, name)) for name in names}}
 
 
-def _print(told: dict[str, Any]) -> None:
+def _print(status: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
-        there = ", ".join(" ".join(str(part) for part in one.values()) for one in told[name])
-        print(f"{name:9} {there or 'none'}")
+        devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
+        print(f"{name:9} {devices or 'none'}")
     for name in ("radio", "eyes"):
-        print(f"{name:9} {told.get(name) or 'well'}")
-    for one in told["robots"]:
-        print(f"robot {one['robot']}   {_described(one)}")
-    for one in told.get("pairing", ()):
-        print(f"radio {one['radio']}   {CASES[one['case']].format(marker=one['marker'])}")
-    for one in told.get("latency", ()):
-        late = "it did not move, or was hardly seen"
-        if one["total_ms"] is not None:
-            late = f"{one['total_ms']} ms: {one['acts_ms']} to the motors, {one['picture_ms']} for the picture"
-        print(f"latency {one['robot']} {late}")
+        print(f"{name:9} {status.get(name) or 'well'}")
+    for robot in status["robots"]:
+        print(f"robot {robot['robot']}   {_described(robot)}")
+    for pair in status.get("pairing", ()):
+        print(f"radio {pair['radio']}   {CASES[pair['case']].format(marker=pair['marker'])}")
+    for entry in status.get("latency", ()):
+        text = "it did not move, or was hardly seen"
+        if entry["total_ms"] is not None:
+            text = f"{entry['total_ms']} ms: {entry['acts_ms']} to the motors, {entry['picture_ms']} for the picture"
+        print(f"latency {entry['robot']} {text}")
 
 
-def _described(one: dict[str, Any]) -> str:
-    if not one["heard"]:
-        return "not heard" + (", seen" if one["seen"] else "")
-    strength = "" if one["strength"] is None else f" at {one['strength']} dBm"
-    echo = "" if one["echo_ms"] is None else f", answers in {one['echo_ms']} ms"
-    where = f", seen at {one['at'][0]:.0f}, {one['at'][1]:.0f}" if one["seen"] else ", not seen"
-    return f"{one['battery']:.2f} V, {one['share']:.0%} of its reports{strength}{echo}{where}"
+def _described(robot: dict[str, Any]) -> str:
+    if not robot["heard"]:
+        return "not heard" + (", seen" if robot["seen"] else "")
+    strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
+    echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
+    where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"
+    return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}"

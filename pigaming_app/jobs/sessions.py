@@ -7,11 +7,11 @@ UNREST = 0.15  # size of the exposure steps of the emulated camera, as a share
 
 
 def emulated_session(seed: int) -> RobotSession:
-    """The emulated arena of a seed, with all robots in sight. Raises RobotsUnavailable."""
+    """A session with the emulated arena of a seed, with all robots found. Raises RobotsUnavailable."""
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
     session = EmulatedSession(seed, live=False, unrest=UNREST)
-    session.open()  # raises where OpenCV is missing, before that is needed for the light
+    session.open()  # raises RobotsUnavailable without OpenCV, before Lighting needs it
     from pigaming_app.hardware.session.lighting import Lighting
 
     session.lighting = Lighting(seed)
@@ -20,7 +20,7 @@ def emulated_session(seed: int) -> RobotSession:
 
 
 def real_session(camera: int | None = None, port: str | None = None) -> RobotSession:
-    """The robots of the settings, not yet in use; `camera` and `port` stand in for those of the settings."""
+    """A session with the robots of the settings, not yet open; `camera` and `port` override the settings."""
     from pigaming_app.hardware.session.real import RealSession
 
     settings, _ = Settings.load(folders().config)

@@ -73,18 +73,18 @@ def _is_path(word: str) -> bool:
 
 def _run(tool: tuple[str, Sequence[str]]) -> ToolResult:
     """Run a tool at a lower priority than the tests, which take longer."""
-    name, words = tool
+    name, arguments = tool
     start = time.perf_counter()
-    with _python(words, subprocess.PIPE) as process:
+    with _python(arguments, subprocess.PIPE) as process:
         if sys.platform != "win32":
             os.setpriority(os.PRIO_PROCESS, process.pid, 10)
         output, _ = process.communicate()
     return ToolResult(name, process.returncode, time.perf_counter() - start, output.decode(errors="replace"))
 
 
-def _python(words: Sequence[str], output: int | None = None) -> subprocess.Popen[bytes]:
-    """Start a module of this Python; `output` is the destination of both its streams."""
-    command, environment = [sys.executable, "-m", *words], {**os.environ, **ENVIRONMENT}
+def _python(arguments: Sequence[str], output: int | None = None) -> subprocess.Popen[bytes]:
+    """Start a Python module; `output` is the destination of both its streams."""
+    command, environment = [sys.executable, "-m", *arguments], {**os.environ, **ENVIRONMENT}
     errors = None if output is None else subprocess.STDOUT
     return subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=errors)
 

@@ -31,7 +31,7 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.storage.safe_files import require_writable, write_atomic
 
 BAR = 24  # characters
-SHOWN_EVERY = 0.1  # s
+SHOWN_EVERY = 0.1  # s, interval of the progress line
 MEASURES = 10  # of a training, spread evenly
 MEASURED = 10  # matches for each
 
@@ -75,25 +75,25 @@ def run(arguments: Namespace) -> int:
 
 def _train_and_save(arguments: Namespace) -> int:
     _check(arguments)
-    course = _begin(arguments)
+    learner = _begin(arguments)
     points: list[Point] = []
-    if course.fast and not training.is_compiled():
+    if learner.fast and not training.is_compiled():
         print("compiling the training, once", file=sys.stderr)
-    course.warm()
+    learner.warm()
     with _interrupts() as stopped:
         print("Ctrl-C ends the training after the current match and saves the result", file=sys.stderr)
-        seconds = _train(course, arguments, points, stopped)
-        save_table(course.trained(arguments.out.stem), arguments.out)
+        seconds = _train(learner, arguments, points, stopped)
+        save_table(learner.trained(arguments.out.stem), arguments.out)
         if arguments.csv:
             write_atomic(arguments.csv, _csv_of(points))
         if arguments.curve:
             write_atomic(arguments.curve, _curve_of(points, arguments))
-    _print(course, arguments, points, seconds, bool(stopped))
+    _print(learner, arguments, points, seconds, bool(stopped))
     return 130 if stopped else 0
 
 
 def _check(arguments: Namespace) -> None:
-    """Refuse before the training what would fail after it. Raises Refusal, ChoiceError, ArenaError or NotSaved."""
+    """Check before the training whatever would fail after it. Raises Refusal, ChoiceError, ArenaError or NotSaved."""
     require_one_of("game", arguments.game, list(games()))
     if arguments.game != training.GAME:
         raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
@@ -144,57 +144,57 @@ def _begin(arguments: Namespace) -> training.Training:
     recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
     if not arguments.resume:
         return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
-    kept = load_table(arguments.out)
-    asked = (recipe, arguments.seed, arguments.arena, arguments.minutes)
-    words = ("reward (or --set)", "seed", "arena", "minutes")
-    there = (kept.recipe, kept.seed, kept.arena, kept.minutes)
-    for word, wish, found in zip(words, asked, there, strict=True):
-        if wish != found:
-            raise Refusal(f"--resume: {arguments.out.name} was trained with another {word}")
-    if kept.other_engine:
+    saved = load_table(arguments.out)
+    requested = (recipe, arguments.seed, arguments.arena, arguments.minutes)
+    names = ("reward (or --set)", "seed", "arena", "minutes")
+    present = (saved.recipe, saved.seed, saved.arena, saved.minutes)
+    for name, new, old in zip(names, requested, present, strict=True):
+        if new != old:
+            raise Refusal(f"--resume: {arguments.out.name} was trained with another {name}")
+    if saved.other_engine:
         name = arguments.out.name
         print(f"{name}: trained with another version of the engine; what it learned may fit less", file=sys.stderr)
-    return training.resumed(kept, fast)
+    return training.resumed(saved, fast)
 
 
-def _train(course: training.Training, arguments: Namespace, points: list[Point], stopped: list[int]) -> float:
-    """Train until that many matches are played, or until stopped; the time that took, without measuring, s."""
-    a_match = round(arguments.minutes * 60 * HZ)
+def _train(learner: training.Training, arguments: Namespace, points: list[Point], stopped: list[int]) -> float:
+    """Train for the requested matches or until stopped; returns the training time without measurements, s."""
+    match_ticks = round(arguments.minutes * 60 * HZ)
     every = max(1, -(-arguments.matches // MEASURES))
     seconds, shown = 0.0, 0.0
-    _note(course, points)
-    while course.matches < arguments.matches and not stopped:
+    _note(learner, points)
+    while learner.matches < arguments.matches and not stopped:
         began = perf_counter()
-        course.run(a_match)
+        learner.run(match_ticks)
         seconds += perf_counter() - began
-        if course.matches % every == 0 or course.matches == arguments.matches:
-            _note(course, points)
-        if perf_counter() - shown > SHOWN_EVERY or course.matches >= arguments.matches:
+        if learner.matches % every == 0 or learner.matches == arguments.matches:
+            _note(learner, points)
+        if perf_counter() - shown > SHOWN_EVERY or learner.matches >= arguments.matches:
             shown = perf_counter()
-            _show(course, arguments.matches, points[-1])
+            _show(learner, arguments.matches, points[-1])
     if sys.stderr.isatty():
         print(file=sys.stderr)
     return seconds
 
 
-def _note(course: training.Training, points: list[Point]) -> None:
-    """Append the present state of the training, measured against the FSM once a match has been played."""
-    score = course.measure(matches=MEASURED) if course.matches else (0, 0, 0)
-    pairs = int(course.table.pairs)
-    points.append(Point(course.matches, course.experiences, course.temperature, course.visited, pairs, *score))
+def _note(learner: training.Training, points: list[Point]) -> None:
+    """Append the present state of the training, with a measurement against the FSM after the first match."""
+    score = learner.measure(matches=MEASURED) if learner.matches else (0, 0, 0)
+    pairs = int(learner.table.pairs)
+    points.append(Point(learner.matches, learner.experiences, learner.temperature, learner.visited, pairs, *score))
 
 
-def _show(course: training.Training, matches: int, last: Point) -> None:
-    """One line of progress; on a screen it replaces the one before it."""
-    done = BAR * course.matches // matches
+def _show(learner: training.Training, matches: int, last: Point) -> None:
+    """Print a line of progress; in a terminal it replaces the previous one."""
+    done = BAR * learner.matches // matches
     score = f"FSM {last.wins}-{last.ties}-{last.losses}" if last.matches else "FSM not met yet"
     line = (
-        f"[{'#' * done}{'.' * (BAR - done)}] {course.matches}/{matches} matches  {course.experiences:,} experiences  "
-        f"T {course.temperature:.3f}  {course.visited:,} states  {score}"
+        f"[{'#' * done}{'.' * (BAR - done)}] {learner.matches}/{matches} matches  {learner.experiences:,} experiences  "
+        f"T {learner.temperature:.3f}  {learner.visited:,} states  {score}"
     )
     if sys.stderr.isatty():
         print(f"\r{line}", end="", file=sys.stderr, flush=True)
-    elif last.matches == course.matches:
+    elif last.matches == learner.matches:
         print(line, file=sys.stderr, flush=True)
 
 
@@ -245,7 +245,9 @@ def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
     return picture.getvalue()
 
 
-def _print(course: training.Training, arguments: Namespace, points: list[Point], seconds: float, stopped: bool) -> None:
+def _print(
+    learner: training.Training, arguments: Namespace, points: list[Point], seconds: float, stopped: bool
+) -> None:
     """Print the result."""
     last = points[-1]
     if arguments.json:
@@ -253,19 +255,21 @@ def _print(course: training.Training, arguments: Namespace, points: list[Point],
             "reward": arguments.reward,
             "seed": arguments.seed,
             **last._asdict(),
-            "matches": course.matches,
-            "experiences": course.experiences,
+            "matches": learner.matches,
+            "experiences": learner.experiences,
             "measured": MEASURED if last.matches else 0,
             "seconds": seconds,
-            "compiled": course.fast,
+            "compiled": learner.fast,
             "finished": not stopped,
             "out": str(arguments.out),
         }
         print(json.dumps(result))
         return
-    how = "compiled" if course.fast else "plain"
+    how = "compiled" if learner.fast else "plain"
     score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against the FSM" if last.matches else ""
-    print(f"{course.matches} matches, {course.experiences:,} experiences, {course.visited:,} states: {arguments.out}")
+    print(
+        f"{learner.matches} matches, {learner.experiences:,} experiences, {learner.visited:,} states: {arguments.out}"
+    )
     print(f"trained in {seconds:.1f} s ({how}){score}")
     if stopped:
         print("stopped before the end; continue with --resume")

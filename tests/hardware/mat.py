@@ -8,7 +8,7 @@ from math import cos, exp, sin
 
 import numpy as np
 
-from pigaming_app.hardware.control.kinematics import NEW
+from pigaming_app.hardware.control.kinematics import IDEAL
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.signals import CameraFrame, Fix, Telemetry
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
@@ -118,7 +118,7 @@ class Mat:
         return {i for i, robot in enumerate(self.robots) if robot.doubled}
 
     def wear(self, robot):
-        return NEW
+        return IDEAL
 
     # the link
     @property

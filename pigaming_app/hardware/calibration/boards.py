@@ -1,7 +1,7 @@
-"""The boards that are projected to calibrate: 7 x 5 markers over the whole canvas, and a second board to verify.
+"""Projected calibration boards: 7 x 5 markers over the whole canvas, and a held-out board for verification.
 
-`BoardSamples` are a board's markers in several pictures. The second board has its markers elsewhere, so that an error
-there is an error of the calibration and not what the solver has fitted away.
+`BoardSamples` accumulates a board's markers over several pictures. The held-out board has its markers elsewhere, so
+its errors are those of the calibration, not the residuals of the fit.
 """
 
 from collections.abc import Mapping
@@ -16,18 +16,18 @@ from pigaming_app.hardware.signals import CameraFrame, Image
 from pigaming_app.hardware.vision.markers import MarkerDetector, opencv
 
 CANVAS = (1920, 1080)
-ARENA_AT = (160.0, 140.0)  # of the arena's corner on the canvas
+ARENA_AT = (160.0, 140.0)  # px, the arena's top left corner on the canvas
 COLUMNS, ROWS = 7, 5
 FIRST_ID = 14  # 0..3 are robots, 10..13 corners
-FRAMES = 10  # pictures that are averaged
-ENOUGH = 26  # of the 35 markers
-SHAKE = 1.5  # px of the camera, standard deviation of a corner above which something moves
-LIGHT = 235  # of the board's ground: below full, so that a camera is less likely to overflow
+FRAMES = 10  # pictures to average
+MIN_MARKERS = 26  # of 35
+MAX_SHAKE = 1.5  # camera px, standard deviation of a corner; above it something moves
+LIGHT = 235  # grey level of the board's background: below full, to avoid overexposure
 
 
 @dataclass(frozen=True)
 class CalibrationBoard:
-    """A board with its middle at `middle` and its markers' centres `pitch` apart, all in canvas px."""
+    """A board centred at `middle`, its marker centres `pitch` apart, in canvas px."""
 
     middle: tuple[float, float]
     pitch: tuple[float, float]
@@ -37,20 +37,20 @@ class CalibrationBoard:
     def corners(self) -> dict[int, Points]:
         """The corners of each marker in ArUco's order, arena px, (4, 2).
 
-        A pixel's place is that of its middle: a marker that fills the pixels 10..13 has edges at 9.5 and 13.5.
+        Pixel coordinates refer to pixel centres: a marker that fills pixels 10..13 has edges at 9.5 and 13.5.
         """
         half = self.edge / 2.0
         square = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
         return {number: square + centre - np.array(ARENA_AT) - 0.5 for number, centre in self._centres().items()}
 
     def picture(self) -> Image:
-        """What to project: (1080, 1920), grey."""
+        """The picture to project: (1080, 1920), grey."""
         cv = opencv()
-        words = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
+        dictionary = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
         page = np.full((CANVAS[1], CANVAS[0]), LIGHT, np.uint8)
         for number, (x, y) in self._centres().items():
             left, top = round(x - self.edge / 2), round(y - self.edge / 2)
-            marker = cv.aruco.generateImageMarker(words, number, self.edge)
+            marker = cv.aruco.generateImageMarker(dictionary, number, self.edge)
             page[top : top + self.edge, left : left + self.edge] = np.minimum(marker, LIGHT)
         return page
 
@@ -66,12 +66,12 @@ class CalibrationBoard:
 
 
 BOARD = CalibrationBoard((960.0, 540.0), (270.0, 208.0))
-HELD_OUT = CalibrationBoard((976.0, 553.0), (238.0, 182.0))  # every marker at least 16 px beside its place on the first
+HELD_OUT = CalibrationBoard((976.0, 553.0), (238.0, 182.0))  # every marker at least 16 px off its position on the first
 BOARD_IDS = tuple(range(FIRST_ID, FIRST_ID + COLUMNS * ROWS))
 
 
 class BoardSamples:
-    """What the camera sees of a board. Raises OpenCVMissing where OpenCV is missing."""
+    """Detected markers of a board, accumulated over pictures. Raises OpenCVMissing."""
 
     def __init__(self) -> None:
         self._markers = MarkerDetector(BOARD_IDS)
@@ -80,7 +80,7 @@ class BoardSamples:
         self.size = (0, 0)  # of the pictures
 
     def add(self, frame: CameraFrame) -> int:
-        """Look at one more picture; how many markers of the board are in it."""
+        """Detect the board's markers in one more picture; returns their number."""
         self.frames += 1
         self.size = (frame.image.shape[1], frame.image.shape[0])
         marks = self._markers.exact(frame.image, self._markers.everywhere(frame.image))
@@ -90,24 +90,24 @@ class BoardSamples:
 
     @property
     def ready(self) -> bool:
-        """Whether it has seen as many pictures as are averaged."""
+        """True after FRAMES pictures."""
         return self.frames >= FRAMES
 
     def corners(self) -> Mapping[int, Points]:
-        """The mean corners of the markers seen in at least half of the pictures, camera px. Raises CalibrationError."""
+        """Median corners of the markers seen in at least half of the pictures, camera px. Raises CalibrationError."""
         often = {number: np.array(seen) for number, seen in self._seen.items() if 2 * len(seen) >= self.frames}
-        if len(often) < ENOUGH:
-            raise CalibrationError(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=ENOUGH))
-        if missing := _empty_corners(often):
-            raise CalibrationError(OperatorMessage(missing))
+        if len(often) < MIN_MARKERS:
+            raise CalibrationError(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=MIN_MARKERS))
+        if empty := _empty_corner(often):
+            raise CalibrationError(OperatorMessage(empty))
         shake = float(np.median([seen.std(axis=0).max() for seen in often.values()]))
-        if shake > SHAKE:
+        if shake > MAX_SHAKE:
             raise CalibrationError(OperatorMessage("moves", shake=f"{shake:.1f}"))
         return {number: np.median(seen, axis=0) for number, seen in often.items()}
 
 
-def _empty_corners(seen: Mapping[int, object]) -> str:
-    """The key of the first corner of the board, 2 x 2 markers, of which none is seen; empty: there is none."""
+def _empty_corner(seen: Mapping[int, object]) -> str:
+    """The message key of the first corner block (2 x 2 markers) without a visible marker; "" if each has one."""
     for name, top, left in (("top_left", 0, 0), ("top_right", 0, 5), ("bottom_left", 3, 0), ("bottom_right", 3, 5)):
         block = [FIRST_ID + (top + i) * COLUMNS + left + j for i in (0, 1) for j in (0, 1)]
         if not any(number in seen for number in block):

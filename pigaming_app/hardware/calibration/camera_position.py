@@ -1,7 +1,7 @@
-"""Where the camera hangs: the point of the mat straight under it, and its height. The lids of the robots need it.
+"""Camera position: its foot point on the mat and its height, needed to correct the parallax of the robots' lids.
 
-`height_by_ruler`: the operator measures the height, and the point follows from how the mat looks. `height_by_robot`: a
-robot stands on four projected outlines, and how far the camera sees it beside each gives both.
+`height_by_ruler`: the operator measures the height; the foot point follows from the perspective of the mat.
+`height_by_robot`: a robot stands on four projected outlines; its parallax at each yields both.
 """
 
 from collections.abc import Sequence
@@ -18,17 +18,17 @@ from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
-FOCAL = 0.3, 4.0  # in widths of the picture: from a fish-eye to a telephoto lens
-UNLIKE = 20.0  # mm by which the mat may look other than from there: the image on it is not quite a rectangle
+FOCAL = 0.3, 4.0  # limits, in picture widths: from a fish-eye to a telephoto lens
+MAX_MISFIT = 20.0  # mm RMS on the mat: the projected image is not quite a rectangle
 
 Matrix = NDArray[np.float64]
 
 
 def height_by_ruler(ground: GroundPlane, height: float) -> GroundPlane:
-    """The ground with its camera `height` mm above the mat, as measured, and the foot point that follows.
+    """The ground with the camera at the measured `height` (mm above the mat) and the foot point that follows.
 
-    Fits the camera's turn, its foot and a focal length (not calibrated, only used here) to how the plane of the mat is
-    seen. Raises CalibrationError.
+    Fits rotation, foot point and focal length (used here only) of a pinhole to the calibrated view of the mat. Raises
+    CalibrationError.
     """
     if not LOWEST <= height <= HIGHEST:
         limits = {"low": f"{LOWEST:.0f}", "high": f"{HIGHEST:.0f}"}
@@ -37,7 +37,7 @@ def height_by_ruler(ground: GroundPlane, height: float) -> GroundPlane:
     view = _PinholeModel(ground, np.column_stack([x.ravel(), y.ravel()]) * ground.mm, height)
     first = min((view.start(focal) for focal in np.geomspace(*FOCAL, 24)), key=view.cost)
     best = least_squares(view.misses, first).at
-    if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > UNLIKE:
+    if not FOCAL[0] < exp(best[5]) < FOCAL[1] or sqrt(view.cost(best) / len(view.places)) > MAX_MISFIT:
         raise CalibrationError(OperatorMessage("other_height", height=f"{height:.0f}"))
     return replace(
         ground, foot=(float(best[3] * 1000.0 / ground.mm), float(best[4] * 1000.0 / ground.mm)), height=height
@@ -47,9 +47,9 @@ def height_by_ruler(ground: GroundPlane, height: float) -> GroundPlane:
 def height_by_robot(
     ground: GroundPlane, places: Sequence[tuple[float, float]], seen: Sequence[tuple[float, float]]
 ) -> GroundPlane:
-    """The ground with the camera's place by a robot that stood at `places`, arena px, seen at `seen`, camera px.
+    """The ground with the camera's foot and height, from a robot at `places` (arena px) observed at `seen` (camera px).
 
-    What is `lid` mm above p is seen over C + (p - C) s, s = H / (H - lid): linear in s and in (1 - s) C. Raises
+    A point `lid` mm above p appears over C + (p - C) s, s = H / (H - lid): linear in s and in (1 - s) C. Raises
     CalibrationError.
     """
     there, apparent = np.array(places, dtype=np.float64), ground.on_mat(np.array(seen, dtype=np.float64))
@@ -64,9 +64,9 @@ def height_by_robot(
 
 
 class _PinholeModel:
-    """How a pinhole `height` mm over the mat would see places on it (mm), against how they are seen.
+    """Reprojection errors of a pinhole `height` mm above the mat, for places (n, 2) on it in mm.
 
-    Six numbers are a camera: its turn as a rotation vector, its foot in m, the logarithm of its focal length in widths.
+    A camera is a vector (6,): rotation vector, foot point in m, logarithm of the focal length in picture widths.
     """
 
     def __init__(self, ground: GroundPlane, places: Points, height: float) -> None:
@@ -74,10 +74,10 @@ class _PinholeModel:
         self.matrix = _mat_to_rays(ground)
         self.rays = project(self.matrix, places)
         reach = project(self.matrix, places + np.array((1.0, 0.0))) - self.rays
-        self.fine = float(np.sqrt((reach * reach).sum(axis=1)).mean())  # widths to a mm of the mat
+        self.fine = float(np.sqrt((reach * reach).sum(axis=1)).mean())  # picture widths per mm of the mat
 
     def start(self, focal: float) -> Matrix:
-        """The camera with this focal length that the homography comes closest to: H = K (r1 r2 t)."""
+        """The camera of this focal length closest to the homography H = K (r1 r2 t)."""
         rays = np.diag([1.0 / focal, 1.0 / focal, 1.0]) @ self.matrix
         r1, r2, t = (rays / (0.5 * (np.linalg.norm(rays[:, 0]) + np.linalg.norm(rays[:, 1])))).T
         left, _, right = np.linalg.svd(np.stack([r1, r2, np.cross(r1, r2)], axis=1))
@@ -85,20 +85,20 @@ class _PinholeModel:
         return np.array([*_vector(left @ right), eye[0] / 1000.0, eye[1] / 1000.0, log(focal)])
 
     def misses(self, camera: Matrix) -> Matrix:
-        """By how many mm of the mat the places are seen elsewhere."""
+        """Reprojection errors in mm on the mat, (2 n,)."""
         away = np.column_stack([self.places - camera[3:5] * 1000.0, np.full(len(self.places), self.height)])
-        seen = away @ _turn(camera[:3]).T
+        seen = away @ _rotation(camera[:3]).T
         rays = exp(camera[5]) * seen[:, :2] / np.maximum(seen[:, 2:], 1.0)
         return np.asarray((rays - self.rays).reshape(-1) / self.fine)
 
     def cost(self, camera: Matrix) -> float:
-        """The sum of their squares."""
+        """Sum of the squared errors, mm^2."""
         misses = self.misses(camera)
         return float(misses @ misses)
 
 
 def _mat_to_rays(ground: GroundPlane) -> Matrix:
-    """The homography from mm on the mat to straightened camera px round the lens's centre, in widths."""
+    """Homography from mm on the mat to undistorted camera coordinates about the lens centre, in picture widths."""
     back = np.linalg.inv(np.array(ground.plane).reshape(3, 3))
     (x, y), width = ground.lens.centre, ground.lens.size[0]
     to_rays = np.array([[1.0 / width, 0.0, -x / width], [0.0, 1.0 / width, -y / width], [0.0, 0.0, 1.0]])
@@ -107,11 +107,11 @@ def _mat_to_rays(ground: GroundPlane) -> Matrix:
     return np.asarray(matrix if ahead > 0.0 else -matrix)
 
 
-def _turn(vector: Matrix) -> Matrix:
-    """The rotation about a vector by its length."""
+def _rotation(vector: Matrix) -> Matrix:
+    """The rotation matrix of a rotation vector."""
     return np.asarray(opencv().Rodrigues(vector)[0])
 
 
-def _vector(turn: Matrix) -> Matrix:
-    """The rotation vector of a rotation."""
-    return np.asarray(opencv().Rodrigues(turn)[0]).reshape(-1)
+def _vector(rotation: Matrix) -> Matrix:
+    """The rotation vector of a rotation matrix."""
+    return np.asarray(opencv().Rodrigues(rotation)[0]).reshape(-1)

@@ -1,6 +1,6 @@
-"""Looking through a camera beside the pictures of the arcade: what it sees, and whether its calibration still holds.
+"""Background camera tasks: live preview, and a drift check of the calibration.
 
-Each is a BackgroundWorker: it opens the camera, works bit by bit, and lets go of it.
+Each is a BackgroundWorker that opens the camera, works in small steps and releases it.
 """
 
 from collections.abc import Callable
@@ -17,10 +17,10 @@ from pigaming_app.hardware.signals import CameraFrame, CameraSource, Image
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, OpenCVMissing, opencv
 from pigaming_app.hardware.worker import BackgroundWorker, log
 
-BLIND = 6.0  # s without a picture after which it is given up
-SMALL = (520, 292)  # px of the picture that shows what the camera sees
-SPOT, NEAR = (140.0, 400.0), 90.0  # arena px: where a robot is asked to stand, and how near that is
-SEARCH = 0.5  # s between two looks for it
+BLIND = 6.0  # s, timeout without a picture
+SMALL = (520, 292)  # px, maximum size of the preview
+SPOT, NEAR = (140.0, 400.0), 90.0  # arena px: the spot for a robot, and the tolerance
+SEARCH = 0.5  # s between two searches for it
 RATE = 1.0  # s over which pictures are counted
 
 NO_PICTURE = OperatorMessage("no_picture")
@@ -28,55 +28,55 @@ BROKEN = OperatorMessage("broken")
 
 
 class CameraTask(BackgroundWorker):
-    """Opens a camera and hands on its pictures. A camera has one user at a time: the next one waits for it."""
+    """Opens a camera and passes its pictures to `look`. A camera has one user at a time; the next one waits."""
 
     users: ClassVar[
         dict[tuple[str, int], BackgroundWorker]
-    ] = {}  # the last user of each camera, by the site's name and number
+    ] = {}  # the last user of each camera, by site name and number
 
-    locks = True  # whether the camera locks its exposure: to measure, but not just to look
-    fresh = False  # whether it finds it anew; else it stays as the calibration has left it, which is what matches need
+    locks = True  # lock the exposure: for measurements, not for a preview
+    fresh = False  # settle the exposure again; else it stays as set by the calibration, which matches need
 
     def __init__(self, site: CalibrationSite, number: int) -> None:
         super().__init__()
         self.site, self.number = site, number
         self.trouble: OperatorMessage | None = None
-        self.small: Image | None = None  # the newest picture, as small as it is shown
-        self._eye: CameraSource | None = None
+        self.small: Image | None = None  # the newest picture, scaled for the preview
+        self._camera: CameraSource | None = None
         self._since = self._newest = inf  # s: when it was opened, when the newest picture came
 
     def begin(self) -> None:
-        """Work in a thread, or be pumped where time is made up."""
+        """Start a thread; in simulated time the owner of the clock calls `pump`."""
         if not self.site.stepped:
             before, self.users[self.site.name, self.number] = self.users.get((self.site.name, self.number)), self
             self.start(before)
 
     def step(self) -> None:
-        """Look at the newest picture, if there is a new one."""
+        """Process the newest picture if there is a new one."""
         now = self.site.clock()
-        if self._eye is None:
+        if self._camera is None:
             self._since = self._newest = now
             try:
-                self._eye = self.site.open(self.number, self.locks, self.fresh)
+                self._camera = self.site.open(self.number, self.locks, self.fresh)
             except OpenCVMissing as missing:
                 self.give_up(missing.message)
                 return
-        frame = self._eye.newest()
+        frame = self._camera.newest()
         if frame is not None:
             self._newest = now
             self.small = shrunk(frame.image)
             self.look(frame)
         else:
-            self.idle(now - self._newest, self._eye.trouble)
+            self.idle(now - self._newest, self._camera.trouble)
 
     def look(self, frame: CameraFrame) -> None:
-        """A new picture."""
+        """Process a new picture."""
 
     def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
-        """No new picture for so long."""
+        """Handle a step without a new picture, `seconds` after the last one."""
 
     def give_up(self, trouble: OperatorMessage) -> None:
-        """Show this message, and write it into the log once."""
+        """Set `trouble`; it is logged once."""
         if trouble != self.trouble and trouble.key != "yet":
             log.warning("camera %d: %s", self.number, trouble)
         self.trouble = trouble
@@ -85,12 +85,12 @@ class CameraTask(BackgroundWorker):
         self.give_up(BROKEN)
 
     def end(self) -> None:
-        if self._eye is not None:
-            self._eye.close()
+        if self._camera is not None:
+            self._camera.close()
 
 
 class CameraPreview(CameraTask):
-    """What a camera sees: `small`, its `size` in px and how many pictures a second; or what is wrong with it."""
+    """Live preview: `small`, `size` in px, `rate` in pictures/s; or the camera's `trouble`."""
 
     locks = False
 
@@ -116,16 +116,16 @@ class CameraPreview(CameraTask):
 
 
 class DriftCheck(CameraTask):
-    """Whether a calibration still holds: how far the four corner markers are from where it says that they are seen.
+    """Drift of a calibration: distance of the four corner markers from their calibrated positions, mm.
 
-    `load` reads the calibration for a camera with pictures of so many px, or raises CalibrationError. `marker_mm` is
-    the apparent size of the marker of a robot at `SPOT`: far from its true size, the mat's width was measured wrongly.
+    `load` reads the calibration for pictures of a size in px, or raises CalibrationError. `marker_mm` is the apparent
+    size of the marker of a robot at SPOT: if it is far from the true size, the mat's width was measured wrongly.
     """
 
     def __init__(self, site: CalibrationSite, number: int, load: Callable[[tuple[int, int]], GroundPlane]) -> None:
         super().__init__(site, number)
         self.drift: DriftMonitor | None = None
-        self.mm: float | None = None  # None: not yet known
+        self.mm: float | None = None  # None: not yet measured
         self.marker_mm: float | None = None
         self._load = load
         self._robots: MarkerDetector | None = None
@@ -141,13 +141,13 @@ class DriftCheck(CameraTask):
             self.give_up(trouble.message)
             return
         self.drift.see(frame)
-        self.mm = self.drift.mm or None  # exactly 0: none has been seen often enough
+        self.mm = self.drift.mm or None  # exactly 0: no marker has enough samples
         if frame.captured - self._searched > SEARCH:
             self._searched = frame.captured
             self._measure(frame, self.drift.ground)
 
     def _measure(self, frame: CameraFrame, ground: GroundPlane) -> None:
-        """How large the marker of a robot on the spot seems."""
+        """Measure the apparent marker size of a robot on the spot."""
         self._robots = self._robots or MarkerDetector(ROBOT_IDS)
         self.marker_mm = None
         for mark in self._robots.everywhere(frame.image):
@@ -161,7 +161,7 @@ class DriftCheck(CameraTask):
 
 
 def shrunk(image: Image) -> Image:
-    """A picture as small as it is shown, whatever its shape."""
+    """A picture scaled to fit SMALL, with its aspect ratio kept."""
     cv = opencv()
     h, w = image.shape
     scale = min(SMALL[0] / w, SMALL[1] / h)

@@ -1,7 +1,7 @@
-"""The corner pin: the whole picture drawn into a quadrangle, for a projector that hangs askew over the mat.
+"""Corner pin: a perspective warp of the picture into a quadrangle, for a projector that hangs askew over the mat.
 
-OpenCV does it, with the nearest pixel: 3 to 4 ms for 1920 x 1080. Corners are in px of the canvas, upper left first,
-clockwise: where the picture's own corners are to lie.
+OpenCV warps with the nearest pixel: 3 to 4 ms for 1920 x 1080. Corners are the targets of the picture's corners in
+canvas px, top left first, clockwise.
 """
 
 from collections.abc import Sequence
@@ -17,28 +17,28 @@ from pigaming_app.hardware.vision.markers import opencv
 
 CANVAS = (1920, 1080)
 STRAIGHT = (0.0, 0.0, 1920.0, 0.0, 1920.0, 1080.0, 0.0, 1080.0)
-LEAST = 0.2  # of the canvas's sides, below which nobody can play
+MIN_SIDE = 0.2  # of the canvas's sides; smaller is unplayable
 
 Pixels = NDArray[np.uint8]  # (height, width, 4)
 
 
 def crooked(corners: Sequence[float]) -> bool:
-    """Whether no picture fits into these corners: they cross, are nearly on a line, or make it tiny."""
+    """True if no picture fits these corners: they cross, are nearly collinear, or leave it tiny."""
     if len(corners) != 8 or not all(isfinite(value) for value in corners):
         return True
     points = np.array(corners, dtype=np.float64).reshape(4, 2)
     sides = np.roll(points, -1, axis=0) - points
     after = np.roll(sides, -1, axis=0)
     turns = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
-    return bool(turns.min() < LEAST * CANVAS[0] * LEAST * CANVAS[1])
+    return bool(turns.min() < MIN_SIDE * CANVAS[0] * MIN_SIDE * CANVAS[1])
 
 
 class CornerPinError(OperatorError):
-    """No picture fits into these corners."""
+    """Corners that no picture fits."""
 
 
 class CornerPin:
-    """The picture in these corners, in windows of any size. Raises CornerPinError, OpenCVMissing."""
+    """A corner pin for windows of any size. Raises CornerPinError or OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float]) -> None:
         if crooked(corners):
@@ -47,30 +47,30 @@ class CornerPin:
         self.corners = tuple(corners)
 
     def fit(self, size: tuple[int, int]) -> "PerspectiveWarp":
-        """The same corners in a window of `size` px."""
+        """The warp for a window of `size` px."""
         return PerspectiveWarp(self.corners, size)
 
 
 class PerspectiveWarp:
-    """A picture of the canvas in these corners, in a window of `size` px. Raises OpenCVMissing."""
+    """The warp of the canvas into these corners in a window of `size` px. Raises OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float], size: tuple[int, int] = CANVAS) -> None:
         self._cv = opencv()
         self.size = size
         grown = np.array((size[0] / CANVAS[0], size[1] / CANVAS[1]))
         target = np.array(corners, dtype=np.float64).reshape(4, 2) * grown
-        self._matrix = homography(np.array(STRAIGHT).reshape(4, 2), target)  # of the edges of pixels
-        middle, edge = np.eye(3), np.eye(3)  # OpenCV counts from the middles of pixels
+        self._matrix = homography(np.array(STRAIGHT).reshape(4, 2), target)  # between pixel edges
+        middle, edge = np.eye(3), np.eye(3)  # OpenCV counts from pixel centres
         middle[:2, 2], edge[:2, 2] = 0.5, -0.5
         self._pixels = edge @ self._matrix @ middle
 
     def draw(self, picture: Pixels, window: Pixels) -> None:
-        """Draw the canvas's picture over the whole window; what lies outside of the corners becomes black."""
+        """Draw the canvas's picture over the whole window, black outside the corners. Both (height, width, 4)."""
         drawn = self._cv.warpPerspective(picture, self._pixels, self.size, flags=self._cv.INTER_NEAREST)
         np.copyto(window, drawn)
 
     def back(self, at: tuple[float, float]) -> tuple[float, float]:
-        """Which place of the canvas a place in the window shows."""
+        """The canvas point under a window point, px: the inverse of the warp."""
         there = np.linalg.inv(self._matrix).astype(np.float64)
         x, y = project(there, np.array([at], dtype=np.float64))[0].tolist()
         return x, y

@@ -1,7 +1,7 @@
-"""Whether camera or projector were moved since the calibration: four markers in the margins of the picture say so.
+"""Drift monitor: detects that camera or projector moved since the calibration, by four markers in the margins.
 
-They are projected for as long as robots drive. Where the calibration says that they are seen, less where they truly
-are, is the drift; the median of ten pictures, so that a hand or a bad picture does no harm.
+The markers are projected while robots drive. The drift is the distance between their observed and calibrated
+positions on the mat; the median of ten pictures tolerates a hand or a bad picture.
 """
 
 from collections import deque
@@ -15,16 +15,16 @@ from pigaming_app.hardware.signals import CameraFrame, DetectedMarker, Image
 from pigaming_app.hardware.vision.markers import CORNER_IDS, MarkerDetector, SearchWindow, mean_edge, opencv
 
 WARN, PAUSE = 5.0, 15.0  # mm
-PICTURES = 10  # whose median counts
-PERIOD = 0.06  # s between two looks: what is worse than PAUSE pauses within half a second
-SEEK = 0.06  # s between two searches for one that is not where it was
-SEARCH = 1.0  # s between looks everywhere for it
-EDGE, QUIET = 84, 16  # canvas px: of a marker, and of the light round it
-PLACES = ((80, 84), (1840, 84), (1840, 996), (80, 996))  # canvas px: their middles, in the margins beside the arena
+PICTURES = 10  # of the median
+PERIOD = 0.06  # s between two measurements: a drift beyond PAUSE pauses within half a second
+LOCAL_SEARCH = 0.06  # s between two searches near the last position of a missing marker
+FULL_SEARCH = 1.0  # s between two searches of the whole picture
+EDGE, QUIET = 84, 16  # canvas px: of a marker, and of its quiet zone
+PLACES = ((80, 84), (1840, 84), (1840, 996), (80, 996))  # canvas px: centres, in the margins beside the arena
 
 
 class DriftMonitor:
-    """The drift of one calibration. Raises OpenCVMissing where OpenCV is missing."""
+    """The drift of one calibration. Raises OpenCVMissing."""
 
     def __init__(self, ground: GroundPlane) -> None:
         self.ground = ground
@@ -32,22 +32,22 @@ class DriftMonitor:
         self._places = {
             number: place - np.array(ARENA_AT) for number, place in zip(CORNER_IDS, _centres(), strict=True)
         }
-        self._seen = {number: self._outline(number) for number in CORNER_IDS}  # where each was seen last
+        self._seen = {number: self._outline(number) for number in CORNER_IDS}  # last seen
         self._spots = {number: _spot(mark) for number, mark in self._seen.items()}
         self._misses: dict[int, deque[Points]] = {number: deque(maxlen=PICTURES) for number in CORNER_IDS}
-        self._looked = self._sought = self._searched = float("-inf")
+        self._looked = self._local_search = self._full_search = float("-inf")
 
     def see(self, frame: CameraFrame) -> None:
-        """Look at a picture, if it is time to."""
+        """Measure a picture, at most every PERIOD."""
         if frame.captured - self._looked < PERIOD - 1e-6:
             return
         self._looked = frame.captured
         found = self._markers.still(frame.image, list(self._seen.values()))
-        found += self._further(frame, [number for number in CORNER_IDS if number not in {m.number for m in found}])
+        found += self._search(frame, [number for number in CORNER_IDS if number not in {m.number for m in found}])
         self.note(found)
 
     def note(self, marks: list[DetectedMarker]) -> None:
-        """Take in the corner markers of one picture."""
+        """Add the detected corner markers of one picture."""
         if not marks:
             return
         seen = self.ground.on_mat(np.concatenate([mark.corners for mark in marks])).reshape(-1, 4, 2).mean(axis=1)
@@ -57,49 +57,49 @@ class DriftMonitor:
 
     @property
     def mm(self) -> float:
-        """By how much the corner that moved most has moved; 0 until one was seen in ten pictures."""
+        """The largest drift of a corner, mm; 0 until one was seen in PICTURES pictures."""
         full = [np.median(misses, axis=0) for misses in self._misses.values() if len(misses) == PICTURES]
         return max((hypot(x, y) * self.ground.mm for x, y in full), default=0.0)
 
-    def _further(self, frame: CameraFrame, missing: list[int]) -> list[DetectedMarker]:
-        """Those that are not where they were: near there at first, and from time to time everywhere."""
-        if not missing or frame.captured - self._sought < SEEK:
+    def _search(self, frame: CameraFrame, missing: list[int]) -> list[DetectedMarker]:
+        """Search for missing markers: near their last positions, and from time to time in the whole picture."""
+        if not missing or frame.captured - self._local_search < LOCAL_SEARCH:
             return []
-        self._sought = frame.captured
+        self._local_search = frame.captured
         near = [self._markers.near(frame.image, self._spots[number], number) for number in missing]
         found = [mark for mark in near if mark is not None]
-        if len(found) < len(missing) and frame.captured - self._searched > SEARCH:
-            self._searched = frame.captured
+        if len(found) < len(missing) and frame.captured - self._full_search > FULL_SEARCH:
+            self._full_search = frame.captured
             edge = float(np.mean([spot.edge for spot in self._spots.values()]))
             known = [*self._seen.values(), *found]
             found += self._markers.glance(frame.image, edge, known, dim=False)
         return self._markers.exact(frame.image, found)
 
     def _outline(self, number: int) -> DetectedMarker:
-        """A corner marker as the calibration says that it is seen."""
+        """A corner marker at its calibrated position in the picture."""
         half = EDGE / 2.0
         square = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
         return DetectedMarker(number, self.ground.seen_at(self._places[number] + square))
 
 
 def _spot(mark: DetectedMarker) -> SearchWindow:
-    """Where to look for a marker that was there."""
+    """The search window round a marker's last position."""
     (x, y), edge = mark.corners.mean(axis=0).tolist(), mean_edge(mark.corners)
     return SearchWindow(x, y, 1.3 * edge, edge)
 
 
 def corner_markers() -> list[tuple[int, int, Image]]:
-    """What to project: (left, top) on the canvas, and a grey picture with its own light round it."""
+    """The tiles to project: (left, top) on the canvas, and a grey picture with its quiet zone."""
     cv = opencv()
-    words = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
-    found = []
+    dictionary = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
+    tiles = []
     for number, (x, y) in zip(CORNER_IDS, PLACES, strict=True):
         tile = np.full((EDGE + 2 * QUIET, EDGE + 2 * QUIET), LIGHT, np.uint8)
-        tile[QUIET:-QUIET, QUIET:-QUIET] = np.minimum(cv.aruco.generateImageMarker(words, number, EDGE), LIGHT)
-        found.append((x - EDGE // 2 - QUIET, y - EDGE // 2 - QUIET, tile))
-    return found
+        tile[QUIET:-QUIET, QUIET:-QUIET] = np.minimum(cv.aruco.generateImageMarker(dictionary, number, EDGE), LIGHT)
+        tiles.append((x - EDGE // 2 - QUIET, y - EDGE // 2 - QUIET, tile))
+    return tiles
 
 
 def _centres() -> Points:
-    """The middles of the markers; that of an even number of px lies between two of them."""
+    """The centres of the markers, canvas px; an even number of px has its centre between two of them."""
     return np.array(PLACES) - 0.5

@@ -1,7 +1,7 @@
-"""Where on the mat something is that the camera sees: the lens, the plane of the mat, and the height of the lids.
+"""Ground plane: camera px to arena px, by lens, homography of the mat, and parallax of the robots' lids.
 
-A calibration is found by `boards`, kept as a text (the caller owns the file) and read back with care: one of another
-display, camera or version, or one that somebody edited by hand, is refused in one sentence.
+Calibrations are solved by `solver` and serialized as TOML with a checksum (the caller owns the file). One of another
+display, camera or version, or one edited by hand, is refused with a message for the operator.
 """
 
 from collections.abc import Sequence
@@ -22,29 +22,29 @@ from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 VERSION = 1
 LID = 70.0  # mm from the mat to the marker on a robot
 MARKER = 50.0  # mm, the edge of a robot's marker
-SIZE_TOLERANCE = 0.12  # a marker so much larger or smaller than on a lid is in a hand, or another's
-SKEW_TOLERANCE = 1.18  # longest edge by shortest: more is a marker that is tilted
+SIZE_TOLERANCE = 0.12  # relative deviation beyond which a marker is not on a lid
+SKEW_TOLERANCE = 1.18  # longest edge by shortest, beyond which a marker is tilted
 
 Points = NDArray[np.float64]  # (n, 2)
 
 
 class CalibrationError(OperatorError):
-    """A calibration that is missing, or cannot be used."""
+    """A calibration that is missing or unusable."""
 
 
 @dataclass(frozen=True)
 class GroundPlane:
-    """One calibration: from camera px to arena px. The camera hangs `height` mm above the point `foot` (arena px)."""
+    """A calibration. The camera is `height` mm above the mat, over the point `foot` (arena px)."""
 
-    display: str  # what it was made on, as `Canvas.displays` names it
-    lens: Lens  # knows the camera's size
-    plane: tuple[float, ...]  # homography, row by row: straightened camera px -> arena px on the mat
+    display: str  # the display it was made on, as in `Canvas.displays`
+    lens: Lens  # with the size of the pictures
+    plane: tuple[float, ...]  # homography, row by row: undistorted camera px -> arena px on the mat
     width_mm: float  # of the arena on the mat, measured with a ruler
     foot: tuple[float, float]
     height: float  # mm
     lid: float = LID
     marker: float = MARKER
-    mean_mm: float = 0.0  # error of the verification, on a board that was not used to solve
+    mean_mm: float = 0.0  # errors on the held-out board
     max_mm: float = 0.0
 
     def __post_init__(self) -> None:
@@ -54,36 +54,35 @@ class GroundPlane:
 
     @property
     def mm(self) -> float:
-        """How many mm of the mat one arena px is."""
+        """Millimetres of the mat per arena px."""
         return self.width_mm / WIDTH
 
     def on_mat(self, seen: Points) -> Points:
-        """Arena px of what lies on the mat and is seen at these camera px, (n, 2) -> (n, 2)."""
+        """Camera px to arena px for points on the mat, (n, 2) -> (n, 2)."""
         return project(self._onto, self.lens.straighten(seen))  # type: ignore[attr-defined]
 
     def at_height(self, seen: Points, height: float) -> Points:
-        """Arena px under what is `height` mm above the mat and is seen at these camera px."""
+        """Camera px to arena px for points `height` mm above the mat, (n, 2) -> (n, 2)."""
         apparent = self.on_mat(seen)
         foot = np.array(self.foot)
         return np.asarray(foot + (apparent - foot) * ((self.height - height) / self.height))
 
     def seen_at(self, places: Points, height: float = 0.0) -> Points:
-        """Camera px at which these places, arena px, `height` mm above the mat, are seen."""
+        """Arena px to camera px for points `height` mm above the mat, (n, 2) -> (n, 2)."""
         foot = np.array(self.foot)
         apparent = foot + (places - foot) * (self.height / (self.height - height))
         return self.lens.bend(project(self._back, apparent))  # type: ignore[attr-defined]
 
     def fixes(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix | str]:
-        """Where the robots with these markers are; or why one cannot be a marker on a robot: `size` or `tilted`."""
+        """A fix for each marker, or the reason why it cannot be on a robot: `size` or `tilted`."""
         if not marks:
             return []
         seen = np.concatenate([mark.corners for mark in marks])
         corners = self.at_height(seen, self.lid).reshape(-1, 4, 2)
-        found = zip(marks, corners.tolist(), strict=True)
-        return [self._fix(mark.number, corner, captured) for mark, corner in found]
+        return [self._fix(m.number, corner, captured) for m, corner in zip(marks, corners.tolist(), strict=True)]
 
     def edge_mm(self, mark: DetectedMarker) -> float:
-        """The edge of a marker on a lid, mm: another than the printed one says that the mat was measured wrongly."""
+        """The apparent edge of a marker on a lid, mm; wrong if the mat was measured wrongly."""
         corners = self.at_height(mark.corners, self.lid).tolist()
         return sum(_edges(corners)) / 4.0 * self.mm
 
@@ -103,13 +102,13 @@ def _edges(corners: list[list[float]]) -> list[float]:
 
 
 def project(matrix: NDArray[np.float64], points: Points) -> Points:
-    """Points (n, 2) through a homography."""
+    """Apply a homography (3, 3) to points (n, 2)."""
     flat = points @ matrix[:, :2].T + matrix[:, 2]
     return np.asarray(flat[:, :2] / flat[:, 2:])
 
 
 def written(ground: GroundPlane) -> str:
-    """The text of a calibration's file."""
+    """Serialize a calibration as TOML with a checksum."""
     import tomli_w
 
     entries = {"version": VERSION, **asdict(ground)}
@@ -117,7 +116,7 @@ def written(ground: GroundPlane) -> str:
 
 
 def read(text: str, display: str | None = None, camera: tuple[int, int] | None = None) -> GroundPlane:
-    """The calibration that a file holds; one of another display or camera size is refused. Raises CalibrationError."""
+    """Parse a calibration. Raises CalibrationError, also for another display or camera size than given."""
     try:
         entries = parse_toml(text)
     except ParseError as error:
@@ -139,7 +138,7 @@ def read(text: str, display: str | None = None, camera: tuple[int, int] | None =
 
 
 def misfit(ground: GroundPlane, camera: tuple[int, int]) -> OperatorMessage:
-    """Why pictures of this size cannot be used with a calibration."""
+    """The message for pictures of another size than the calibration's."""
     theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
     return OperatorMessage("other_camera", theirs=theirs, ours=ours)
 
@@ -149,7 +148,7 @@ def _check(entries: dict[str, object]) -> int:
 
 
 def _plain(value: object) -> object:
-    """The same whether it comes from a dataclass or from TOML, which knows no tuples."""
+    """Canonical form: lists for tuples, which TOML lacks, and sorted items for dictionaries."""
     if isinstance(value, dict):
         return sorted((key, _plain(inner)) for key, inner in value.items())
     return [_plain(inner) for inner in value] if isinstance(value, list | tuple) else value

@@ -1,6 +1,6 @@
-"""A robot that is put on projected outlines tells where the camera hangs, and how well the mat was measured.
+"""Camera height by a robot on projected outlines, with a check of the mat's measured width.
 
-Which outline must be projected stands in `place`; whoever projects it says so (`shown`).
+`place` is the outline to project; the caller confirms each projected frame by `shown`.
 """
 
 from math import inf
@@ -18,17 +18,17 @@ from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector
 
 PLACES = ((320.0, 220.0), (1280.0, 220.0), (1280.0, 680.0), (320.0, 680.0))  # arena px of the outlines
-NEAR = 90.0  # arena px from an outline within which a robot is meant to stand on it
-STILL = 12  # pictures in which a robot must not move
-UNREST = 1.0  # px of the camera that it may tremble
-PATIENCE = 120.0  # s for somebody to put a robot down
+NEAR = 90.0  # arena px, radius of an outline within which a robot counts as on it
+STILL = 12  # pictures without motion
+MAX_JITTER = 1.0  # camera px, standard deviation of a robot at rest
+TIMEOUT = 120.0  # s to put a robot down
 
 
 class HeightProcedure(CameraTask):
-    """A robot is put on one outline after the other; where the camera sees it says how high the camera hangs.
+    """Observes a robot on each outline of PLACES in turn and solves for the camera's position.
 
-    At the end `found` is the ground with the camera's place, and `marker_mm` how large the robot's marker seems: far
-    from its true size, the mat was measured wrongly.
+    At the end `found` is the ground with the camera's foot and height, and `marker_mm` the apparent size of the robot's
+    marker: if it is far from the true size, the mat was measured wrongly.
     """
 
     def __init__(self, site: CalibrationSite, number: int, ground: GroundPlane) -> None:
@@ -36,23 +36,23 @@ class HeightProcedure(CameraTask):
         self.ground = ground
         self.found: GroundPlane | None = None
         self.marker_mm = 0.0
-        self.seen: list[tuple[float, float]] = []  # camera px, by place
+        self.seen: list[tuple[float, float]] = []  # camera px, one for each outline done
         self._markers: MarkerDetector | None = None
-        self._lately: list[DetectedMarker] = []
+        self._recent: list[DetectedMarker] = []
         self._begun = self._shown = inf
 
     @property
     def place(self) -> int | None:
-        """Which outline of PLACES is waited for; None: it is over."""
+        """Index of the expected outline in PLACES; None when finished."""
         return None if self.found or self.trouble else len(self.seen)
 
     @property
     def steady(self) -> float:
-        """For how much of the time it needs the robot has stood still, 0..1."""
-        return min(1.0, len(self._lately) / STILL)
+        """Share of the required pictures in which the robot has stood still, 0..1."""
+        return min(1.0, len(self._recent) / STILL)
 
     def shown(self, place: int) -> None:
-        """The outline of this place is projected."""
+        """Confirm that the outline of `place` is projected."""
         if place == self.place and self._shown == inf:
             self._shown = self._begun = self.site.clock()
             self.site.stand(*PLACES[place])
@@ -60,17 +60,17 @@ class HeightProcedure(CameraTask):
     def look(self, frame: CameraFrame) -> None:
         if self.place is None or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
-        if frame.captured > self._begun + PATIENCE:
+        if frame.captured > self._begun + TIMEOUT:
             self.give_up(OperatorMessage("nobody"))
             return
         self._markers = self._markers or MarkerDetector(ROBOT_IDS)
         here = [mark for mark in self._markers.everywhere(frame.image) if self._is_near(mark, self.place)]
-        if len(here) != 1 or (self._lately and here[0].number != self._lately[0].number):
-            self._lately = []
+        if len(here) != 1 or (self._recent and here[0].number != self._recent[0].number):
+            self._recent = []
             return
-        self._lately.append(here[0])
-        del self._lately[:-STILL]
-        if len(self._lately) == STILL and _tremble(self._lately) < UNREST:
+        self._recent.append(here[0])
+        del self._recent[:-STILL]
+        if len(self._recent) == STILL and _jitter(self._recent) < MAX_JITTER:
             self._note()
 
     def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
@@ -82,10 +82,10 @@ class HeightProcedure(CameraTask):
         return float(away @ away) < NEAR * NEAR
 
     def _note(self) -> None:
-        """The robot stands: take its place down; after the last, all is known."""
-        x, y = np.median([mark.corners.mean(axis=0) for mark in self._lately], axis=0).tolist()
+        """Note the position of a robot at rest; after the last outline, solve."""
+        x, y = np.median([mark.corners.mean(axis=0) for mark in self._recent], axis=0).tolist()
         self.seen.append((x, y))
-        last, self._lately, self._shown = self._lately[-1], [], inf
+        last, self._recent, self._shown = self._recent[-1], [], inf
         if len(self.seen) < len(PLACES):
             return
         try:
@@ -97,6 +97,6 @@ class HeightProcedure(CameraTask):
         self.found = found
 
 
-def _tremble(marks: list[DetectedMarker]) -> float:
-    """By how many px of the camera a marker's middle moved, standard deviation."""
+def _jitter(marks: list[DetectedMarker]) -> float:
+    """Standard deviation of a marker's centre, camera px."""
     return float(np.std([mark.corners.mean(axis=0) for mark in marks], axis=0).max())

@@ -1,4 +1,4 @@
-"""Nonlinear least squares by Levenberg-Marquardt, with a numerical Jacobian, bounds and Huber's robust cost.
+"""Nonlinear least squares by Levenberg-Marquardt, with a numerical Jacobian, bounds and a robust Huber cost.
 
 Damping scales the diagonal (D. W. Marquardt, 1963); residuals beyond `huber` count linearly (P. J. Huber, 1964).
 """
@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 ROUNDS = 60
-NUDGE = 1e-6  # of each parameter, for its column of the Jacobian: they should be about as large as 1
-SETTLED = 1e-12  # share of the cost that a round must gain
-STUCK = 1e8  # damping above which there is no way down
+NUDGE = 1e-6  # step of the forward differences, for parameters of the order of 1
+SETTLED = 1e-12  # relative decrease of the cost below which the fit has converged
+MAX_DAMPING = 1e8  # above it no step decreases the cost
 
 Vector = NDArray[np.float64]
 
 
 class Minimum(NamedTuple):
-    """The parameters with the least cost, and the cost: half the sum of squares where `huber` is infinite."""
+    """Parameters of least cost, (k,), and that cost: half the sum of squares if `huber` is infinite."""
 
     at: Vector
     cost: float
@@ -34,7 +34,10 @@ def least_squares(
     huber: float = inf,
     settled: float = SETTLED,
 ) -> Minimum:
-    """The minimum of the cost of `residual`, (k,) -> (n,), near `start`; `bounds`: lowest and highest parameters."""
+    """Minimize the cost of `residual`, (k,) -> (n,), from `start` (k,), within `bounds` (lower and upper, each (k,)).
+
+    Residuals beyond `huber` count linearly; `nudges` are the steps of the numerical Jacobian.
+    """
     low, high = bounds or (np.full(len(start), -inf), np.full(len(start), inf))
     steps = np.full(len(start), nudges) if isinstance(nudges, float) else nudges
     at, damping = np.clip(start, low, high), 1e-3
@@ -49,7 +52,7 @@ def least_squares(
             tried = np.clip(at + step, low, high)
             new_errors = residual(tried)
             lower = _cost(new_errors, huber)
-            if lower < cost or damping > STUCK:
+            if lower < cost or damping > MAX_DAMPING:
                 break
             damping *= 10.0
         if not lower < cost:
@@ -68,7 +71,7 @@ def _jacobian(
     nudges: Vector,
     bounds: tuple[Vector, Vector] | None,
 ) -> Vector:
-    """By forward differences, (n, k)."""
+    """The Jacobian by forward differences, (n, k)."""
     columns = []
     for i, nudge in enumerate(nudges):
         nudged = at.copy()

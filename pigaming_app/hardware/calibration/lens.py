@@ -1,8 +1,8 @@
-"""How a lens bends straight lines: two radial coefficients, k1 and k2, round a centre.
+"""Lens distortion: two radial coefficients, k1 and k2, about a centre.
 
-A straight point u (in units of the picture's width, from the centre) is seen at u (1 + k1 r^2 + k2 r^4), r = |u|: the
-radial part of Brown's model (D. C. Brown, 1966). With a homography behind it the unit of length is free, so the focal
-length need not be known.
+An undistorted point u (from the centre, in units of the picture's width) appears at u (1 + k1 r^2 + k2 r^4), r = |u|:
+the radial part of Brown's model (D. C. Brown, 1966). Combined with a homography the unit of length is free, so the
+focal length is not needed.
 """
 
 from dataclasses import dataclass
@@ -10,14 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-ROUNDS = 6  # of Newton: to 1e-6 of the width for every lens that shows each point once
+ROUNDS = 6  # of Newton's method: to 1e-6 of the width for every lens that maps each point once
 
 Points = NDArray[np.float64]  # (n, 2) px
 
 
 @dataclass(frozen=True)
 class Lens:
-    """The lens of a camera with pictures of `size` px; `centre` of the bending in px, by default their middle."""
+    """Radial distortion of pictures of `size` px; `centre` in px, by default their middle."""
 
     size: tuple[int, int]
     k1: float = 0.0
@@ -29,14 +29,14 @@ class Lens:
             object.__setattr__(self, "centre", ((self.size[0] - 1) / 2.0, (self.size[1] - 1) / 2.0))
 
     def bend(self, straight: Points) -> Points:
-        """Where the camera sees straight points."""
+        """Distort points, (n, 2) px."""
         away = (straight - self.centre) / self.size[0]
         r2 = (away * away).sum(axis=1)
         grown = 1.0 + r2 * (self.k1 + r2 * self.k2)
         return np.asarray(self.centre + away * (grown * self.size[0])[:, None])
 
     def straighten(self, seen: Points) -> Points:
-        """Where points that the camera sees would be without bending: the inverse of `bend`."""
+        """Undistort points, (n, 2) px: the inverse of `bend`, by Newton's method."""
         away = (seen - self.centre) / self.size[0]
         bent = np.sqrt((away * away).sum(axis=1))
         r = bent.copy()

@@ -1,6 +1,6 @@
-"""The markers to print and stick on the robots: a page of A4 as a PDF, to scale, with a ruler to check that.
+"""Printable marker sheet: the robots' markers on an A4 page as PDF, to scale, with a ruler to check the print.
 
-A marker is 50 mm wide with one white cell round it, and is cut out along the grey line; its triangle points ahead.
+A marker is 50 mm wide with a quiet zone of one white cell, to cut out along the grey line; its triangle points ahead.
 """
 
 from collections.abc import Iterator, Sequence
@@ -12,17 +12,17 @@ from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, opencv
 
 PAGE = (210.0, 297.0)  # mm, A4
-POINT = 72.0 / 25.4  # PDF's unit in a mm
-CELLS = 6  # of a marker with its black rim; one more all round is white
+POINT = 72.0 / 25.4  # PDF points per mm
+CELLS = 6  # of a marker with its black border, without the quiet zone
 RULER = 100.0  # mm
 
 
 class MarkerSheetError(OperatorError):
-    """Markers that fit neither on the page nor on a robot."""
+    """A marker size that fits neither the page nor a robot."""
 
 
 def sheet(edge: float = MARKER, notes: Sequence[str] = ()) -> bytes:
-    """A PDF with the markers of the four robots, each `edge` mm wide (20 to 60), and a line for each of `notes`.
+    """A PDF of the four robots' markers, each `edge` mm wide (20 to 60), with `notes` as lines below.
 
     Raises OpenCVMissing, MarkerSheetError.
     """
@@ -32,14 +32,13 @@ def sheet(edge: float = MARKER, notes: Sequence[str] = ()) -> bytes:
 
 
 def cells(number: int) -> "np.ndarray[tuple[int, int], np.dtype[np.bool_]]":
-    """Which of the 6 x 6 cells of a marker are black. Raises OpenCVMissing."""
+    """The black cells of a marker, (6, 6) bool. Raises OpenCVMissing."""
     cv = opencv()
-    words = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
-    return np.asarray(cv.aruco.generateImageMarker(words, number, CELLS) < 128)
+    dictionary = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
+    return np.asarray(cv.aruco.generateImageMarker(dictionary, number, CELLS) < 128)
 
 
 def _markers(edge: float) -> Iterator[str]:
-    """Two columns, two rows."""
     cell, pitch = edge / CELLS, (90.0, 105.0)
     whole = edge + 2.0 * cell
     for i, number in enumerate(ROBOT_IDS):
@@ -65,12 +64,12 @@ def _ruler() -> Iterator[str]:
 
 def _words(notes: Sequence[str]) -> Iterator[str]:
     yield _text(20.0, 22.0, 16, "PiGaming")
-    for i, said in enumerate(notes):
-        yield _text(20.0, 270.0 + 5.0 * i, 9, said)
+    for i, note in enumerate(notes):
+        yield _text(20.0, 270.0 + 5.0 * i, 9, note)
 
 
 def _at(x: float, y: float) -> str:
-    """A point in mm from the top left, as PDF counts from the bottom left."""
+    """A point in mm from the top left, in PDF points from the bottom left."""
     return f"{x * POINT:.3f} {(PAGE[1] - y) * POINT:.3f}"
 
 
@@ -78,13 +77,13 @@ def _box(x: float, y: float, wide: float, high: float) -> str:
     return f"{_at(x, y + high)} {wide * POINT:.3f} {high * POINT:.3f} re"
 
 
-def _text(x: float, y: float, size: int, said: str) -> str:
-    safe = said.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
-    return f"BT /F1 {size} Tf {_at(x, y)} Td ({safe}) Tj ET"
+def _text(x: float, y: float, size: int, text: str) -> str:
+    escaped = text.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
+    return f"BT /F1 {size} Tf {_at(x, y)} Td ({escaped}) Tj ET"
 
 
 def _pdf(drawing: str) -> bytes:
-    """A file of one page, as PDF 1.4 wants it: objects, and a table of where they begin."""
+    """A PDF 1.4 file of one page: objects and their cross-reference table."""
     stream = b"0.3 w\n" + drawing.encode("cp1252")
     size = f"[0 0 {PAGE[0] * POINT:.3f} {PAGE[1] * POINT:.3f}]".encode()
     objects = [

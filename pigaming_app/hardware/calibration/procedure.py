@@ -1,7 +1,7 @@
-"""What the calibration wizard does with a camera: it looks at one board, solves, and verifies by another.
+"""Calibration procedure: observe one board, solve, and verify on the held-out board.
 
-What must be projected meanwhile stands in `board`; whoever projects it says so (`shown`), and only pictures taken well
-after that count.
+`board` is the board to project; the caller confirms each projected frame by `shown`, and only pictures exposed after
+the projector's and camera's delay count.
 """
 
 from dataclasses import replace
@@ -18,13 +18,13 @@ from pigaming_app.hardware.calibration.solver import Residuals, solve, verified,
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame
 
-QUEUED = 5  # pictures of the time before that a driver may still hand out
-LONGEST = 90.0  # s that all may take
-LIT = 0.4  # s from a picture being drawn until it is surely seen by the camera, all delays included
+QUEUED = 5  # outdated pictures in a driver's queue
+TIMEOUT = 90.0  # s, for the whole procedure
+LIT = 0.4  # s from drawing a picture to its exposure by the camera, upper bound of all delays
 
 
 class CalibrationStage(Enum):
-    """How far a calibration is."""
+    """Stages of a calibration."""
 
     OPENING = auto()
     LOOKING = auto()
@@ -34,40 +34,40 @@ class CalibrationStage(Enum):
 
 
 class Calibration(CameraTask):
-    """One calibration of the camera on this display. At the end there are `ground` and `residuals`, or `trouble`.
+    """One calibration of the camera on this display. It ends with `ground` and `residuals`, or with `trouble`.
 
-    A calibration that is done may still be too bad to be accepted: `residuals` says so.
+    A finished calibration may still be too inaccurate: see `residuals.accepted`.
     """
 
-    fresh = True  # in the light of the boards, which is about the brightest that there will be
+    fresh = True  # the boards are about the brightest pictures, so exposure settles on them
 
     def __init__(self, site: CalibrationSite, number: int, measures: Measurements, display: str) -> None:
         super().__init__(site, number)
         self.measures, self.display = measures, display
         self.stage = CalibrationStage.OPENING
-        self.board: CalibrationBoard | None = BOARD  # what must be projected
+        self.board: CalibrationBoard | None = BOARD  # to project
         self.ground: GroundPlane | None = None
         self.residuals: Residuals | None = None
         self.seen = 0  # markers in the newest picture
-        self._look: BoardSamples | None = None
-        self._shown = inf  # s, since when the board is projected
+        self._samples: BoardSamples | None = None
+        self._shown = inf  # s, when the board was first projected
         self._skipped = 0  # pictures since then
 
     @property
     def progress(self) -> tuple[int, int]:
-        """Pictures taken, and how many of both boards there will be."""
-        taken = min(self._look.frames, FRAMES) if self._look else 0
+        """Pictures taken, and the total of both boards."""
+        taken = min(self._samples.frames, FRAMES) if self._samples else 0
         return {CalibrationStage.VERIFYING: FRAMES, CalibrationStage.DONE: 2 * FRAMES}.get(
             self.stage, 0
         ) + taken, 2 * FRAMES
 
     @property
     def over(self) -> bool:
-        """Whether nothing more will happen."""
+        """True when done or failed."""
         return self.stage in (CalibrationStage.DONE, CalibrationStage.FAILED)
 
     def shown(self, board: CalibrationBoard) -> None:
-        """This board is projected from now on; to be said with every picture."""
+        """Confirm that `board` is projected; call it with every frame."""
         if board is self.board and self._shown == inf:
             self.site.clear(True)
             self._shown = self.site.clock()
@@ -75,19 +75,19 @@ class Calibration(CameraTask):
     def look(self, frame: CameraFrame) -> None:
         if self.over or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
-        if self.site.clock() - self._since > LONGEST:
+        if self.site.clock() - self._since > TIMEOUT:
             self.give_up(OperatorMessage("slow"))
             return
         self._skipped += 1
         if self._skipped <= QUEUED:
             return
-        if self._look is None:
-            self._look = BoardSamples()
+        if self._samples is None:
+            self._samples = BoardSamples()
             self.stage = CalibrationStage.LOOKING if self.stage is CalibrationStage.OPENING else self.stage
-        self.seen = self._look.add(frame)
-        if self._look.ready:
+        self.seen = self._samples.add(frame)
+        if self._samples.ready:
             try:
-                self._solve(self._look) if self.stage is CalibrationStage.LOOKING else self._verify(self._look)
+                self._solve(self._samples) if self.stage is CalibrationStage.LOOKING else self._verify(self._samples)
             except CalibrationError as trouble:
                 self.give_up(trouble.message)
 
@@ -99,20 +99,20 @@ class Calibration(CameraTask):
         super().give_up(trouble)
         self.stage, self.board = CalibrationStage.FAILED, None
 
-    def _solve(self, look: BoardSamples) -> None:
+    def _solve(self, samples: BoardSamples) -> None:
         measures = self.measures
-        ground = solve(look.corners(), BOARD, look.size, measures.width, self.display)
+        ground = solve(samples.corners(), BOARD, samples.size, measures.width, self.display)
         ground = replace(ground, lid=measures.lid)
         self.ground = height_by_ruler(ground, measures.height) if measures.height else ground
-        self._look, self._shown, self._skipped = None, inf, 0
+        self._samples, self._shown, self._skipped = None, inf, 0
         self.stage, self.board = CalibrationStage.VERIFYING, HELD_OUT
 
-    def _verify(self, look: BoardSamples) -> None:
+    def _verify(self, samples: BoardSamples) -> None:
         assert self.ground is not None
-        self.residuals = verify(self.ground, look.corners(), HELD_OUT)
+        self.residuals = verify(self.ground, samples.corners(), HELD_OUT)
         if self.residuals.accepted:
             self.ground = verified(self.ground, self.residuals)
-        self.stage, self.board, self._look = CalibrationStage.DONE, None, None
+        self.stage, self.board, self._samples = CalibrationStage.DONE, None, None
 
     def end(self) -> None:
         super().end()

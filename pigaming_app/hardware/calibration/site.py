@@ -1,4 +1,4 @@
-"""What is there to calibrate: which cameras, which clock, and what has been measured with a ruler."""
+"""Calibration sites: cameras, clock and ruler measurements of a real or an emulated mat."""
 
 import time
 from collections.abc import Callable
@@ -16,9 +16,9 @@ SETTLED = 2.6  # s after which a real camera has locked its exposure
 
 @dataclass(frozen=True)
 class Measurements:
-    """What the operator measures, all in mm: the arena's width on the mat, the camera's and the lids' height above it.
+    """Ruler measurements in mm: the arena's width on the mat, and the heights of camera and lids above it.
 
-    Without a camera's height (0), a robot that stands on outlines tells it.
+    A camera height of 0 means that it is to be measured by a robot on projected outlines.
     """
 
     width: float = 2112.0
@@ -27,33 +27,33 @@ class Measurements:
 
 
 class CalibrationSite(Protocol):
-    """A mat with a projector and cameras. `stepped`: its time is made up, and passes only in `advance`."""
+    """A mat with a projector and cameras. `stepped`: time is simulated and passes only in `advance`."""
 
     name: str
     stepped: bool
     clock: Clock
-    settle: float  # s until an opened camera's pictures can be used
+    settle: float  # s from opening a camera to its first usable picture
 
     @property
     def measures(self) -> Measurements:
-        """Something to begin with."""
+        """Initial measurements."""
 
     def cameras(self) -> list[CameraInfo]: ...
 
     def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
-        """Use a camera that locks its exposure once it has settled; `fresh`: found anew. Raises OpenCVMissing."""
+        """Open a camera. `locks`: lock the exposure once settled; `fresh`: settle it again. Raises OpenCVMissing."""
 
     def advance(self, seconds: float) -> None: ...
 
     def clear(self, off: bool) -> None:
-        """A person is asked to take everything off the mat, or may put it back."""
+        """Request an empty mat (`off`), or allow the robots back."""
 
     def stand(self, x: float, y: float) -> None:
-        """A person is asked to put a robot there, arena px."""
+        """Request a robot at this point, arena px."""
 
 
 class RealCalibrationSite:
-    """The world. `open_capture` makes a `cv2.VideoCapture`."""
+    """The physical mat. `open_capture` makes a `cv2.VideoCapture`."""
 
     name = "real"
     stepped = False
@@ -65,18 +65,16 @@ class RealCalibrationSite:
         self._open_capture = open_capture
 
     def cameras(self) -> list[CameraInfo]:
-        """The cameras that are plugged in."""
         return cameras()
 
     def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
-        """Use a camera. Raises OpenCVMissing."""
         return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh)
 
     def advance(self, seconds: float) -> None:
-        """Time passes by itself."""
+        """No effect: real time passes by itself."""
 
     def clear(self, off: bool) -> None:
-        """Somebody has read that on the first page."""
+        """No effect: the first page of the wizard asks the operator."""
 
     def stand(self, x: float, y: float) -> None:
-        """Somebody sees the outline and does it."""
+        """No effect: the operator follows the projected outline."""

@@ -1,7 +1,7 @@
-"""Real and simulated robots in one match: to a simulated one, a real one is a thing that moves and cannot be pushed.
+"""Plant with real and simulated robots in one match: a real one is a moving, immovable obstacle to simulated ones.
 
-Any robot can be swapped at any time: a simulated one goes on from where the real one stood; a real one first drives to
-where the simulated one stands, or is carried there (`take_places`).
+Any robot can be swapped at any time: a simulated one continues from the pose of the real one; a real one first drives
+or is carried to the pose of the simulated one (`take_places`).
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,26 +16,26 @@ from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH, World
 
-BERTH = 7.0  # px by which a real robot that takes over keeps clear of walls
+BERTH = 7.0  # px, clearance from walls of a real robot that takes over
 
 
 class MixedPlant(RealPlant):
-    """The robots of `real` are real ones, the others simulated in the world's record."""
+    """The robots of `real` are real, the others simulated in the world's record."""
 
     def __init__(self, world: World, rig: Rig, real: Iterable[int] = ()) -> None:
         super().__init__(world, rig, real)
         self.arriving: set[int] = set()  # real robots that will take over
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
-        """Real robots drive as they may; simulated ones among them as on their own floor."""
+        """Drive real robots within walls and safety, and simulate the others."""
         super().drive(twists, dt)
         simulated = [i for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
         for i in simulated:
             self.world.robots[i].ask_linear, self.world.robots[i].ask_angular = twists[i]
-        drive_among(self.world, simulated)
+        simulate(self.world, simulated)
 
     def place(self, poses: Sequence[Pose]) -> None:
-        """Put the simulated robots in their places at once; the real ones begin to take theirs."""
+        """Place simulated robots at once; real ones begin to drive to their places."""
         for i, (x, y, heading) in enumerate(poses):
             if i not in self.real:
                 robot = self.world.robots[i]
@@ -44,7 +44,7 @@ class MixedPlant(RealPlant):
         super().place(poses)
 
     def swap(self, robot: int, real: bool) -> None:
-        """Hand a robot of the match to the real or the simulated one. A real one must take its place first."""
+        """Switch a robot between real and simulated. A real one must take its place first."""
         goals = self.goals
         if not real:
             self.real.discard(robot)
@@ -58,21 +58,21 @@ class MixedPlant(RealPlant):
         self.summon(goals)
 
     def take_places(self) -> bool:
-        """One tick of driving to the places; whether all have arrived."""
+        """One tick of homing; true if all have arrived."""
         done = super().take_places()
         if done:
             self.accept_places()
         return done
 
     def accept_places(self) -> None:
-        """Let everybody begin where it stands; who was summoned takes over."""
+        """Start from the present poses; robots that were summoned take over."""
         super().accept_places()
         self.real |= self.arriving
         self.arriving.clear()
 
 
 def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:
-    """The nearest place to which a real robot can drive: simulated ones stand as close to walls as they like."""
+    """The nearest point that a real robot can drive to, px; simulated ones may stand closer to walls."""
     for _ in range(ROUNDS):
         x = min(max(x, RADIUS + BERTH), WIDTH - RADIUS - BERTH)
         y = min(max(y, RADIUS + BERTH), HEIGHT - RADIUS - BERTH)
@@ -85,14 +85,14 @@ def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:
     return x, y
 
 
-def drive_among(world: Any, simulated: Sequence[int]) -> None:
-    """One tick of these robots, as in sim.contact; the others stay exactly where they are, whoever runs into them."""
+def simulate(world: Any, simulated: Sequence[int]) -> None:
+    """One tick of these robots, as in sim.contact; all others are immovable."""
     robots = world.robots
-    from_where = [(robots[i], robots[i].x, robots[i].y) for i in simulated]
+    starts = [(robots[i], robots[i].x, robots[i].y) for i in simulated]
     fixed = [(robot, robot.x, robot.y) for i, robot in enumerate(robots) if i not in simulated]
     for i in simulated:
         integrate(robots[i])
-    for _ in range(2 * ROUNDS):  # each takes back half of what a robot overlaps one that cannot be pushed
+    for _ in range(2 * ROUNDS):  # each round resolves half of the overlap with an immovable robot
         moved = separate(robots) > SLOP
         for robot, x, y in fixed:
             robot.x, robot.y = x, y
@@ -100,5 +100,5 @@ def drive_among(world: Any, simulated: Sequence[int]) -> None:
             moved = bool(push_out_of_walls(world, robots[i])) or moved
         if not moved:
             break
-    for robot, x, y in from_where:
+    for robot, x, y in starts:
         limit_step(world, robot, x, y)

@@ -1,6 +1,6 @@
-"""Ways for real robots that take their places: round walls with room to spare, round robots and their ways.
+"""Path planner for homing: paths with clearance from walls, robots and reserved paths.
 
-A robot that stands, and the way of one that drives, are walls to the others.
+Standing robots and the paths of moving ones are walls to the others.
 """
 
 from collections.abc import Iterable, Sequence
@@ -13,18 +13,18 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall, World
 
-MOST_POINTS = 40  # of a way
+MAX_POINTS = 40  # of a path
 
 Point = tuple[float, float]
 
 
-def apart(one: Point, other: Point) -> float:
-    """How far two points are from each other, px."""
+def distance(one: Point, other: Point) -> float:
+    """Distance of two points, px."""
     return sqrt((one[0] - other[0]) ** 2 + (one[1] - other[1]) ** 2)
 
 
-def floor_with(world: Any, berth: float) -> Any:
-    """A floor with the walls that stand, so many px thicker."""
+def inflated_floor(world: Any, berth: float) -> Any:
+    """A floor with the standing walls of the world, each `berth` px thicker."""
     floor: Any = World()
     floor.walls = []
     block_rim(floor)
@@ -35,40 +35,40 @@ def floor_with(world: Any, berth: float) -> Any:
     return floor
 
 
-def among(floor: Any, lines: Iterable[Sequence[Point]], half: float) -> Any:
-    """The same floor, where these lines, or single points, are walls too, `half` px to either side."""
-    wider: Any = World()
-    wider.wall_count, wider.walls, wider.grid = floor.wall_count, list(floor.walls), list(floor.grid)
+def with_obstacles(floor: Any, lines: Iterable[Sequence[Point]], half: float) -> Any:
+    """A copy of the floor with lines or single points as additional walls, `half` px to either side."""
+    copy: Any = World()
+    copy.wall_count, copy.walls, copy.grid = floor.wall_count, list(floor.walls), list(floor.grid)
     for points in lines:
         for one, other in zip(points, points[1:] or points, strict=False):
-            _add(wider, one, other, half)
-    return wider
+            _add(copy, one, other, half)
+    return copy
 
 
-def way_to(floor: Any, start: Point, goal: Point) -> list[Point]:
-    """The points to drive to, the last of them the goal; empty where there is no way."""
+def find_path(floor: Any, start: Point, goal: Point) -> list[Point]:
+    """Waypoints from start to goal, the goal being the last; empty if there is no path."""
     x, y = min(max(start[0], RADIUS), WIDTH - RADIUS), min(max(start[1], RADIUS), HEIGHT - RADIUS)
     route: Any = Route()
     route.wanted, route.goal_x, route.goal_y = 1, goal[0], goal[1]
-    way: list[Point] = []
-    for _ in range(MOST_POINTS):
+    path: list[Point] = []
+    for _ in range(MAX_POINTS):
         update_route(floor, route, x, y)
         if route.straight:
-            return [*way, goal] if is_clear(floor, x, y, *goal, RADIUS + 1.0) else _last_bit(floor, way, (x, y), goal)
-        if way and (route.way_x, route.way_y) == way[-1]:
+            return [*path, goal] if is_clear(floor, x, y, *goal, RADIUS + 1.0) else _last_leg(floor, path, (x, y), goal)
+        if path and (route.way_x, route.way_y) == path[-1]:
             return []
         x, y = route.way_x, route.way_y
-        way.append((x, y))
+        path.append((x, y))
     return []
 
 
-def _last_bit(floor: Any, way: list[Point], at: Point, goal: Point) -> list[Point]:
-    """A place beside a wall: from the node next to it straight there."""
-    return [*way, goal] if apart(at, goal) < CELL and is_clear(floor, *at, *goal, RADIUS - 2.0) else []
+def _last_leg(floor: Any, path: list[Point], at: Point, goal: Point) -> list[Point]:
+    """A goal next to a wall: straight from the nearest node."""
+    return [*path, goal] if distance(at, goal) < CELL and is_clear(floor, *at, *goal, RADIUS - 2.0) else []
 
 
-def spots(floor: Any, start: Point) -> list[Point]:
-    """The free nodes that can be reached from there, nearest first."""
+def reachable_nodes(floor: Any, start: Point) -> list[Point]:
+    """The free nodes reachable from `start`, nearest first, px."""
     field: Any = Route()
     root = free_node(floor, *start)
     if root == 0:
@@ -80,7 +80,7 @@ def spots(floor: Any, start: Point) -> list[Point]:
 
 
 def _add(floor: Any, one: Point, other: Point, half: float) -> None:
-    """Stand a wall on the floor, from one point to another or on a single one."""
+    """Add a wall from one point to another, or at a single one."""
     wall: Any = Wall()
     (ax, ay), (bx, by) = one, other
     wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.health = ax, ay, bx, by, half, 1

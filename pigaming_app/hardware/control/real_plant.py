@@ -1,7 +1,7 @@
-"""Real robots as a plant: seen by a tracker, held back by virtual walls and by safety, told over the radio.
+"""Real robots as a plant: observed by a tracker, limited by virtual walls and safety, commanded over the radio.
 
-Nothing is moved but by its own motors. Before a match the robots take their places (`take_places`, tick by tick, until
-it says so); while a match waits, somebody must `watch`, so that faults are noticed when they come and when they go.
+Robots move only by their own motors. Before a match they drive to their places (`take_places`, once a tick, until it
+returns True); while a match is paused, `watch` must be called once a tick, so that faults are detected and cleared.
 """
 
 from collections.abc import Collection, Iterable, Sequence
@@ -12,53 +12,53 @@ from pigaming_app.hardware.control.homing import Homing, HomingProgress
 from pigaming_app.hardware.control.rig import Rig, RobotSnapshot
 from pigaming_app.hardware.control.safety import Fault, Response, Safety
 from pigaming_app.hardware.control.start_pattern import StartPattern
-from pigaming_app.hardware.control.virtual_walls import clipped, coasting, limits
+from pigaming_app.hardware.control.virtual_walls import clip_twist, speed_limits, stopping_pose
 from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
 
-FORGOTTEN = 1.0  # s after which a robot that nobody sees is nobody's obstacle
-PUSH = 2000.0  # px/s^2 at which real robots gather speed: one that drives the wrong way is noticed before it is fast
-FRESH = 0.5 * DT  # s: a game that thinks for longer is driven by a new prediction
+FORGOTTEN = 1.0  # s, age of a pose beyond which a robot is no obstacle
+MAX_ACCELERATION = 2000.0  # px/s^2: a robot that drives the wrong way is detected before it is fast
+FRESH = 0.5 * DT  # s, age of a prediction beyond which `drive` makes a new one
 REST: Twist = (0.0, 0.0)
 
 
 class RealPlant:
-    """The robots of `real` are real ones of the rig; the others stay where the world's record has them."""
+    """The robots of `real` are those of the rig; the others stay at the pose of the world's record."""
 
     def __init__(self, world: World, rig: Rig, real: Iterable[int] = range(ROBOTS)) -> None:
         self.world: Any = world
         self.rig = rig
         self.real = set(real)
         self.safety = Safety()
-        self.motion: list[Twist] = [REST] * ROBOTS  # px/s and rad/s, when what was said last begins to act
-        self._pushed = [0.0] * ROBOTS  # px/s, what was asked of each robot last
+        self.motion: list[Twist] = [REST] * ROBOTS  # px/s and rad/s, predicted to when the latest command acts
+        self._speeds = [0.0] * ROBOTS  # px/s, last commanded speed of each robot
         self._homing: Homing | None = None
-        self._greeting = StartPattern()
-        self._snapshot: RobotSnapshot | None = None  # of this tick, until it is driven by
+        self._start_pattern = StartPattern()
+        self._snapshot: RobotSnapshot | None = None  # of this tick, until `drive` uses it
         self._left_at: list[float | None] = [None] * ROBOTS  # s, when a robot left the arena
 
     @property
     def faults(self) -> list[Fault]:
-        """What is wrong now, worst first."""
+        """Present faults, worst first."""
         return self.safety.faults
 
     @property
     def places(self) -> list[HomingProgress]:
-        """How far the robots that take their places are; empty once all have."""
+        """Progress of the robots that take their places; empty once all have."""
         return self._homing.places if self._homing else []
 
     @property
     def goals(self) -> dict[int, Pose]:
-        """Where the robots that take their places shall be."""
+        """Goal poses of the robots that take their places."""
         return dict(self._homing.goals) if self._homing else {}
 
     def sense(self) -> list[Sighting]:
-        seen = self._look().now
+        seen = self._sense_tick().now
         return [seen[i] if i in self.real else _recorded(robot) for i, robot in enumerate(self.world.robots)]
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
-        """Ask the real robots among these to drive; walls and safety have the last word."""
+        """Command the real robots, clipped by walls and safety."""
         snapshot, self._snapshot = self._snapshot, None
         if snapshot is None or self.rig.clock() - snapshot.time > FRESH:
             snapshot = self.rig.snapshot()
@@ -74,24 +74,24 @@ class RealPlant:
         self.rig.tell(wheels)
 
     def place(self, poses: Sequence[Pose]) -> None:
-        """Begin to take places: those of the real robots that are in the match."""
+        """Start homing the real robots of the match to these poses."""
         self.summon({i: poses[i] for i in self.real if self.world.robots[i].present})
 
     def summon(self, goals: dict[int, Pose]) -> None:
-        """Begin to take places: these robots, real or about to be."""
+        """Start homing these robots, real or about to be."""
         self._homing = Homing(self.world, goals) if goals else None
 
     def take_places(self) -> bool:
-        """One tick of driving there; whether all have arrived. Faults hold for it as for a match."""
+        """One tick of homing; true if all have arrived. Faults apply as in a match."""
         if self._homing is None:
             return True
         seen = self.sense_all()
-        told = self._homing.twists(seen | self._projected(self._homing.goals))
-        told |= self._greeting.twists(seen.keys() & told.keys())
+        twists = self._homing.twists(seen | self._projected(self._homing.goals))
+        twists |= self._start_pattern.twists(seen.keys() & twists.keys())
         real = self.real
-        self.real = real | set(told)
+        self.real = real | set(twists)
         try:
-            self.drive([told.get(i, REST) for i in range(ROBOTS)], DT)
+            self.drive([twists.get(i, REST) for i in range(ROBOTS)], DT)
         finally:
             self.real = real
         if self._homing.done:
@@ -99,45 +99,45 @@ class RealPlant:
         return self._homing is None
 
     def accept_places(self) -> None:
-        """Let everybody begin where it stands."""
+        """Start from the present poses."""
         self._homing = None
 
     def forgive(self, robot: int) -> None:
-        """Somebody has looked after a robot that did not do as it was told: it may try again."""
+        """Clear the latched fault of a robot after somebody has checked it."""
         self.rig.forget(robot)
         self.safety.forgive(robot)
 
     def watch(self) -> list[Fault]:
-        """One tick of a match that waits: all robots stand; what is wrong now."""
+        """One tick of a paused match: all robots stand. Returns the present faults."""
         self.rig.pump()
         self.drive([REST] * ROBOTS, DT)
         return self.faults
 
     def sense_all(self) -> dict[int, Pose]:
-        """The robots that are seen on the mat, in a match or not."""
-        found = enumerate(self._look().now)
-        return {i: (one.x, one.y, one.heading) for i, one in found if one.age < FORGOTTEN}
+        """Poses of all robots on the mat, in a match or not."""
+        seen = enumerate(self._sense_tick().now)
+        return {i: (robot.x, robot.y, robot.heading) for i, robot in seen if robot.age < FORGOTTEN}
 
-    def _look(self) -> RobotSnapshot:
-        """The robots at the beginning of a tick."""
+    def _sense_tick(self) -> RobotSnapshot:
+        """The snapshot for this tick."""
         self.rig.pump()
         self._snapshot = self.rig.snapshot()
         return self._snapshot
 
-    def _projected(self, calling: Collection[int]) -> dict[int, Pose]:
-        """The simulated robots among which the real ones take their places, counted from ROBOTS on."""
+    def _projected(self, summoned: Collection[int]) -> dict[int, Pose]:
+        """Poses of the simulated robots except those summoned, numbered from ROBOTS on: obstacles for homing."""
         return {
             ROBOTS + i: (robot.x, robot.y, robot.heading)
             for i, robot in enumerate(self.world.robots)
-            if robot.present and i not in self.real and i not in calling
+            if robot.present and i not in self.real and i not in summoned
         }
 
     def close(self) -> None:
-        """Stop the robots and let go of the hardware."""
+        """Stop the robots and release the hardware."""
         self.rig.close()
 
     def _judge(self, seen: RobotSnapshot) -> list[Response]:
-        """What safety says of every robot."""
+        """The safety response for every robot."""
         now, outside = self.rig.clock(), dict[int, float]()
         for i, sighting in enumerate(seen.now):
             inside = 0.0 <= sighting.x <= WIDTH and 0.0 <= sighting.y <= HEIGHT
@@ -149,54 +149,54 @@ class RealPlant:
         return self.safety.judge([signs.get(i) for i in range(ROBOTS)], now)
 
     def _ahead(self, snapshot: RobotSnapshot) -> list[Pose]:
-        """Where every robot, real or not, comes to rest if it is told to stop now."""
-        trains = [one.drivetrain for one in self.rig.kinematics]
+        """The stopping pose of every robot, real or simulated."""
+        trains = [kinematics.drivetrain for kinematics in self.rig.kinematics]
         poses = []
         for i, (robot, train) in enumerate(zip(self.world.robots, trains, strict=True)):
             seen = snapshot.later[i]
             simulated = robot.present and i not in self.real
             pose = (robot.x, robot.y, robot.heading) if simulated else (seen.x, seen.y, seen.heading)
-            poses.append(coasting(pose, self.motion[i], train.lag) if i in self.real else pose)
+            poses.append(stopping_pose(pose, self.motion[i], train.lag) if i in self.real else pose)
         return poses
 
     def _is_solid(self, robot: int, seen: Sighting) -> bool:
-        """Whether it must not be run into: all in the match, and what else the camera sees."""
+        """True if it is an obstacle: in the match, or seen by the camera."""
         simulated = self.world.robots[robot].present and robot not in self.real
         return bool(simulated) or seen.age < FORGOTTEN
 
     def _wheels(
         self, robot: int, asked: Twist, held: Response, ahead: Sequence[Pose], solid: Sequence[int]
     ) -> WheelCommand | None:
-        """What one robot is told: nothing, to stand, or what walls and safety leave of what was asked."""
+        """The command of one robot: None, rest, or the twist clipped by walls and safety."""
         if robot not in self.real or not self.world.robots[robot].present or held == Response.OFF:
             return None
         kinematics = self.rig.kinematics[robot]
         if held == Response.STOP:
-            self._pushed[robot] = 0.0
+            self._speeds[robot] = 0.0
             return kinematics.stand()
         if held == Response.HALF:
             asked = (0.5 * asked[0], 0.5 * asked[1])
         x, y, _ = ahead[robot]
         others = [(ahead[i][0], ahead[i][1]) for i in solid if i != robot]
-        asked = eased(asked[0], self._pushed[robot]), asked[1]
-        left = clipped(ahead[robot], asked, limits(self.world, x, y, others), kinematics.drivetrain.lag)
-        self._pushed[robot] = left[0]
-        return kinematics.wheels(left)
+        asked = limit_acceleration(asked[0], self._speeds[robot]), asked[1]
+        allowed = clip_twist(ahead[robot], asked, speed_limits(self.world, x, y, others), kinematics.drivetrain.lag)
+        self._speeds[robot] = allowed[0]
+        return kinematics.wheels(allowed)
 
     def _roll(self, robot: int, wheels: WheelCommand | None, dt: float) -> None:
-        """Follow the motors: how fast the robot will go when the next command acts."""
+        """Advance the motor model: the robot's motion when the next command acts."""
         kinematics = self.rig.kinematics[robot]
-        goal = kinematics.goes(wheels) if wheels else REST
+        goal = kinematics.expected_twist(wheels) if wheels else REST
         share = 1.0 - exp(-dt / kinematics.drivetrain.lag)
         linear, angular = self.motion[robot]
         self.motion[robot] = (linear + (goal[0] - linear) * share, angular + (goal[1] - angular) * share)
 
 
-def eased(asked: float, before: float) -> float:
-    """A speed, px/s, that is not farther from standing still than PUSH allows in a tick; slowing down is free."""
+def limit_acceleration(asked: float, before: float) -> float:
+    """A speed (px/s) limited to MAX_ACCELERATION over a tick; deceleration is not limited."""
     start = before if before * asked > 0.0 else 0.0
-    most = abs(start) + PUSH * DT
-    return max(-most, min(most, asked))
+    limit = abs(start) + MAX_ACCELERATION * DT
+    return max(-limit, min(limit, asked))
 
 
 def _recorded(robot: Any) -> Sighting:

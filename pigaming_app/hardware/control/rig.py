@@ -1,8 +1,7 @@
-"""The hardware of one arena, put together: a camera, a tracker and a link, on one clock.
+"""Rig: camera, tracker and link of one arena on one clock.
 
-`pump` does what there is to do now: look at the newest picture, let the link talk. In the arena a thread does that
-(`start`); in simulated time whoever owns the time does. What a robot is told goes through `tell`, which also lets the
-tracker know.
+`pump` processes the newest picture and runs the link. In the arena a thread does that (`start`); in simulated time the
+owner of the clock calls it. All commands go through `tell`, which also informs the tracker.
 """
 
 import logging
@@ -24,22 +23,22 @@ from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.world import DT, ROBOTS
 
-# A 3pi that nobody has measured: a deadband as such motors have it, and s of dead time for tick, serial line and air.
+# A 3pi that was not measured: a typical deadband, and dead time (s) of tick, serial line and air.
 UNMEASURED = replace(
     NOMINAL, left=replace(NOMINAL.left, deadband=0.03), right=replace(NOMINAL.right, deadband=0.03), dead_time=0.03
 )
-SPARSE = 24  # px between those of a picture that are compared with the one before
-AGAIN = 0.5  # s until the next try after something broke
-PERIOD = 0.005  # s between two looks for a new picture
-GREETING = 0.5  # s after which every robot in reach has heard of this rig, and reported since
+SPARSE = 24  # px between the samples of the quick comparison of two pictures
+RETRY = 0.5  # s until the next try after an error
+PERIOD = 0.005  # s between two polls of the camera
+GREETING = 0.5  # s after which every robot in range has received a command and reported since
 
 log = logging.getLogger("pigaming")
 
 
 class TrackerPort(Protocol):
-    """The part of a tracker that a rig uses."""
+    """The subset of a tracker that a rig uses."""
 
-    looked: float  # s, when the newest picture was taken that was looked at
+    looked: float  # s, exposure of the newest processed picture
 
     @property
     def refused(self) -> Mapping[int, str]: ...
@@ -60,7 +59,7 @@ class TrackerPort(Protocol):
 
 
 class LinkPort(Protocol):
-    """The part of a link that a rig uses."""
+    """The subset of a link that a rig uses."""
 
     @property
     def telemetry(self) -> Mapping[int, Telemetry]: ...
@@ -78,16 +77,16 @@ class LinkPort(Protocol):
 
 
 class RobotSnapshot(NamedTuple):
-    """All robots at one time, and each when a command that is sent then begins to act."""
+    """Predicted poses of all robots now, and at the time when a command sent now acts."""
 
     time: float  # s
-    looked: float  # s, when the newest picture was taken that they are predicted from
+    looked: float  # s, exposure of the newest picture behind the prediction
     now: list[Sighting]
     later: list[Sighting]
 
 
 class Recorder(Protocol):
-    """Who wants to know all that is sent and seen."""
+    """Receives all commands, fixes and estimates, for a recording."""
 
     def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None: ...
 
@@ -97,7 +96,7 @@ class Recorder(Protocol):
 
 
 class Rig:
-    """Robot i wears marker i; `channels[i]` is the place of its radio in what the link sends (see pairing)."""
+    """Robot i wears marker i; `channels[i]` is the index of its radio in the packets of the link (see pairing)."""
 
     def __init__(
         self,
@@ -109,11 +108,11 @@ class Rig:
         drift: Callable[[], float] = lambda: 0.0,
     ) -> None:
         self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
-        self.kinematics = [Kinematics(one) for one in drivetrains]
+        self.kinematics = [Kinematics(drivetrain) for drivetrain in drivetrains]
         self.motion_check = MotionCheck(drivetrains)
-        self._dead_times = [one.dead_time for one in drivetrains]
+        self._dead_times = [drivetrain.dead_time for drivetrain in drivetrains]
         self._channels: Sequence[int] = tuple(range(ROBOTS))
-        self.drift = drift  # mm by which the corner markers have moved
+        self.drift = drift  # drift of the corner markers, mm
         self.recorder: Recorder | None = None
         self._begun = clock()
         self._deaf_since: dict[int, float] = {}  # s, by robot
@@ -124,7 +123,7 @@ class Rig:
 
     @property
     def channels(self) -> Sequence[int]:
-        """The place of each robot's radio in what the link sends."""
+        """Index of each robot's radio in the packets of the link."""
         return self._channels
 
     @channels.setter
@@ -134,28 +133,28 @@ class Rig:
             self.motion_check.forget()
 
     def pump(self) -> None:
-        """Look at the newest picture, if there is a new one, and let the link do its part. Idle while a thread runs."""
+        """Process a new picture, if any, and run the link. No effect while a thread does."""
         if self._thread is None:
             self._look()
             self.link.pump()
 
     def snapshot(self) -> RobotSnapshot:
-        """One prediction of all robots for one tick: whoever drives judges, clips and steers by it."""
+        """One prediction of all robots for one tick, shared by safety, clipping and steering."""
         with self._lock:
             now = self.clock()
             return RobotSnapshot(now, self.tracker.looked, *self.tracker.predict(now, self._dead_times))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
-        """Where the robots are now, or will be so many seconds ahead if nothing else is said to them."""
+        """Poses of the robots, predicted `ahead` s with the commands in force."""
         with self._lock:
             return self.tracker.sense(self.clock() + ahead)
 
     def tell(self, wheels: Sequence[WheelCommand | None]) -> None:
-        """Tell every robot what to do from now on; None: motors off."""
+        """Send the commands of all robots; None: motors off."""
         sent: list[WheelCommand | None] = [None] * ROBOTS
-        for robot, one in enumerate(wheels):
-            sent[self.channels[robot]] = one
-        twists = [one and self.kinematics[i].comes_to(one) for i, one in enumerate(wheels)]
+        for robot, command in enumerate(wheels):
+            sent[self.channels[robot]] = command
+        twists = [command and self.kinematics[i].nominal_twist(command) for i, command in enumerate(wheels)]
         now = self.clock()
         with self._lock:
             self.tracker.sent(now, twists)
@@ -167,7 +166,7 @@ class Rig:
         self.pump()
 
     def tell_one(self, channel: int, wheels: WheelCommand) -> None:
-        """Tell the robot of one radio what to do, whichever marker it wears; the others are off."""
+        """Command the robot on one radio channel, regardless of its marker; the others are off."""
         sent: list[WheelCommand | None] = [None] * ROBOTS
         sent[channel] = wheels
         with self._lock:
@@ -176,16 +175,16 @@ class Rig:
         self.pump()
 
     def forget(self, robot: int) -> None:
-        """Judge anew from now on whether this robot does as it is told."""
+        """Reset the motion check of a robot."""
         with self._lock:
             self.motion_check.forget(robot)
 
     def telemetry(self, robot: int) -> Telemetry | None:
-        """What a robot said last."""
+        """The latest report of a robot, or None."""
         return self.link.telemetry.get(self.channels[robot])
 
     def signs(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
-        """The signs of these robots, which have been outside the arena for so many seconds.
+        """Health of the robots in `outside` (s outside the arena, by robot).
 
         A verdict lasts one tick, so ages are extrapolated by one tick.
         """
@@ -193,10 +192,10 @@ class Rig:
         with self._lock:
             looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
             contradictions = [self.motion_check.contradiction(robot) for robot in range(ROBOTS)]
-        found = {}
+        health = {}
         for robot, seconds in outside.items():
             report, age = self.telemetry(robot), seen.now[robot].age
-            found[robot] = Health(
+            health[robot] = Health(
                 picture=now - max(looked, self._begun) + DT,
                 unseen=age + DT if seen.looked > seen.time - age + 1e-6 else 0.0,
                 refused=refused.get(robot, ""),
@@ -212,12 +211,12 @@ class Rig:
                 unlinked=gone,
                 drift=drift,
             )
-        return found
+        return health
 
     def _deaf(self, robot: int, report: Telemetry | None) -> float:
-        """Seconds from the first to the newest of the reports, without one between, that the deadman has tripped.
+        """Seconds from the first to the latest of consecutive reports of a tripped deadman.
 
-        Not counted is that of a robot that had nobody to hear before this rig began.
+        A deadman that tripped before this rig was in contact is not counted.
         """
         if report is None or not report.flags & DEADMAN or report.heard < self._begun + GREETING:
             self._deaf_since.pop(robot, None)
@@ -225,14 +224,14 @@ class Rig:
         return max(1e-3, report.heard - self._deaf_since.setdefault(robot, report.heard))
 
     def start(self) -> "Rig":
-        """Look and talk in threads of their own until close(); the clock must be one of real time."""
+        """Process pictures and run the link in threads until `close`. Requires a real-time clock."""
         self.link.start()
         self._thread = threading.Thread(target=self._run, name="rig", daemon=True)
         self._thread.start()
         return self
 
     def close(self) -> None:
-        """Stop the robots and let go of camera and radio. May be called again."""
+        """Stop the robots and release camera and radio. Idempotent."""
         self.link.close()
         self._closing.set()
         if self._thread is not None and self._thread is not threading.current_thread():
@@ -245,9 +244,9 @@ class Rig:
             try:
                 self._look()
                 pause = PERIOD
-            except Exception:  # the picture grows old, and robots stop; perhaps the next one can be used
+            except Exception:  # the age of the picture stops the robots; the next one may be usable
                 log.exception("a picture could not be used")
-                pause = AGAIN
+                pause = RETRY
 
     def _look(self) -> None:
         frame = self.camera.newest()
@@ -255,7 +254,7 @@ class Rig:
             return
         before, self._image = self._image, frame.image
         if before is not None and _same(before, frame.image):
-            return  # a driver that hands out the same picture again: real ones differ by their noise
+            return  # a driver that repeats a picture: real ones differ by noise
         with self._lock:
             fixes = self.tracker.see(frame)
             self.motion_check.seen(fixes)
@@ -266,5 +265,5 @@ class Rig:
 
 
 def _same(one: Image, other: Image) -> bool:
-    """Whether two pictures are the same; a few px tell mostly that they are not."""
+    """True if two pictures are equal; a sparse comparison settles most cases."""
     return np.array_equal(one[::SPARSE, ::SPARSE], other[::SPARSE, ::SPARSE]) and np.array_equal(one, other)

@@ -1,9 +1,9 @@
-"""What stops robots: the table of faults, and how each is judged. The table is HARDWARE.md's, as data.
+"""Safety: the table of faults and its evaluation.
 
-Every tick the plant reports signs: how old the picture is, how long ago each robot was seen, what its battery says.
-`Safety` compares them with RULES; what they say is in force at once, and a fault that pauses the match stays until its
-sign has been good for CALM seconds. Two deadmen stand behind it: the link sends stop when the game falls silent, and
-the firmware stops robots that hear nothing at all.
+Every tick the plant reports the health of each robot: age of the picture, age of its pose, battery and so on. `Safety`
+evaluates RULES; a response applies at once, and a fault that pauses the match lasts until its condition has been clear
+for CALM seconds. Two deadmen back it up: the link sends stop when the game falls silent, and the firmware stops a robot
+that receives nothing.
 """
 
 from collections.abc import Callable, Sequence
@@ -11,54 +11,54 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
-IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker is not believed to be on a robot on the mat
-CALM = 0.5  # s for which a sign must be good before its fault is gone
+IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker was refused: see Tracker.refused
+CALM = 0.5  # s for which a condition must be clear before its fault ends
 
 
 class Response(IntEnum):
-    """What a rule does to a robot; of several that apply, the highest holds."""
+    """Response of a rule; of several that apply, the highest holds."""
 
-    WARN = 0  # nothing but say so
-    INWARD = 1  # it may only drive back into the arena: walls.py sees to it
+    WARN = 0  # report only
+    INWARD = 1  # it may only drive back into the arena, enforced by virtual_walls
     HALF = 2  # half speed
-    STOP = 3  # wheels told to stand
+    STOP = 3  # wheels commanded to stand
     OFF = 4  # motors off
 
 
 class Health(NamedTuple):
-    """How things stand with one robot; what concerns all is said to each."""
+    """Health of one robot; conditions of the whole rig are repeated for each."""
 
     picture: float = 0.0  # s, age of the newest picture
-    unseen: float = 0.0  # s since it was seen, though there were newer pictures
-    refused: str = ""  # why a marker with its number was lately not believed: see Tracker.refused
-    doubled: bool = False  # its marker was seen twice at once
-    outside: float = 0.0  # s for which it has been outside the arena
-    astray: float = 0.0  # s for which it has moved as no command explains: see motion_check
-    stuck: float = 0.0  # s for which it has stood though it was told to move
-    leaving: bool = False  # astray on its way out of the arena
-    silence: float = 0.0  # s since it was heard
+    unseen: float = 0.0  # s since it was seen, if there are newer pictures
+    refused: str = ""  # why a marker with its number was recently refused: see Tracker.refused
+    doubled: bool = False  # its marker was seen twice in one picture
+    outside: float = 0.0  # s outside the arena
+    astray: float = 0.0  # s of motion that no command explains: see motion_check
+    stuck: float = 0.0  # s at rest despite a command to move
+    leaving: bool = False  # astray and about to leave the arena
+    silence: float = 0.0  # s since its last report
     battery: float = 9.9  # V
-    refuses: bool = False  # its battery was empty, and it keeps its motors off until that has recovered
-    deaf: float = 0.0  # s for which it has reported that its deadman stopped it
-    unlinked: bool = False  # the radio is gone
-    drift: float = 0.0  # mm by which the corner markers have moved
-    stopped: bool = False  # somebody pressed the all-stop
+    refuses: bool = False  # its battery was empty; it keeps its motors off until the battery has recovered
+    deaf: float = 0.0  # s of reports that its deadman stopped it
+    unlinked: bool = False  # no radio
+    drift: float = 0.0  # mm, drift of the corner markers
+    stopped: bool = False  # the all-stop was pressed
 
 
 @dataclass(frozen=True)
 class SafetyRule:
-    """One line of the table: when `sign` is so bad, do this, to the robot or to everyone."""
+    """One row of the table: the response to a condition, for the robot or for everyone."""
 
-    name: str  # its text: faults.NAME
+    name: str  # text key: faults.NAME
     bad: Callable[[Health], bool]
     does: Response
     everyone: bool = False
     pauses: bool = False
-    lasts: bool = False  # until somebody has looked: see Safety.forgive. Meanwhile nobody moves
+    lasts: bool = False  # latched until Safety.forgive; meanwhile no robot moves
 
 
 def _disobeys(signs: Health) -> bool:
-    """Whether a robot does not do as it is told; one that stands and was not heard lately may just be switched off."""
+    """True if motion contradicts the commands; a robot at rest without recent reports may just be switched off."""
     return signs.leaving or signs.astray > 0.4 or (signs.stuck > 0.4 and signs.silence < 0.35)
 
 
@@ -88,82 +88,82 @@ RULES = (
 
 
 class Fault(NamedTuple):
-    """Something that is wrong now. Its plain reason is the text faults.NAME, with `robot` counted from 1."""
+    """A present fault. Its message is the text faults.NAME, with `robot` counted from 1."""
 
     name: str
-    robot: int | None  # None: all of them
+    robot: int | None  # None: all robots
     does: Response
     pauses: bool
     since: float  # s
 
 
 class Safety:
-    """Judges signs by RULES, and remembers the all-stop."""
+    """Evaluates RULES, and holds the all-stop and latched faults."""
 
     def __init__(self) -> None:
         self.stopped = False
-        self.faults: list[Fault] = []  # what is wrong now, worst first, each once
+        self.faults: list[Fault] = []  # present faults, worst first, each once
         self._lasting: set[tuple[SafetyRule, int]] = set()
-        self._bad: dict[tuple[SafetyRule, int | None], tuple[float, float]] = {}  # since when, and when last
+        self._bad: dict[tuple[SafetyRule, int | None], tuple[float, float]] = {}  # first and last time, s
 
     def all_stop(self) -> None:
         """Stop every robot until `release`."""
         self.stopped = True
 
     def release(self) -> None:
-        """Somebody has looked and lets the robots go on."""
+        """End the all-stop."""
         self.stopped = False
 
     @property
     def lasting(self) -> set[int]:
-        """The robots that wait until somebody has looked after them."""
+        """Robots with a latched fault."""
         return {robot for _, robot in self._lasting}
 
     def forgive(self, robot: int) -> None:
-        """Somebody has looked after this robot: what it did is past."""
+        """Clear the latched faults of a robot after somebody has checked it."""
         self._lasting = {key for key in self._lasting if key[1] != robot}
 
     def forget(self, robot: int, last: bool) -> None:
-        """This robot is no real one any more, and so nothing is wrong with it; `last`: there are no others."""
+        """Drop all faults of a robot that is no longer real; `last`: no real robot remains."""
         self.forgive(robot)
         self._bad = {key: times for key, times in self._bad.items() if key[1] != robot and not last}
         self.faults = [fault for fault in self.faults if fault.robot != robot and not last]
 
     @property
     def pauses(self) -> bool:
-        """Whether the match must wait."""
+        """True if the match must pause."""
         return any(fault.pauses for fault in self.faults)
 
     def judge(self, signs: Sequence[Health | None], now: float) -> list[Response]:
-        """What holds for each robot, and what is wrong in `faults`. None: not a real robot, or not in the match."""
+        """The response for each robot; updates `faults`. None: not a real robot, or not in the match."""
         real = {robot: sign._replace(stopped=self.stopped) for robot, sign in enumerate(signs) if sign is not None}
         held = [Response.WARN] * len(signs)
         self.faults = []
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
                 concerned = list(real) if robot is None else [robot]
-                bad = any(rule.bad(real[one]) for one in concerned)
+                bad = any(rule.bad(real[other]) for other in concerned)
                 if rule.lasts and robot is not None:
                     self._lasting |= {(rule, robot)} if bad else set()
                     bad = (rule, robot) in self._lasting
                 since = self._since(rule, robot, bad, now)
                 if since is None:
                     continue
-                for one in real if rule.lasts else concerned:
-                    held[one] = max(held[one], rule.does)
+                for other in real if rule.lasts else concerned:
+                    held[other] = max(held[other], rule.does)
                 if (rule.name, robot) not in [(fault.name, fault.robot) for fault in self.faults]:
                     self.faults.append(Fault(rule.name, robot, rule.does, rule.pauses, since))
         self._explain()
         return held
 
     def _explain(self) -> None:
-        """What a robot did is explained by another fault that pauses: it goes on by itself once that is gone."""
+        """Unlatch faults that another pausing fault explains: the robot continues once that one has ended."""
         for fault in self.faults:
             if fault.pauses and not any(rule.lasts for rule in RULES if rule.name == fault.name):
                 self._lasting = {key for key in self._lasting if fault.robot not in (None, key[1])}
 
     def _since(self, rule: SafetyRule, robot: int | None, bad: bool, now: float) -> float | None:
-        """Since when a rule has been in force; None: it is not. One that pauses outlasts its sign by CALM."""
+        """Start of a rule's present fault, s, or None. A rule that pauses outlasts its condition by CALM."""
         since, last = self._bad.get((rule, robot), (now, now))
         if bad:
             self._bad[rule, robot] = since, now

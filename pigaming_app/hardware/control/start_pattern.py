@@ -1,6 +1,6 @@
-"""How real robots begin: each turns to and fro in a pattern of its own, so that a fault is found before they drive.
+"""Start pattern: each real robot first turns in a distinct pattern, so that faults are detected before it drives.
 
-A robot whose lid, wires or wheels are wrong turns in another pattern than its commands; see motion_check.
+With a wrong lid, wiring or wheel the observed turns contradict the commands; see motion_check.
 """
 
 from collections.abc import Collection
@@ -14,17 +14,17 @@ PATTERNS = ((1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (-1.0, -1.0))  # by robot
 
 
 class StartPattern:
-    """Lets every robot turn twice, from when it is first seen."""
+    """Two turns of every robot, from when it is first seen."""
 
     def __init__(self) -> None:
-        self._ticks: dict[int, int] = {}  # by robot, since it began
+        self._ticks: dict[int, int] = {}  # by robot, since its start
 
     def twists(self, seen: Collection[int]) -> dict[int, Twist]:
-        """One tick: what to ask of those robots that have not finished."""
-        asked: dict[int, Twist] = {}
+        """One tick: the twists (px/s, rad/s) of those robots that have not finished."""
+        twists: dict[int, Twist] = {}
         for robot in seen:
             ticks = self._ticks.setdefault(robot, 0)
             if ticks < 2 * SLOT:
                 self._ticks[robot] = ticks + 1
-                asked[robot] = 0.0, RATE * PATTERNS[robot][ticks // SLOT]
-        return asked
+                twists[robot] = 0.0, RATE * PATTERNS[robot][ticks // SLOT]
+        return twists

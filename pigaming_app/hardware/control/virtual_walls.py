@@ -1,8 +1,8 @@
-"""Virtual walls for real robots: nothing holds a real disc back but its own motors, so its speed is clipped in time.
+"""Virtual walls: clip the speed of real robots in front of walls, the arena's edges and each other.
 
-Towards a wall it may drive at most GAMMA times the gap that is left, each second: so it comes to rest before the wall
-and never has to brake hard. Two robots share the gap between them. Turning is free, and in a wall, or outside the
-arena, it may only get out. Where the robot is known to be is never changed.
+The speed towards a wall is at most GAMMA times the gap, so a robot comes to rest before it without hard braking. Two
+robots share the gap between them. Turning is free; inside a wall or outside the arena only motion out is allowed. Poses
+are never corrected.
 """
 
 from collections.abc import Sequence
@@ -14,24 +14,24 @@ from pigaming_app.sim.robot import LAG, RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
-GAMMA = 4.0  # per s: speed for a gap, with a pose that is predicted (HARDWARE.md)
-SHARED = 0.5 * GAMMA  # between two robots, each of which may come nearer
-SPARE = 4.0  # px before a wall at which it counts as reached: what a pose may be wrong by
+GAMMA = 4.0  # 1/s, speed per gap, with a predicted pose
+SHARED = 0.5 * GAMMA  # 1/s, between two robots, each of which may approach
+SPARE = 4.0  # px, safety margin for the error of a pose
 
 
 class SpeedLimit(NamedTuple):
-    """Towards (nx, ny), a unit vector, a robot may not drive faster than `speed` px/s."""
+    """Upper limit (px/s) of the speed towards (nx, ny), a unit vector."""
 
     nx: float
     ny: float
     speed: float
 
 
-def coasting(pose: Pose, motion: Twist, lag: float) -> Pose:
-    """Where a robot that moves so comes to rest if it is told to stop: that is where walls must be looked for.
+def stopping_pose(pose: Pose, motion: Twist, lag: float) -> Pose:
+    """The pose at which a robot comes to rest after a stop command; gaps are measured from there.
 
-    With first-order motors it still goes on by speed times lag; clipping by the gap from there never overshoots,
-    however long the lag: its closed loop s^2 lag + s (1 + GAMMA lag) + GAMMA has no complex roots.
+    First-order motors coast by speed times lag (s). Clipping by the gap from there never overshoots, for any lag: the
+    closed loop s^2 lag + s (1 + GAMMA lag) + GAMMA has no complex roots.
     """
     x, y, heading = pose
     way, turn = motion[0] * lag, motion[1] * lag
@@ -39,9 +39,9 @@ def coasting(pose: Pose, motion: Twist, lag: float) -> Pose:
     return x + way * cos(middle), y + way * sin(middle), heading + turn
 
 
-def limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]] = ()) -> list[SpeedLimit]:
-    """What holds a robot at (x, y) back: the arena's edges, the walls that still stand, the others' centres."""
-    found = [
+def speed_limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]] = ()) -> list[SpeedLimit]:
+    """Speed limits at (x, y): the arena's edges, the standing walls, and other robots by their centres (px)."""
+    limits = [
         _limit(-1.0, 0.0, x - RADIUS),
         _limit(1.0, 0.0, WIDTH - RADIUS - x),
         _limit(0.0, -1.0, y - RADIUS),
@@ -53,21 +53,21 @@ def limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]]
             continue
         dx, dy = offset_from_wall(wall, x, y)
         gap = sqrt(dx * dx + dy * dy)
-        if gap < 1e-6:  # on the middle line of a wall: across it is the way out, whichever side
+        if gap < 1e-6:  # on the centre line of a wall: the way out is across, to either side
             continue
-        found.append(_limit(-dx / gap, -dy / gap, gap - wall.half - RADIUS))
+        limits.append(_limit(-dx / gap, -dy / gap, gap - wall.half - RADIUS))
     for other_x, other_y in others:
         dx, dy = other_x - x, other_y - y
         gap = sqrt(dx * dx + dy * dy)
         if gap > 1e-6:
-            found.append(_limit(dx / gap, dy / gap, gap - 2.0 * RADIUS, SHARED))
-    return found
+            limits.append(_limit(dx / gap, dy / gap, gap - 2.0 * RADIUS, SHARED))
+    return limits
 
 
-def clipped(pose: Pose, asked: Twist, held: Sequence[SpeedLimit], lag: float = LAG) -> Twist:
-    """What is left of a twist under these limits: less speed along the heading, the turn as it is asked for.
+def clip_twist(pose: Pose, asked: Twist, limits: Sequence[SpeedLimit], lag: float = LAG) -> Twist:
+    """Clip the linear speed of a twist to the limits; the turn rate is unchanged.
 
-    A turn counts as far as it goes before the motors have answered, so that a robot that swings its nose into a wall
+    Headings are checked over the turn within one lag of the motors, so that a robot that swings its nose into a wall
     has slowed down by then.
     """
     linear, angular = asked
@@ -77,7 +77,7 @@ def clipped(pose: Pose, asked: Twist, held: Sequence[SpeedLimit], lag: float = L
         heading = pose[2] + share * lag * angular
         ways.append((sign * cos(heading), sign * sin(heading)))
     speed = abs(linear)
-    for limit in held:
+    for limit in limits:
         closing = max(limit.nx * wx + limit.ny * wy for wx, wy in ways)
         if closing * speed > limit.speed + 1e-9:
             speed = limit.speed / closing

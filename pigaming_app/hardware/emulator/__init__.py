@@ -1,1 +1,1 @@
-"""What stands outside the computer, emulated: mat, robots, camera, projector, radio. `arena` is where to begin."""
+"""Emulator of everything outside the computer: mat, robots, camera, projector, radio. Start reading at `arena`."""

@@ -1,6 +1,6 @@
-"""What can go wrong in the emulated arena, by name: each fault can be switched on and off at any time.
+"""Fault injection in the emulated arena, by name: each fault can be switched on and off at any time.
 
-Some of them strike the camera or the radio, others one robot.
+Some faults affect the camera or the radio, others one robot.
 """
 
 from dataclasses import replace
@@ -25,40 +25,40 @@ from pigaming_app.hardware.emulator.radio import EmulatedRadio
 from pigaming_app.hardware.emulator.robots import EmulatedRobot
 
 FAULTS = {
-    "camera_frozen": "no picture arrives any more, though the camera is there",
-    "camera_stuck": "the same picture arrives again and again",
+    "camera_frozen": "no picture arrives any more, though the camera is connected",
+    "camera_stuck": "the same picture arrives repeatedly",
     "camera_gone": "the camera is unplugged",
-    "camera_bumped": "somebody ran into the camera, and it looks elsewhere",
-    "frames_dropped": "two pictures of three are lost",
-    "exposure_step": "pictures are half as bright at once",
+    "camera_bumped": "the camera was bumped and looks elsewhere",
+    "frames_dropped": "two of three pictures are lost",
+    "exposure_step": "the brightness suddenly halves",
     "marker_covered": "a hand lies on the lid",
-    "marker_twice": "a second marker of the same number lies on the mat",
-    "marker_held": "somebody holds the robot in the air, and not still",
-    "upside_down": "somebody holds the robot with its wheels up",
+    "marker_twice": "a second marker with the same number lies on the mat",
+    "marker_held": "somebody holds and moves the robot in the air",
+    "upside_down": "somebody holds the robot upside down",
     "carried": "somebody carries the robot to another place",
-    "radio_dead": "nothing goes through the air",
-    "radio_lossy": "a third of the packets is lost",
-    "radio_unplugged": "the radio is pulled out of the computer",
-    "garbage": "rubbish comes on every line",
-    "battery_low": "the cells of the robot have 3.9 V",
+    "radio_dead": "no packet gets through",
+    "radio_lossy": "a third of the packets are lost",
+    "radio_unplugged": "the radio is unplugged from the computer",
+    "garbage": "random bytes arrive on every line",
+    "battery_low": "the battery of the robot is at 3.9 V",
     "robot_off": "the robot is switched off",
-    "robot_mute": "the robot hears, but nothing that it says arrives",
+    "robot_mute": "the robot receives commands, but its reports are lost",
     "pinned": "a hand holds the robot down on the mat",
     "lids_swapped": "the robot and the next one wear each other's lids",
-    "motors_swapped": "the left motor of the robot is connected in the place of the right one",
-    "motors_reversed": "both motors of the robot are connected the wrong way round",
-    "motor_reversed": "the left motor of the robot is connected the wrong way round",
+    "motors_swapped": "the motors of the robot are connected to each other's outputs",
+    "motors_reversed": "both motors of the robot have reversed polarity",
+    "motor_reversed": "the left motor of the robot has reversed polarity",
 }
 CAMERA = {"camera_frozen": "frozen", "camera_stuck": "stuck", "camera_gone": "gone"}
 RADIO = {"radio_dead": "dead", "radio_unplugged": "unplugged"}
-HELD_AT, TURNED_AT, CARRIED_AT = 400.0, 60.0, 120.0  # mm over the mat
+HELD_AT, TURNED_AT, CARRIED_AT = 400.0, 60.0, 120.0  # mm above the mat
 CARRY_SPEED, CARRY_WAY = 600.0, 500.0  # mm/s, mm
-DARKER = 0.5
-BUMP = 25.0  # mm by which the camera looks beside where it did
-HAND = 56.0  # mm, reach
+DARKER = 0.5  # gain
+BUMP = 25.0  # mm, shift of the camera's aim
+HAND = 56.0  # mm, radius
 EMPTY_CELLS = 3.9  # V
 
-Taken = tuple[float, Placing]  # s, mm, mm, rad: when the fault began, and where the robot was then
+Onset = tuple[float, Placing]  # s, (mm, mm, rad): start of the fault, and the robot's pose then
 
 
 class FaultyArena(Protocol):
@@ -75,28 +75,28 @@ class FaultyArena(Protocol):
 
 
 class FaultInjector:
-    """The faults that are on: `switch` changes that, `tick` and `things` let them do what they do."""
+    """The active faults: `switch` changes them, `tick` and `things` apply them."""
 
     def __init__(self, arena: FaultyArena) -> None:
         self._arena = arena
-        self._robots: dict[str, dict[int, Taken]] = {name: {} for name in FAULTS}
+        self._robots: dict[str, dict[int, Onset]] = {name: {} for name in FAULTS}
 
     def switch(self, name: str, on: bool, robot: int = 0) -> None:
-        """Switch a fault on or off, if it strikes a robot: for that one. Raises ValueError for an unknown name."""
+        """Switch a fault on or off, for one robot if it affects robots. Raises ValueError for an unknown name."""
         if name not in FAULTS:
             raise ValueError(f"no fault {name!r}; there are {', '.join(FAULTS)}")
         arena = self._arena
-        struck, strikes = arena.robots[robot], self._robots[name]
+        target, affected = arena.robots[robot], self._robots[name]
         if on:
-            strikes[robot] = arena.clock(), (struck.x, struck.y, struck.heading)
+            affected[robot] = arena.clock(), (target.x, target.y, target.heading)
         else:
-            strikes.pop(robot, None)
+            affected.pop(robot, None)
         if name in CAMERA:
             setattr(arena.camera, CAMERA[name], on)
         elif name in RADIO:
             setattr(arena.radio, RADIO[name], on)
         elif name in ("marker_held", "upside_down", "carried") and not on:
-            struck.height = 0.0
+            target.height = 0.0
         elif name == "camera_bumped":
             lens = arena.optics.lens
             aim = (lens.aim[0] + BUMP, lens.aim[1])
@@ -110,24 +110,24 @@ class FaultInjector:
         elif name == "garbage":
             arena.radio.more_garbage = 300.0 * on  # bytes a second
         elif name == "battery_low":
-            struck.battery = EMPTY_CELLS if on else struck.body.battery
+            target.battery = EMPTY_CELLS if on else target.body.battery
         elif name == "robot_off":
-            struck.powered = not on
+            target.powered = not on
         elif name == "robot_mute":
             arena.firmwares[robot].mute = on
         elif name == "pinned":
-            struck.pinned = on
+            target.pinned = on
         elif name == "motors_swapped":
-            struck.swapped = on
+            target.swapped = on
         elif name in ("motors_reversed", "motor_reversed"):
-            struck.polarity = [-1.0 if on else 1.0, -1.0 if on and name == "motors_reversed" else 1.0]
+            target.polarity = [-1.0 if on else 1.0, -1.0 if on and name == "motors_reversed" else 1.0]
 
     def on(self) -> list[tuple[str, int]]:
-        """Every fault that is on, with the robot that it was switched on for."""
+        """The active faults, each with the robot it was switched on for."""
         return [(name, robot) for name, robots in self._robots.items() for robot in robots]
 
     def tick(self, now: float) -> None:
-        """Hands move what they hold."""
+        """Move the robots that are held or carried."""
         for robot, (since, (x, y, heading)) in self._robots["marker_held"].items():
             held, time = self._arena.robots[robot], now - since
             held.height = HELD_AT
@@ -143,15 +143,15 @@ class FaultInjector:
             carried.heading = heading + 0.004 * way
 
     def _worn(self, robot: int) -> int:
-        """The number on a robot's lid."""
-        for one in self._robots["lids_swapped"]:
-            pair = one, (one + 1) % len(self._arena.robots)
+        """The marker number on a robot's lid."""
+        for first in self._robots["lids_swapped"]:
+            pair = first, (first + 1) % len(self._arena.robots)
             if robot in pair:
                 return sum(pair) - robot
         return robot
 
     def things(self, robot: int, poses: tuple[Placing, ...]) -> list[FlatObject]:
-        """What the camera sees of a robot with these poses, faults and all."""
+        """The visible objects of a robot with these poses, faults included."""
         height = self._arena.robots[robot].height
         x, y, _ = poses[-1]
         if robot in self._robots["upside_down"]:

@@ -1,7 +1,7 @@
-"""What runs on an emulated robot: it hears drive packets byte by byte, sets its motors, stops by itself, and reports.
+"""Firmware of an emulated robot: parses drive packets byte by byte, sets the motors, has a deadman, and reports.
 
 Drive: `D0 seq enable L1 R1 L2 R2 L3 R3 L4 R4 chk`, speeds 0..126 with 63 for stop. Telemetry, five times a second:
-`D4 addr seq flags mvLo7 mvHi7 chk`. The check is a CRC-8 of all bytes before it, without its top bit.
+`D4 addr seq flags mvLo7 mvHi7 chk`. The checksum is a CRC-8 of all bytes before it, without its top bit.
 """
 
 from pigaming_app.hardware.emulator.robots import EmulatedRobot
@@ -20,22 +20,22 @@ class Firmware:
 
     def __init__(self, robot: EmulatedRobot, address: int) -> None:
         self.robot, self.address = robot, address
-        self.mute = False  # whether its reports get lost
-        self.heard = -1e9  # s, when the last valid packet ended
+        self.mute = False  # True if its reports get lost
+        self.heard = -1e9  # s, end of the last valid packet
         self.packets = self.rejected = 0
         self._packet = bytearray()
         self._seq = 0
-        self._phase = 0.0  # s, since when reports are counted
+        self._phase = 0.0  # s, start of the report schedule
         self._reported = -1
-        self._empty = False  # motors are refused, until the cells have WARN again
+        self._empty = False  # motors are off until the battery is back at WARN
 
     @property
     def stopped(self) -> bool:
-        """Whether no motor is given anything."""
+        """True if both motors are off."""
         return not (self.robot.left or self.robot.right)
 
     def hear(self, data: bytes, now: float) -> None:
-        """Bytes from the radio."""
+        """Receive bytes from the radio at `now` (s)."""
         if not self.robot.alive:
             return
         for byte in data:
@@ -50,7 +50,7 @@ class Firmware:
                     self._packet.clear()
 
     def tick(self, now: float) -> bytes:
-        """Stop when nobody was heard for too long; the report that is due now, or nothing."""
+        """Apply the deadman; returns the report due now, or b""."""
         robot = self.robot
         if not robot.alive:
             self.heard = -1e9
@@ -87,7 +87,7 @@ class Firmware:
 
 
 def check(packet: bytes) -> int:
-    """CRC-8 with the polynomial x^8 + x^2 + x + 1, its lower seven bits."""
+    """The lower seven bits of a CRC-8 with the polynomial x^8 + x^2 + x + 1."""
     crc = 0
     for byte in packet:
         crc ^= byte
@@ -97,5 +97,5 @@ def check(packet: bytes) -> int:
 
 
 def _share(speed: int) -> float:
-    """Of full speed, in [-1, 1]."""
+    """Share of full speed, in [-1, 1]."""
     return min(speed, 2 * MIDDLE) / MIDDLE - 1.0

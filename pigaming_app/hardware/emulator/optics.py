@@ -1,8 +1,8 @@
-"""How light goes in the emulated arena: from the projector to the mat, and from there through the lens to a pixel.
+"""Optics of the emulated arena: projection from the projector onto the mat, and from there through the lens.
 
-Lengths are mm on the mat, x right and y down from the middle of the projected image; height is up. The lens has more
-terms than a calibration fits, its centre is not that of the sensor, and the picture of the projector is not quite a
-rectangle: so what is found there is never exact for free.
+Lengths are mm on the mat, x right and y down from the centre of the projected image; height is up. The lens has more
+distortion terms than a calibration fits, its centre is not that of the sensor, and the projected image is not quite a
+rectangle, so that no calibration is exact.
 """
 
 from dataclasses import dataclass
@@ -17,16 +17,16 @@ Map = NDArray[np.float32]
 CANVAS = (1920, 1080)  # px of the projected image
 SENSOR = (1920, 1080)  # px of the camera
 CORNERS = np.array([[-1274.0, -715.0], [1271.5, -719.0], [1277.0, 718.0], [-1275.0, 714.0]])  # mm, of the image
-LAMP = np.array([-120.0, -500.0, 2700.0])  # mm: where the projector's light comes from, with its height
-COARSE = 4  # px between the rays that are found by iteration
+LAMP = np.array([-120.0, -500.0, 2700.0])  # mm, position of the projector
+COARSE = 4  # px between the rays solved by iteration
 
 
 @dataclass(frozen=True)
 class TrueLens:
-    """A camera over the mat: where it hangs, what it looks at, and its glass."""
+    """Camera pose, aim and lens."""
 
-    eye: tuple[float, float, float] = (90.0, 270.0, 2480.0)  # mm, with its height
-    aim: tuple[float, float] = (5.0, 26.0)  # mm: the point of the mat in the middle of its view
+    eye: tuple[float, float, float] = (90.0, 270.0, 2480.0)  # mm, position with height
+    aim: tuple[float, float] = (5.0, 26.0)  # mm, the point of the mat at the centre of the view
     roll: float = 0.021  # rad
     focal: float = 1780.0  # px
     centre: tuple[float, float] = (963.5, 537.0)  # px
@@ -40,33 +40,33 @@ class Optics:
     def __init__(self, lens: TrueLens | None = None) -> None:
         self.lens = lens or TrueLens()
         self.turn = _look_at(self.lens)
-        rim = np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]]) - 0.5  # whole numbers are middles of px
+        rim = np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]]) - 0.5  # integers are pixel centres
         self.to_mat = _homography(rim, CORNERS)
         self.to_canvas: Floats = np.linalg.inv(self.to_mat).astype(np.float64)
         self.rays = _rays(self.lens, self.turn.tobytes())
 
     def mat(self, canvas: Floats) -> Floats:
-        """Where on the mat points (n, 2) of the projected image lie, in mm."""
+        """Canvas px to mm on the mat, (n, 2)."""
         return _mapped(self.to_mat, canvas)
 
     def canvas(self, mat: Floats, height: float = 0.0) -> Floats:
-        """Which px of the projected image light points (n, 2) of the mat, or that far (mm) above it."""
+        """Points (n, 2) in mm, `height` mm above the mat, to the canvas px that light them."""
         return _mapped(self.to_canvas, LAMP[:2] + (mat - LAMP[:2]) * (LAMP[2] / (LAMP[2] - height)))
 
     def sensor(self, mat: Floats, height: float = 0.0) -> Floats:
-        """Where points (n, 2) of the mat, or that far (mm) above it, appear to the camera, in px."""
+        """Points (n, 2) in mm, `height` mm above the mat, to camera px."""
         x, y, up = self.lens.eye
         rays = np.column_stack([mat[:, 0] - x, mat[:, 1] - y, np.full(len(mat), up - height)]) @ self.turn.T
         return _distorted(self.lens, rays[:, :2] / rays[:, 2:])
 
     def plane(self, height: float, rows: slice, columns: slice) -> tuple[Map, Map]:
-        """The points, in mm, that a window of the sensor sees of the plane at `height` mm: x and y."""
+        """x and y (mm) on the plane at `height` mm for the pixels of a window of the sensor."""
         x, y, up = self.lens.eye
         rays = self.rays[rows, columns]
         return x + rays[..., 0] * np.float32(up - height), y + rays[..., 1] * np.float32(up - height)
 
     def lit_by(self, height: float) -> tuple[Map, Map]:
-        """For every px of the sensor, the px of the canvas that lights what it sees of the plane at `height` mm."""
+        """For every px of the sensor, the canvas px that lights its point on the plane at `height` mm: x and y."""
         x, y = self.plane(height, slice(None), slice(None))
         lamp, grow = LAMP.astype(np.float32), np.float32(LAMP[2] / (LAMP[2] - height))
         x, y = lamp[0] + (x - lamp[0]) * grow, lamp[1] + (y - lamp[1]) * grow
@@ -90,7 +90,7 @@ def _look_at(lens: TrueLens) -> Floats:
 
 
 def _distorted(lens: TrueLens, rays: Floats) -> Floats:
-    """Rays (n, 2), as x/z and y/z, to px: Brown's model (Brown 1971, as OpenCV's documentation writes it)."""
+    """Rays (n, 2), as x/z and y/z, to px: Brown's model (Brown 1971, in OpenCV's notation)."""
     x, y = rays[:, 0], rays[:, 1]
     (k1, k2, k3), (p1, p2) = lens.radial, lens.tangential
     r2 = x * x + y * y
@@ -102,8 +102,7 @@ def _distorted(lens: TrueLens, rays: Floats) -> Floats:
 
 @lru_cache(maxsize=2)
 def _rays(lens: TrueLens, turn: bytes) -> Map:
-    """For every px of the sensor, the ray through it: how far it goes right and down for each mm it goes down to the
-    mat, (1080, 1920, 2)."""
+    """The ray of every px of the sensor, (1080, 1920, 2): x and y on the mat per mm of descent."""
     import cv2
 
     wide, high = SENSOR[0] // COARSE + 1, SENSOR[1] // COARSE + 1
@@ -120,7 +119,7 @@ def _rays(lens: TrueLens, turn: bytes) -> Map:
 
 
 def _homography(points: Floats, images: Floats) -> Floats:
-    """The projective map that takes four points to four others."""
+    """The homography (3, 3) from four points to four others."""
     rows = []
     for (x, y), (u, v) in zip(points, images, strict=True):
         rows.append([x, y, 1, 0, 0, 0, -u * x, -u * y])

@@ -1,7 +1,6 @@
-"""The emulated arena for people: its time passes like the real one, but waits for those who look and drive.
+"""Emulated arena at the user's pace: its time follows real time, but waits for the reader of its pictures.
 
-A busy computer sees the arena slowed down, and never late: no picture is missed and no command comes too late because
-the computer had other things to do. `Live` is the arena whose time waits for nobody.
+On a busy computer the arena slows down instead of losing pictures or delaying commands. `RealtimeArena` does not wait.
 """
 
 import time
@@ -13,13 +12,14 @@ from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.robots import STEP
 
 LOOK_EVERY = 0.002  # s
-OVERDUE = 0.02  # s for which a picture may wait to be looked at
-MOST = 0.1  # s that are caught up after a hold-up
+OVERDUE = 0.02  # s for which a picture may wait to be read
+MAX_LAG = 0.1  # s to catch up after a delay
 
 
 class PacedArena:
-    """Lets an arena's time pass in a thread until close(). Up to `limit` (s of its clock), and while it is `watched`
-    no faster than its pictures are taken.
+    """Advances an arena in a thread until `close`, up to `limit` (s of its clock).
+
+    While `watched`, it advances no faster than its pictures are read.
     """
 
     def __init__(self, arena: EmulatedArena) -> None:
@@ -30,12 +30,11 @@ class PacedArena:
         self._thread = Thread(target=self._run, name="emulated arena", daemon=True)
 
     def start(self) -> Self:
-        """Begin."""
         self._thread.start()
         return self
 
     def close(self) -> None:
-        """Stop time. May be called again."""
+        """Stop time. Idempotent."""
         self._ended.set()
         self._thread.join(timeout=1.0)
 
@@ -43,7 +42,7 @@ class PacedArena:
         last, owed = time.monotonic(), 0.0
         while not self._ended.wait(LOOK_EVERY):
             now = time.monotonic()
-            owed, last = min(MOST, owed + now - last), now
+            owed, last = min(MAX_LAG, owed + now - last), now
             if self.watched and self.arena.camera.overdue > OVERDUE:
                 owed = 0.0
             steps = int(min(owed, self.limit - self.arena.clock()) / STEP)

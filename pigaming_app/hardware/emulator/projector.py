@@ -1,4 +1,4 @@
-"""The emulated projector: what the arcade's window shows falls on the emulated mat."""
+"""The emulated projector: projects the arcade's window onto the emulated mat."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,16 +8,15 @@ from pigaming_app.hardware.emulator.optics import CANVAS
 
 
 class Projector:
-    """Hangs over an arena. `see` takes the window's pixels, (height, width, 4) with blue first, of any size.
+    """Projector over an arena. `see` takes the window's pixels, (height, width, 4) BGRA, of any size.
 
-    It has the canvas's shape: of a window of another shape it shows the middle, without the bars.
+    It has the canvas's aspect ratio: from a window with another one it shows the centre, without the bars.
     """
 
     def __init__(self, arena: EmulatedArena) -> None:
         self.arena = arena
 
     def see(self, pixels: NDArray[np.uint8]) -> None:
-        """Show a picture."""
         import cv2
 
         height, width = pixels.shape[:2]

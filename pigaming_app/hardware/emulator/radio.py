@@ -1,7 +1,7 @@
-"""The emulated radio: a serial line to an XBee, the air, and on every robot another XBee on another serial line.
+"""The emulated radio: a serial line to an XBee, the air, and an XBee with a serial line on every robot.
 
-Bytes take their time on each line (ten bits at the baud rate), packets theirs in the air, where they are lost, doubled
-and late. The computer's end is a SerialPort. Everything happens in the time of the clock that is handed in.
+Bytes take ten bits at the baud rate on each line; packets are delayed in the air, and may be lost or duplicated. The
+computer's end is a SerialPort. All times are those of the injected clock.
 """
 
 from collections import deque
@@ -17,23 +17,23 @@ from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.signals import Clock
 
 TRANSPARENT, API, API_ESCAPED = 0, 1, 2
-SILENCE = 3  # characters of it end a packet where there are no frames
-LINE_HOLDS = 4096  # bytes that wait to be sent, and as many to be read; more to send are refused
+SILENCE = 3  # character times without data that end a packet in transparent mode
+LINE_HOLDS = 4096  # bytes in each queue; writes beyond it are refused
 PARAMETERS = {b"MY": 2, b"ID": 2, b"CH": 1, b"DB": 1, b"NI": 0, b"VR": 2, b"AP": 1, b"BD": 4}  # bytes of each
 
 
 @dataclass(frozen=True)
 class RadioChannel:
-    """How well packets come through."""
+    """Quality of the radio channel."""
 
     mode: int = API_ESCAPED
     baud: int = 57600
     soonest: float = 0.002  # s in the air
     latest: float = 0.008
-    loss: float = 0.0  # share of packets, for each robot on its own
+    loss: float = 0.0  # share of packets, for each robot independently
     doubled: float = 0.0
-    broken: float = 0.0  # share of packets that get a wrong bit on the robot's line
-    garbage: float = 0.0  # bytes of rubbish a second on the computer's line and on each robot's
+    broken: float = 0.0  # share of packets with a wrong bit on the robot's line
+    garbage: float = 0.0  # random bytes/s on the computer's line and on each robot's
 
 
 MODERATE = RadioChannel(loss=0.005, doubled=0.005, broken=0.002)
@@ -45,33 +45,33 @@ class EmulatedRadio:
     def __init__(self, firmwares: list[Firmware], air: RadioChannel, clock: Clock, seed: int) -> None:
         self.firmwares, self.air, self.clock = firmwares, air, clock
         self.dead = self.unplugged = False
-        self.more_loss = self.more_garbage = 0.0  # besides those of `air`
-        self.frames = 0  # understood from the computer
+        self.more_loss = self.more_garbage = 0.0  # in addition to those of `air`
+        self.frames = 0  # valid frames from the computer
         self._random = Random(f"radio {seed}")
         self._lock = Lock()
-        self._ear = xbee.FrameReceiver(air.mode == API_ESCAPED)
-        self._events: list[tuple[float, int, int, bytes]] = []  # s, order, robot, what reaches it
+        self._receiver = xbee.FrameReceiver(air.mode == API_ESCAPED)
+        self._events: list[tuple[float, int, int, bytes]] = []  # s, order, robot, data
         self._order = 0
         self._out_free = self._in_free = self._last = clock()
-        self._incoming: deque[tuple[float, int]] = deque(maxlen=LINE_HOLDS)  # while nobody reads, the oldest are lost
+        self._incoming: deque[tuple[float, int]] = deque(maxlen=LINE_HOLDS)  # without a reader, the oldest are lost
 
     def open(self) -> Self:
-        """What opens this port for a link. Raises FileNotFoundError when unplugged."""
+        """Open the port for a link. Raises FileNotFoundError when unplugged."""
         if self.unplugged:
             raise FileNotFoundError(ENOENT, "could not open port")
         return self
 
     @property
     def in_waiting(self) -> int:
-        """Bytes that have come by now. Raises OSError when unplugged."""
-        self._must_be_there()
+        """Bytes received by now. Raises OSError when unplugged."""
+        self._require_port()
         now = self.clock()
         with self._lock:
             return sum(1 for at, _ in self._incoming if at <= now)
 
     def read(self, size: int = 1) -> bytes:
-        """At most `size` bytes, without waiting for any. Raises OSError when unplugged."""
-        self._must_be_there()
+        """Read at most `size` bytes without blocking. Raises OSError when unplugged."""
+        self._require_port()
         out, now = bytearray(), self.clock()
         with self._lock:
             while self._incoming and self._incoming[0][0] <= now and len(out) < size:
@@ -79,8 +79,8 @@ class EmulatedRadio:
         return bytes(out)
 
     def write(self, data: bytes) -> int:
-        """Put bytes on the line. Raises OSError when unplugged or when too many wait."""
-        self._must_be_there()
+        """Write bytes to the line. Raises OSError when unplugged or when the queue is full."""
+        self._require_port()
         with self._lock:
             byte = 10.0 / self.air.baud
             self._out_free = max(self._out_free, self.clock())
@@ -92,16 +92,16 @@ class EmulatedRadio:
                 return len(data)
             for value in data:
                 self._out_free += byte
-                frame = self._ear.hear(value)
+                frame = self._receiver.hear(value)
                 if frame is not None:
                     self._take(frame, self._out_free)
         return len(data)
 
     def close(self) -> None:
-        """The computer lets go of the port; the radio stays."""
+        """No effect: the emulated radio stays."""
 
     def step(self) -> None:
-        """Let everything happen that is due: robots hear, report, and stop by themselves."""
+        """Process all events that are due: robots receive, report, and apply their deadmen."""
         now = self.clock()
         with self._lock:
             while self._events and self._events[0][0] <= now:
@@ -110,16 +110,16 @@ class EmulatedRadio:
             for robot, firmware in enumerate(self.firmwares):
                 report = firmware.tick(now)
                 if report:
-                    self._come(robot, report, now)
-            self._scatter(now - self._last)
+                    self._report(robot, report, now)
+            self._add_garbage(now - self._last)
             self._last = now
 
-    def _must_be_there(self) -> None:
+    def _require_port(self) -> None:
         if self.unplugged:
             raise OSError("device reports readiness to read but returned no data (device disconnected?)")
 
     def _take(self, frame: bytes, now: float) -> None:
-        """A frame from the computer has ended."""
+        """Process a frame from the computer."""
         self.frames += 1
         if frame[0] == xbee.TX16 and len(frame) > 5:
             number, to = frame[1], frame[2] * 256 + frame[3]
@@ -134,7 +134,7 @@ class EmulatedRadio:
             self._answer(bytes([xbee.AT_ANSWER, frame[1], *name, 0 if known else 2]) + answer, now + 0.002)
 
     def _send(self, to: int, data: bytes, now: float) -> bool:
-        """Through the air to one robot or all; whether it counts as delivered."""
+        """Send a packet to one robot or all; true if it counts as delivered."""
         if self.dead:
             return False
         reached = to == xbee.BROADCAST
@@ -142,19 +142,19 @@ class EmulatedRadio:
             if to in (xbee.BROADCAST, firmware.address) and not self._lost(to):
                 reached = reached or firmware.robot.alive
                 for _ in range(2 if self._random.random() < self.air.doubled else 1):
-                    self._land(robot, data, now + self._flight())
+                    self._deliver(robot, data, now + self._flight())
         return reached
 
-    def _land(self, robot: int, data: bytes, now: float) -> None:
-        """What a robot's radio hands on to its controller, at the end of its last byte."""
+    def _deliver(self, robot: int, data: bytes, now: float) -> None:
+        """Queue data for a robot's controller, due at the end of its last byte."""
         if self._random.random() < self.air.broken:
             at = self._random.randrange(len(data))
             data = data[:at] + bytes([data[at] ^ 1 << self._random.randrange(8)]) + data[at + 1 :]
         self._order += 1
         heappush(self._events, (now + len(data) * 10.0 / self.air.baud, self._order, robot, data))
 
-    def _come(self, robot: int, data: bytes, now: float) -> None:
-        """What a robot says, on its way to the computer."""
+    def _report(self, robot: int, data: bytes, now: float) -> None:
+        """Send a report of a robot to the computer."""
         if self.dead or self._lost(0):
             return
         leaves = now + (len(data) + SILENCE) * 10.0 / self.air.baud + self._flight()
@@ -169,25 +169,25 @@ class EmulatedRadio:
         self._line(xbee.framed(data, self.air.mode == API_ESCAPED), now)
 
     def _line(self, data: bytes, now: float) -> None:
-        """Bytes towards the computer, one after the other."""
+        """Queue bytes on the line to the computer."""
         self._in_free = max(self._in_free, now)
         for value in data:
             self._in_free += 10.0 / self.air.baud
             self._incoming.append((self._in_free, value))
 
-    def _scatter(self, seconds: float) -> None:
-        """Rubbish on the lines."""
+    def _add_garbage(self, seconds: float) -> None:
+        """Put random bytes on the lines, for `seconds` of time."""
         random, garbage = self._random, self.air.garbage + self.more_garbage
         for line in range(1 + len(self.firmwares)):
             if garbage and random.random() < garbage * seconds:
-                rubbish = random.randbytes(1)
+                noise = random.randbytes(1)
                 if line:
-                    self._land(line - 1, rubbish, self.clock())
+                    self._deliver(line - 1, noise, self.clock())
                 else:
-                    self._line(rubbish, self.clock())
+                    self._line(noise, self.clock())
 
     def _lost(self, to: int) -> bool:
-        """Whether a packet is lost; one that is acknowledged is tried four times, as the radio does."""
+        """True if a packet is lost; the radio tries acknowledged packets four times."""
         tries = 1 if to == xbee.BROADCAST else 4
         return all(self._random.random() < self.air.loss + self.more_loss for _ in range(tries))
 

@@ -1,7 +1,7 @@
-"""One exposure of the emulated camera becomes a grey picture: projected light, lids, lens, light of the room, noise.
+"""Renderer of the emulated camera: projected light, objects, lens, room light and noise to a grey picture.
 
-The picture is exact around everything that stands on the mat. The rest of it is painted anew only every `refresh`
-pictures, because that takes ten times as long as all the rest and a tracker hardly looks there; 1 leaves nothing out.
+Regions around objects are rendered in every picture. The background is rendered only every `refresh` pictures, because
+it takes ten times as long and a tracker hardly uses it; with 1 every picture is complete.
 """
 
 from math import cos, pi, sin
@@ -14,27 +14,27 @@ from pigaming_app.hardware.emulator.objects import LID_HEIGHT, TEXELS, FlatObjec
 from pigaming_app.hardware.emulator.optics import SENSOR, Map, Optics
 from pigaming_app.hardware.signals import Image
 
-LAMP_LIGHT, ROOM_LIGHT = 130.0, 55.0  # grey levels of white paper under white of the projector, and in the room's light
+LAMP_LIGHT, ROOM_LIGHT = 130.0, 55.0  # grey levels of white paper under projected white, and in room light
 BLUR = 0.7  # px, of the lens
-SPARE = 4  # px around what is painted
-STEADY = 100  # steps in which the room's light goes through a turn
+SPARE = 4  # px, margin around an object
+LIGHT_STEPS = 100  # of the room light's period
 NOISE = 2.5  # grey levels, standard deviation
 
 Floats = NDArray[np.float32]
 
 
 class CameraScene(NamedTuple):
-    """What the sensor gathered in one exposure."""
+    """Everything that determines one exposure."""
 
-    image: Image  # (1080, 1920), what the projector showed
+    image: Image  # (1080, 1920), the projected picture
     things: tuple[FlatObject, ...]
-    light: float  # phase of the light that wanders through the room, in turns
-    gain: float  # 1 as the camera was set
+    light: float  # phase of the moving room light, in turns
+    gain: float  # of the exposure
     number: int
 
 
 class ImageRegion(NamedTuple):
-    """A part of the sensor: from row and column to row and column."""
+    """A rectangle of the sensor, px; bottom and right are exclusive."""
 
     top: int
     left: int
@@ -42,17 +42,17 @@ class ImageRegion(NamedTuple):
     right: int
 
     def cut(self) -> tuple[slice, slice]:
-        """Its rows and columns."""
+        """Slices of rows and columns."""
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
     def meets(self, other: "ImageRegion") -> bool:
-        """Whether the two have a pixel in common."""
+        """True if the regions overlap."""
         return (
             self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
         )
 
     def joined(self, other: "ImageRegion") -> "ImageRegion":
-        """The smallest window that holds both."""
+        """The bounding rectangle of both."""
         return ImageRegion(
             min(self.top, other.top),
             min(self.left, other.left),
@@ -65,12 +65,12 @@ WHOLE = ImageRegion(0, 0, SENSOR[1], SENSOR[0])
 
 
 class SceneRenderer:
-    """Paints scenes as one camera sees them. Two painters with the same seed paint the same."""
+    """Renders scenes for one camera. The same seed gives the same pictures."""
 
     def __init__(self, optics: Optics, seed: int, refresh: int = 1, noise: float = NOISE) -> None:
-        """`refresh`: every which picture is whole; `noise`: grey levels, standard deviation."""
+        """`refresh`: interval of complete pictures; `noise`: grey levels, standard deviation."""
         self.refresh = refresh
-        self.ambient = 1.0  # share of the room's light that is on
+        self.ambient = 1.0  # share of the room light
         self._seed = seed
         random = np.random.default_rng(seed)
         self._noise = np.clip(np.rint(random.normal(0.0, noise, (1400, 2300))), -127, 127).astype(np.int8)
@@ -78,29 +78,29 @@ class SceneRenderer:
         self._mat = _cloth(random)
         self._shade = _vignette()
         self._room: Image | None = None
-        self._glow: tuple[int, Floats] = (-1, self._mat)  # when the room's light was so, in STEADY ths of a turn
+        self._glow: tuple[int, Floats] = (-1, self._mat)  # phase in 1 / LIGHT_STEPS turns, and the room light there
 
     def look_through(self, optics: Optics) -> None:
-        """Hang the camera elsewhere."""
+        """Replace the optics, for a camera that was moved."""
         self.optics = optics
         self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
         self._age = self.refresh
 
     def paint(self, scene: CameraScene) -> Image:
-        """The picture, (1080, 1920)."""
+        """Render a picture, (1080, 1920) grey."""
         random = np.random.default_rng((self._seed, scene.number))
         windows = [(thing, self._window(thing)) for thing in scene.things]
         if self.refresh == 1:
-            return self._painted(scene, WHOLE, windows, random)
+            return self._rendered(scene, WHOLE, windows, random)
         self._age += 1
         if self._room is None or self._age >= self.refresh:
-            self._room, self._age = self._painted(scene, WHOLE, [], random), 0
+            self._room, self._age = self._rendered(scene, WHOLE, [], random), 0
         picture = self._room.copy()
-        for window in _apart([window for _, window in windows]):
-            picture[window.cut()] = self._painted(scene, window, windows, random)
+        for window in _merged([window for _, window in windows]):
+            picture[window.cut()] = self._rendered(scene, window, windows, random)
         return picture
 
-    def _painted(
+    def _rendered(
         self,
         scene: CameraScene,
         window: ImageRegion,
@@ -130,7 +130,7 @@ class SceneRenderer:
         room: Floats,
         light: Floats,
     ) -> None:
-        """Paint one thing into the light of a window, in the mean over its poses."""
+        """Blend one object into the light of a window, averaged over its poses (motion blur)."""
         part = ImageRegion(
             max(place.top, window.top),
             max(place.left, window.left),
@@ -141,15 +141,15 @@ class SceneRenderer:
         look = _look(thing.look, x, y, thing.poses if thing.poses[0] != thing.poses[-1] else thing.poses[:1])
         rows = slice(part.top - window.top, part.bottom - window.top)
         columns = slice(part.left - window.left, part.right - window.left)
-        there = light[rows, columns]
+        region = light[rows, columns]
         if thing.dull:
-            there *= 1.0 + look[..., 0] - look[..., 1]
+            region *= 1.0 + look[..., 0] - look[..., 1]
             return
         lit = self._lit(scene, self._lids if thing.height else self._floor, part, room[rows, columns])
-        there += look[..., 0] * lit - look[..., 1] * there
+        region += look[..., 0] * lit - look[..., 1] * region
 
     def _lit(self, scene: CameraScene, maps: tuple[Map, Map], window: ImageRegion, room: Floats) -> Floats:
-        """How much light falls on white paper."""
+        """Light on white paper, in grey levels."""
         import cv2
 
         cut = window.cut()
@@ -158,14 +158,14 @@ class SceneRenderer:
         return np.asarray(cv2.addWeighted(shown, LAMP_LIGHT / 255.0, room, 1.0, 0.0, dtype=cv2.CV_32F))
 
     def _room_light(self, turn: float) -> Floats:
-        """The room's light on white paper: a bright spot wanders over the mat."""
-        when = int(turn * STEADY)
-        if self._glow[0] != when:
-            self._glow = when, _room_light(when / STEADY)
+        """Room light on white paper: a bright spot moves over the mat."""
+        phase = int(turn * LIGHT_STEPS)
+        if self._glow[0] != phase:
+            self._glow = phase, _room_light(phase / LIGHT_STEPS)
         return self._glow[1]
 
     def _window(self, thing: FlatObject) -> ImageRegion:
-        """Where on the sensor a thing may be seen."""
+        """The region of the sensor that contains an object."""
         points = np.array([(pose[0], pose[1]) for pose in thing.poses])
         pixels = self.optics.sensor(points, thing.height)
         lens = self.optics.lens
@@ -178,7 +178,7 @@ class SceneRenderer:
 
 
 def _look(look: Print, x: Map, y: Map, poses: tuple[Placing, ...]) -> Floats:
-    """A print in the mean over its poses, as seen at points of its plane: (rows, columns, 2)."""
+    """A print sampled at points of its plane and averaged over its poses, (rows, columns, 2)."""
     import cv2
 
     middle = len(look) / 2 - 0.5
@@ -192,18 +192,18 @@ def _look(look: Print, x: Map, y: Map, poses: tuple[Placing, ...]) -> Floats:
     return whole
 
 
-def _apart(windows: list[ImageRegion]) -> list[ImageRegion]:
-    """Windows that overlap become one."""
-    apart: list[ImageRegion] = []
+def _merged(windows: list[ImageRegion]) -> list[ImageRegion]:
+    """Merge overlapping windows."""
+    merged: list[ImageRegion] = []
     for window in windows:
-        meeting = [other for other in apart if other.meets(window)]
-        while meeting:
-            for other in meeting:
-                apart.remove(other)
+        overlapping = [other for other in merged if other.meets(window)]
+        while overlapping:
+            for other in overlapping:
+                merged.remove(other)
                 window = window.joined(other)
-            meeting = [other for other in apart if other.meets(window)]
-        apart.append(window)
-    return apart
+            overlapping = [other for other in merged if other.meets(window)]
+        merged.append(window)
+    return merged
 
 
 def _room_light(turn: float) -> Floats:
@@ -214,7 +214,7 @@ def _room_light(turn: float) -> Floats:
 
 
 def _cloth(random: np.random.Generator) -> Floats:
-    """How much light the mat throws back at each px: white cloth with clouds in it."""
+    """Reflectance of the mat at each px: white cloth with soft blotches."""
     import cv2
 
     clouds = random.normal(0.85, 0.02, (34, 60)).astype(np.float32)
@@ -222,7 +222,7 @@ def _cloth(random: np.random.Generator) -> Floats:
 
 
 def _vignette() -> Floats:
-    """Less light towards the corners of the sensor: 30 % less in them."""
+    """Vignetting of the lens: 30 % less light in the corners."""
     v, u = (axis.astype(np.float32) for axis in np.ogrid[0 : SENSOR[1], 0 : SENSOR[0]])
     r2 = ((u - SENSOR[0] / 2) ** 2 + (v - SENSOR[1] / 2) ** 2) / np.float32((SENSOR[0] ** 2 + SENSOR[1] ** 2) / 4)
     return np.asarray(1.0 - np.float32(0.3) * r2, dtype=np.float32)

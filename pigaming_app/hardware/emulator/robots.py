@@ -1,7 +1,7 @@
-"""The true robots of the emulated arena: motors with their own gains, deadband and lag, on a mat with some slip.
+"""Robots of the emulated arena: motors with individual gains, deadband and lag, on a mat with some slip.
 
-Lengths are mm on the mat, x right and y down from the middle of the projected image; heading clockwise, as in the
-games. Nothing that is chosen here is told to the tracker: `fidelity` has to find it out.
+Lengths are mm on the mat, x right and y down from the centre of the projected image; heading clockwise, as in the
+games. The tracker has no access to these parameters; the job `fidelity` identifies them.
 """
 
 from dataclasses import dataclass
@@ -10,26 +10,26 @@ from random import Random
 
 STEP = 0.002  # s
 RADIUS = 47.5  # mm, Pololu 3pi
-FULL_SPEED = 1000.0  # mm/s of a wheel at full, nominal
-DEAD_CELL = 3.6  # V: below it the regulator gives up at once
+FULL_SPEED = 1000.0  # mm/s of a wheel, nominal
+DEAD_CELL = 3.6  # V, below which the regulator cuts out
 
 
 @dataclass(frozen=True)
 class RobotParameters:
-    """What one robot is really like."""
+    """True parameters of one robot."""
 
-    left_gain: float  # true speed over nominal speed
+    left_gain: float  # true over nominal speed
     right_gain: float
     deadband: float  # shares of full speed below which a motor does not turn
     lag: float  # s, time constant of the motors
     base: float  # mm between the wheels
-    slip: float  # standard deviation of the speeds, as a share of them
-    battery: float  # V when it starts
-    drain: float  # V a second at full speed
+    slip: float  # standard deviation, as a share of the speed
+    battery: float  # V at the start
+    drain: float  # V/s at full speed
 
 
-def drawn(random: Random) -> RobotParameters:
-    """A robot as they come: gains within 8 %, no two alike."""
+def random_parameters(random: Random) -> RobotParameters:
+    """Parameters of a typical robot: gains within 8 %."""
     return RobotParameters(
         left_gain=random.uniform(0.92, 1.06),
         right_gain=random.uniform(0.92, 1.06),
@@ -43,29 +43,29 @@ def drawn(random: Random) -> RobotParameters:
 
 
 class EmulatedRobot:
-    """One robot on the mat. Its firmware sets `left` and `right`, the shares of full speed that the motors get."""
+    """One robot on the mat. Its firmware sets `left` and `right`, the motors' shares of full speed."""
 
     def __init__(self, body: RobotParameters, x: float, y: float, heading: float, random: Random) -> None:
         self.body = body
         self.x, self.y, self.heading = x, y, heading
         self.left = self.right = 0.0
-        self.left_speed = self.right_speed = 0.0  # mm/s, as the wheels turn now
+        self.left_speed = self.right_speed = 0.0  # mm/s, of the wheels
         self.battery = body.battery
-        self.height = 0.0  # mm above the mat: more than nothing while somebody carries it
+        self.height = 0.0  # mm above the mat; positive while it is carried
         self.powered = True
-        self.pinned = False  # whether a hand holds it down on the mat
-        self.swapped = False  # whether its motors are connected each in the place of the other
-        self.polarity = [1.0, 1.0]  # of the motors; -1.0: connected the wrong way round
+        self.pinned = False  # True if a hand holds it down on the mat
+        self.swapped = False  # True if the motors are connected to each other's outputs
+        self.polarity = [1.0, 1.0]  # of the motors; -1.0: reversed
         self._random = random
         self._slip = [0.0, 0.0]
 
     @property
     def alive(self) -> bool:
-        """Whether it is switched on and its cells still feed it."""
+        """True if it is switched on and its battery suffices."""
         return self.powered and self.battery > DEAD_CELL
 
     def roll(self) -> None:
-        """Let STEP seconds pass: motors follow their voltage, the robot its wheels unless it is in the air."""
+        """Advance by STEP: motors follow their voltage; the robot follows its wheels unless it is held."""
         body = self.body
         if not self.alive:
             self.left = self.right = 0.0
@@ -91,15 +91,15 @@ class EmulatedRobot:
         return gain * FULL_SPEED * (beyond if share > 0.0 else -beyond)
 
     def _slips(self, wheel: int) -> float:
-        """Slip that changes within about a fifth of a second."""
+        """Slip as an autoregressive process with a time constant of about 0.2 s."""
         keep = 0.99
         spread = self.body.slip * (1.0 - keep * keep) ** 0.5
         self._slip[wheel] = keep * self._slip[wheel] + spread * self._random.gauss(0.0, 1.0)
         return self._slip[wheel]
 
 
-def part(robots: list[EmulatedRobot]) -> None:
-    """Robots on the mat that overlap push each other apart, half the way each."""
+def push_apart(robots: list[EmulatedRobot]) -> None:
+    """Resolve overlaps of robots on the mat, half by each."""
     for i, one in enumerate(robots):
         for other in robots[i + 1 :]:
             dx, dy = other.x - one.x, other.y - one.y

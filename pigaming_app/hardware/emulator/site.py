@@ -1,6 +1,6 @@
-"""The emulated arena as a site that can be calibrated, with a window or without one.
+"""The emulated arena as a calibration site, with or without a window.
 
-Live, its time is the real time; stepped, it passes only when told so, and a run is the same every time.
+Live, its time is real time; stepped, it passes only in `advance`, and runs are reproducible.
 """
 
 import time
@@ -16,13 +16,13 @@ from pigaming_app.hardware.emulator.realtime import RealtimeArena
 from pigaming_app.hardware.signals import CameraFrame
 from pigaming_app.hardware.vision.discovery import CameraInfo
 
-RULER = (1.5, 8.0)  # mm by which the mat's width and the camera's height are measured wrongly
-ASIDE = ((60.0, 60.0), (1540.0, 60.0), (1540.0, 840.0), (60.0, 840.0))  # arena px, where robots wait
-HEADING = -1.2  # rad, as somebody happens to put a robot down
+RULER = (1.5, 8.0)  # mm, errors of the measured width of the mat and height of the camera
+ASIDE = ((60.0, 60.0), (1540.0, 60.0), (1540.0, 840.0), (60.0, 840.0))  # arena px, parking positions
+HEADING = -1.2  # rad, of a robot put down by hand
 
 
 class EmulatedCameraSource:
-    """The camera over the emulated mat, as one that can be let go of and used again."""
+    """The camera over the emulated mat; it can be closed and opened repeatedly."""
 
     trouble: None = None
 
@@ -30,21 +30,20 @@ class EmulatedCameraSource:
         self.arena = arena
 
     def newest(self) -> CameraFrame | None:
-        """The newest frame that was not given out before, or None."""
         return self.arena.camera.newest()
 
     def close(self) -> None:
-        """It goes on looking."""
+        """No effect: the emulated camera stays."""
 
 
 class EmulatedCalibrationSite:
-    """An emulated arena whose robots go where a person is asked to put them."""
+    """An emulated arena whose robots move to the requested places by themselves."""
 
     name = "emulated"
     settle = 0.3
 
     def __init__(self, seed: int = 1, live: bool = False, arena: EmulatedArena | None = None) -> None:
-        """`arena`: one that is there already; if it is `live`, somebody else lets its time pass."""
+        """`arena`: an existing one; if `live`, its owner advances its time."""
         self.stepped = not live
         self.arena = arena or EmulatedArena(seed, FrameTiming(30.0), begin=time.monotonic() if live else 0.0)
         self.clock = self.arena.clock
@@ -54,40 +53,36 @@ class EmulatedCalibrationSite:
         self.measures = _by_ruler(self.arena)
 
     def cameras(self) -> list[CameraInfo]:
-        """The one that there is."""
         return [CameraInfo(0, "emulated")]
 
     def open(self, number: int, locks: bool = True, fresh: bool = False) -> EmulatedCameraSource:
-        """Use the camera."""
         return EmulatedCameraSource(self.arena)
 
     def advance(self, seconds: float) -> None:
-        """Let made-up time pass."""
         if self.stepped:
             self.arena.advance(seconds)
 
     def see(self, pixels: NDArray[np.uint8]) -> None:
-        """The window shows these pixels now."""
+        """Project the pixels of the window."""
         self.projector.see(pixels)
 
     def clear(self, off: bool) -> None:
-        """Take the robots off the mat, or put them back. A mat that is measured is painted whole in every picture."""
+        """Take the robots off the mat, or put them back. A cleared mat is rendered completely in every picture."""
         self.arena.cleared = off
         self.arena.camera.painter.refresh = 1 if off else self._refresh
 
     def stand(self, x: float, y: float) -> None:
-        """Carry the first robot there; the others wait aside."""
+        """Place the first robot there; the others are parked."""
         for robot, (left, top) in enumerate(ASIDE):
             self.arena.place(robot, (x, y, HEADING) if robot == 0 else (left, top, 0.0))
 
     def close(self) -> None:
-        """Stop its time."""
         if self._live is not None:
             self._live.close()
 
 
 def _by_ruler(arena: EmulatedArena) -> Measurements:
-    """What somebody with a ruler finds."""
+    """Ruler measurements with typical errors."""
     rim = arena.optics.mat(np.array([[0.0, 450.0], [1600.0, 450.0]]) + ARENA_AT)
     width, height = float(np.hypot(*(rim[1] - rim[0]))), arena.optics.lens.eye[2]
     return Measurements(round(width + RULER[0]), round(height + RULER[1]))

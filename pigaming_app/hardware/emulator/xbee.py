@@ -1,18 +1,17 @@
-"""The serial side of an XBee 802.15.4 radio, as its manual has it: API frames, plain or escaped.
+"""Serial protocol of an XBee 802.15.4 radio: API frames, plain or escaped, as in its manual.
 
-Written from HARDWARE.md's tables, and for the emulator alone: what the arcade sends must be understood by somebody who
-does not share its code.
+An independent implementation for the emulator alone, so that the arcade's frames are checked by code it does not share.
 """
 
 START, ESCAPE = 0x7E, 0x7D
 ESCAPED = (0x7E, 0x7D, 0x11, 0x13)
 TX16, AT, RX16, AT_ANSWER, TX_STATUS = 0x01, 0x08, 0x81, 0x88, 0x89
 BROADCAST = 0xFFFF
-LONGEST = 110  # bytes of a frame that the radio still takes
+LONGEST = 110  # bytes, maximum length of a frame
 
 
 def framed(data: bytes, escaped: bool) -> bytes:
-    """A frame around data, ready for the line."""
+    """Frame data for the serial line."""
     plain = len(data).to_bytes(2, "big") + data + bytes([0xFF - (sum(data) & 0xFF)])
     if not escaped:
         return bytes([START]) + plain
@@ -23,7 +22,7 @@ def framed(data: bytes, escaped: bool) -> bytes:
 
 
 class FrameReceiver:
-    """Hears bytes one by one and gives the data of each frame whose checksum is right."""
+    """Parses bytes one by one and returns the data of each frame with a valid checksum."""
 
     def __init__(self, escaped: bool) -> None:
         self.escaped = escaped
@@ -32,7 +31,7 @@ class FrameReceiver:
         self._next_escaped = False
 
     def hear(self, byte: int) -> bytes | None:
-        """The data of the frame that ends with this byte, or None."""
+        """Parse a byte; the data of a frame that ends with it, or None."""
         if byte == START and (self.escaped or self._bytes is None):
             self._bytes, self._next_escaped = bytearray(), False
             return None
@@ -45,17 +44,17 @@ class FrameReceiver:
         self._next_escaped = False
         return self._ended(self._bytes)
 
-    def _ended(self, heard: bytearray) -> bytes | None:
-        if len(heard) < 2:
+    def _ended(self, frame: bytearray) -> bytes | None:
+        if len(frame) < 2:
             return None
-        length = heard[0] * 256 + heard[1]
+        length = frame[0] * 256 + frame[1]
         if not 0 < length <= LONGEST:
             self._bytes, self.broken = None, self.broken + 1
             return None
-        if len(heard) < length + 3:
+        if len(frame) < length + 3:
             return None
         self._bytes = None
-        if sum(heard[2:]) & 0xFF != 0xFF:
+        if sum(frame[2:]) & 0xFF != 0xFF:
             self.broken += 1
             return None
-        return bytes(heard[2:-1])
+        return bytes(frame[2:-1])

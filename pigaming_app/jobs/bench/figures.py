@@ -26,31 +26,31 @@ from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
-RUNS = 5
-PLAIN_TICKS = 3000
-MATCHES = 32
-TICKS = 6000
-FRAMES = 600
-STARTS = 3
+RUNS = 5  # of each speed
+PLAIN_TICKS = 3000  # of a match in plain Python
+MATCHES = 32  # of a compiled batch
+TICKS = 6000  # of each of its matches
+FRAMES = 600  # of the frame times
+STARTS = 3  # of the program
 
 
 def measure(game: str) -> dict[str, Any]:
     """All figures by name. Without numba those of compiled play are None."""
     plain = min(_plain_run(game, seed) for seed in range(1, RUNS + 1))
-    one = both = None
+    single = both = None
     if can_compile():
         compiled_ticks(game, 0)
-        one = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
-        both = max(1.0 / one, *(_two_processes(game) for _ in range(3)))
+        single = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
+        both = max(1.0 / single, *(_two_processes(game) for _ in range(3)))
     frames = _frames(game)
     slowest = measure_screens()
     return {
         "game": game,
         "plain_us_per_tick": 1e6 * plain,
-        "compiled_us_per_tick": None if one is None else 1e6 * one,
+        "compiled_us_per_tick": None if single is None else 1e6 * single,
         "compiled_ticks_per_second": both,
         "real_time_factor_plain": 1.0 / (HZ * plain),
-        "real_time_factor_compiled": None if one is None else 1.0 / (HZ * one),
+        "real_time_factor_compiled": None if single is None else 1.0 / (HZ * single),
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
         "worst_frame_ms": max(slowest.values()),
         "worst_frame_ms_by_screen": slowest,
@@ -61,7 +61,7 @@ def measure(game: str) -> dict[str, Any]:
 
 
 def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
-    """The scene, as a batch of that many matches."""
+    """The scene as a batch of `matches` matches."""
     rules = games()[game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
@@ -95,10 +95,10 @@ def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
 
 def start() -> float:
     """Seconds from the command that starts the arcade to the end of its first frame (and of the program)."""
-    unseen = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    environment = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     began = perf_counter()
     command = ["-m", "pigaming_app"] if INSTALLED else [str(ROOT / "main.py")]
-    subprocess.run([sys.executable, *command, "--frames", "1"], cwd=ROOT, env=unseen, check=True)
+    subprocess.run([sys.executable, *command, "--frames", "1"], cwd=ROOT, env=environment, check=True)
     return perf_counter() - began
 
 

@@ -37,17 +37,17 @@ def measure() -> dict[str, float | None]:
 def measured_alone(state: str) -> float | None:
     """Megabytes of a fresh process in one of STATES. Raises subprocess.CalledProcessError."""
     with TemporaryDirectory() as home:
-        unseen = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
+        headless = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
         command = [sys.executable, "-m", "pigaming_app.jobs.bench.memory", state]
         done = subprocess.run(
-            command, env={**os.environ, **unseen}, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
+            command, env={**os.environ, **headless}, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
         )
     found: float | None = json.loads(done.stdout.splitlines()[-1])
     return found
 
 
 def resident_mb() -> float | None:
-    """Megabytes of memory that this process occupies now; None where unknown."""
+    """Resident memory of this process, MB (2^20 bytes); None where unknown."""
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
         return round(pages * os.sysconf("SC_PAGE_SIZE") / 2**20, 1)
@@ -61,67 +61,65 @@ def resident_mb() -> float | None:
 
 
 def visit(state: str) -> float | None:
-    """Stay in one of STATES for a while; the memory at its end, MB."""
+    """Run the arcade into one of STATES and stay there for a while; returns the memory at the end, MB."""
     from pigaming_app.scenes.app import Options, run
 
-    way = WAY.get(state, WAY["match"])
-    frames = sum(round(seconds / STEP) for seconds, _ in way)
-    found: list[float | None] = []
+    route = ROUTES.get(state, ROUTES["match"])
+    frames = sum(round(seconds / STEP) for seconds, _ in route)
+    readings: list[float | None] = []
 
     def over() -> bool:
-        found.append(None if len(found) < frames - 1 else resident_mb())
-        return len(found) == frames
+        readings.append(None if len(readings) < frames - 1 else resident_mb())
+        return len(readings) == frames
 
-    run(Options(first=lambda context: Tour(context, state, way), headless=True, step=STEP, over=over))
-    return found[-1]
+    run(Options(first=lambda context: Tour(context, state, route), headless=True, step=STEP, over=over))
+    return readings[-1]
 
 
 class Tour:
     """Shows one scene after the other, each for some seconds; the stack operations of a scene are ignored."""
 
-    def __init__(self, context: "Context", state: str, way: "Way") -> None:
-        self.context, self.state, self.way = context, state, list(way)
+    def __init__(self, context: "Context", state: str, route: "Route") -> None:
+        self.context, self.state, self.route = context, state, list(route)
         self._next()
 
     def entered(self) -> None:
-        """Each scene is entered in its turn."""
+        """No effect: each scene is entered when its turn comes."""
 
     def on(self, press: Any) -> None:
         """Input is ignored."""
 
     def update(self, seconds: float) -> None:
-        """Let time pass for the present scene, or go on to the next."""
+        """Update the present scene; switch to the next when its time is over."""
         self.remaining -= seconds
-        if self.remaining <= 0.0 and self.way:
+        if self.remaining <= 0.0 and self.route:
             self._next()
         self.scene.update(seconds)
 
     def draw(self, screen: Any) -> None:
-        """The present scene."""
         self.scene.draw(screen)
 
     def _next(self) -> None:
-        self.remaining, make = self.way.pop(0)
+        self.remaining, make = self.route.pop(0)
         self.scene = make(self.context, self.state)
         self.scene.entered()
 
 
 def title(context: "Context", state: str) -> "Scene":
-    """The title."""
     from pigaming_app.scenes.title.scene import Title
 
     return Title(context)
 
 
 def lobby(context: "Context", state: str) -> "Scene":
-    """The lobby of a game, of the first one if the state is none."""
+    """The lobby of the game `state`, or of the first game."""
     from pigaming_app.scenes.lobby.scene import Lobby
 
     return Lobby(context, state if state in games() else next(iter(games())))
 
 
 def match(context: "Context", state: str) -> "Scene":
-    """A match of four normal AIs in a game's first arena."""
+    """A match of four normal AIs in the first arena of the game `state`."""
     from pigaming_app.scenes.play.scene import MatchScene
 
     rules = games()[state]
@@ -132,8 +130,8 @@ def match(context: "Context", state: str) -> "Scene":
     )
 
 
-Way = tuple[tuple[float, Callable[["Context", str], "Scene"]], ...]  # seconds, and the scene in which they pass
-WAY: dict[str, Way] = {
+Route = tuple[tuple[float, Callable[["Context", str], "Scene"]], ...]  # seconds, and the scene in which they pass
+ROUTES: dict[str, Route] = {
     "title": ((SECONDS["title"], title),),
     "lobby": ((2.0, title), (SECONDS["lobby"], lobby)),
     "match": ((2.0, title), (4.0, lobby), (SECONDS["match"], match)),

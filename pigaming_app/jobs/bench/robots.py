@@ -1,6 +1,6 @@
 """The figures of `bench robots`: the proof of the robot loop on the emulated arena, in two processes.
 
-Robots are tracked at 0.35 m/s by a 1080p camera at 30 and at 60 frames/s with 80 ms of latency in all; every fault of
+Robots are tracked at 0.35 m/s by a 1080p camera at 30 and at 60 frames/s with a total latency of 80 ms; every fault of
 the table occurs once; twenty minutes of all three games are played with random button mashing and 2 % of packets and
 frames lost; and a process that drives the robots is killed. Of several runs the worst counts, except for the time that
 a frame takes, where the best counts: other programs can only add to it.
@@ -27,7 +27,7 @@ from pigaming_app.hardware.proof.trials import ButtonMasher, FigureEight, MatchR
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.i18n import english
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 Run = tuple[float, int]  # frames/s, seed
 RATES = (30.0, 60.0)  # frames/s
 SECONDS = 20.0  # of tracking
@@ -70,10 +70,10 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
         played = [(job, pool.submit(on_mat, job)) for job in jobs()]
-        tracks = _noted(followed, note)
+        tracks = _tracks(followed, note)
         stops = _stops(stopped, note)
         matches = [_match(job, future, note) for job, future in played]
-        boards = [_of(future, "calibrating") for future in calibrated]
+        boards = [_result(future, "calibrating") for future in calibrated]
     stops["kill -9"] = _killed(note)
     return {
         "pose_rmse_mm": max(run.rmse_mm for run in tracks.values()),
@@ -98,12 +98,12 @@ def reached(figures: dict[str, float]) -> dict[str, bool]:
 
 def jobs() -> list[Job]:
     """Twenty minutes of matches: all games, many arenas, both frame rates."""
-    found = []
+    result = []
     for i in range(MATCHES):
         game = list(games())[i % len(games())]
         places = arenas(game)
-        found.append(Job(game, places[i // len(games()) % len(places)], RATES[i % 4 == 3], i + 1))
-    return found
+        result.append(Job(game, places[i // len(games()) % len(places)], RATES[i % 4 == 3], i + 1))
+    return result
 
 
 def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
@@ -124,12 +124,12 @@ def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
 
 
 def follow_alone(seed: int, fps: float) -> TrackingResult:
-    """Track robots, on one core."""
+    """Track robots on figures of eight, on one core."""
     return proving.follow(FigureEight(Testbed(seed, fps)), SECONDS)
 
 
 def calibration(seed: int) -> GroundPlane:
-    """A calibration, with its errors on the board that was left out of the solution."""
+    """A calibration with its errors on the held-out board."""
     return Testbed(seed, RATES[0]).ground
 
 
@@ -144,10 +144,10 @@ def all_emergencies(seed: int, fps: float) -> dict[str, StopResult]:
     }
 
 
-def _noted(followed: Mapping[Run, Future[TrackingResult]], note: Callable[[str], None]) -> dict[Run, TrackingResult]:
+def _tracks(followed: Mapping[Run, Future[TrackingResult]], note: Callable[[str], None]) -> dict[Run, TrackingResult]:
     tracks = {}
     for (fps, seed), future in followed.items():
-        run = _of(future, f"tracking at {fps:.0f} fps, seed {seed}")
+        run = _result(future, f"tracking at {fps:.0f} fps, seed {seed}")
         tracks[fps, seed] = run
         note(
             f"tracked at {fps:.0f} fps, seed {seed}: {run.rmse_mm:.2f} mm, {run.rmse_deg:.2f} deg, "
@@ -160,7 +160,7 @@ def _stops(stopped: dict[float, Future[dict[str, StopResult]]], note: Callable[[
     """Stopping times by fault, s. Raises Unproven where the game did not report the fault."""
     stops = {}
     for fps, future in stopped.items():
-        for name, run in _of(future, f"emergencies at {fps:.0f} fps").items():
+        for name, run in _result(future, f"emergencies at {fps:.0f} fps").items():
             note(f"{name} at {fps:.0f} fps: motors stood after {1e3 * run.seconds:.0f} ms")
             if not run.said:
                 raise Unproven(f"{name}: the game did not say what had happened")
@@ -170,7 +170,7 @@ def _stops(stopped: dict[float, Future[dict[str, StopResult]]], note: Callable[[
 
 def _match(job: Job, future: Future[MatchResult], note: Callable[[str], None]) -> MatchResult:
     """The result of a match. Raises Unproven."""
-    run = _of(future, f"{job.game} in {job.arena}, seed {job.seed}")
+    run = _result(future, f"{job.game} in {job.arena}, seed {job.seed}")
     note(
         f"{job.game} in {job.arena} at {job.fps:.0f} fps: played to its end in {run.seconds:.0f} s, "
         f"{run.paused:.1f} s of them paused, places taken in {run.places:.0f} s, {run.deepest_mm:.1f} mm into a wall, "
@@ -192,11 +192,11 @@ def _killed(note: Callable[[str], None]) -> float:
     return seconds
 
 
-def _of(future: Future[Found], what: str) -> Found:
+def _result(future: Future[Result], name: str) -> Result:
     """The result of a process. Raises Unproven."""
     try:
         return future.result()
     except CalibrationError as reason:
-        raise Unproven(f"{what}: {english().explained(reason.message)}") from reason
+        raise Unproven(f"{name}: {english().explained(reason.message)}") from reason
     except RuntimeError as reason:
-        raise Unproven(f"{what}: {reason}") from reason
+        raise Unproven(f"{name}: {reason}") from reason

@@ -12,10 +12,10 @@ from pigaming_app import ROOT
 def measure() -> dict[str, float]:
     """Milliseconds of CPU time by screen, the longest first. Raises subprocess.CalledProcessError."""
     with TemporaryDirectory() as home:
-        unseen = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
+        headless = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
         command = [sys.executable, "-m", "pigaming_app.scenes.walk.walker"]
         done = subprocess.run(
-            command, env={**os.environ, **unseen}, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
+            command, env={**os.environ, **headless}, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
         )
     found: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
     return dict(sorted(found.items(), key=lambda screen: -screen[1]))

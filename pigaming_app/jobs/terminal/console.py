@@ -31,7 +31,7 @@ class _Lossy(io.RawIOBase):
 
 
 def prepare() -> None:
-    """Make standard error lossy, and occupy the descriptors of closed streams: no file opened later may get one."""
+    """Make standard error lossy, and occupy the descriptors of closed streams, so that no later file gets one."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -61,7 +61,7 @@ def flushed(code: int) -> int:
 
 
 def say(line: str) -> None:
-    """One line on standard error; standard output belongs to the job."""
+    """Print a line on standard error; standard output is reserved for the job."""
     with contextlib.suppress(OSError):
         print(f"PiGaming: {one_line(line)}", file=sys.stderr, flush=True)
 

@@ -51,7 +51,7 @@ def real(low: float, high: float) -> Callable[[str], float]:
 
 
 def path(text: str) -> Path:
-    """A path that the system accepts, such as the name of a file."""
+    """A path that the system accepts."""
     if not text or "\0" in text:
         raise argparse.ArgumentTypeError(f"{quote(text)} is not the name of a file")
     return Path(text)
@@ -100,7 +100,7 @@ def shared(parser: argparse._ActionsContainer, *names: str) -> None:
 
 
 def game_option(parser: ArgumentParser, required: bool = False, more: tuple[str, ...] = ()) -> None:
-    """Declare the game, by its position. `more`: other words that may stand there."""
+    """Declare the game as a positional argument. `more`: further accepted words."""
     from pigaming_app.games.registry import games
 
     names = ", ".join([*games(), *more])
@@ -126,7 +126,7 @@ def mat_options(parser: ArgumentParser) -> None:
 
 
 def goal(arguments: Namespace) -> int | None:
-    """The goal that was given; None: the game's own. Raises Refusal for the goal of another game."""
+    """The requested goal; None: the game's default. Raises Refusal for the goal of another game."""
     from pigaming_app.games.registry import games
 
     for name in ("laps", "pallets"):
@@ -139,12 +139,12 @@ def goal(arguments: Namespace) -> int | None:
 
 
 def display(arguments: Namespace) -> int | None:
-    """The display that was given, from 0; None: that of the settings."""
+    """The requested display, from 0; None: that of the settings."""
     return None if arguments.display is None else arguments.display - 1
 
 
 def mat_settings(arguments: Namespace) -> dict[str, Any]:
-    """The settings of camera and radio that were given. Raises Refusal for a value that does not fit."""
+    """The requested settings of camera and radio. Raises Refusal for an invalid value."""
     from pigaming_app.storage.settings import Settings
 
     given = {name: getattr(arguments, name, None) for name in ("camera", "port", "baud", "radio")}

@@ -5,7 +5,7 @@ from math import hypot, pi
 import pytest
 
 from pigaming_app.games.arenas import load
-from pigaming_app.hardware.control.path_planner import apart, floor_with, way_to
+from pigaming_app.hardware.control.path_planner import distance, find_path, inflated_floor
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.sim.robot import RADIUS
 from tests.floor import floor
@@ -100,7 +100,7 @@ def test_a_robot_in_its_place_stays_when_it_is_nudged_and_comes_back_when_it_is_
 
 def test_a_way_keeps_clear_of_walls_and_ends_at_the_goal():
     world = floor(GANG)
-    way = way_to(floor_with(world, 4.0), (300.0, 200.0), (900.0, 200.0))
-    assert way[-1] == (900.0, 200.0)
-    assert any(apart(point, (600.0, 450.0)) < 60.0 for point in way)
-    assert way_to(floor_with(world, 30.0), (300.0, 200.0), (900.0, 200.0)) == []
+    path = find_path(inflated_floor(world, 4.0), (300.0, 200.0), (900.0, 200.0))
+    assert path[-1] == (900.0, 200.0)
+    assert any(distance(point, (600.0, 450.0)) < 60.0 for point in path)
+    assert find_path(inflated_floor(world, 30.0), (300.0, 200.0), (900.0, 200.0)) == []

@@ -15,7 +15,7 @@ ASKED = [(260.0, 0.0), (-150.0, 1.0), (0.0, 2.5), (200.0, -1.5)]
 @pytest.mark.parametrize("drivetrain", [NOMINAL, UNMEASURED])
 def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(asked, drivetrain):
     kinematics = Kinematics(drivetrain)
-    ran = [kinematics.goes(kinematics.wheels(asked)) for _ in range(200)]
+    ran = [kinematics.expected_twist(kinematics.wheels(asked)) for _ in range(200)]
     assert sum(linear for linear, _ in ran) / 200 == pytest.approx(asked[0], abs=1.0)
     assert sum(angular for _, angular in ran) / 200 == pytest.approx(asked[1], abs=0.02)
 
@@ -24,7 +24,7 @@ def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(ask
 def test_what_is_learnt_of_the_wheels_is_made_up_for(asked):
     kinematics = Kinematics(UNMEASURED)
     kinematics.wear = WORN
-    ran = [kinematics.goes(kinematics.wheels(asked)) for _ in range(200)]
+    ran = [kinematics.expected_twist(kinematics.wheels(asked)) for _ in range(200)]
     assert sum(linear for linear, _ in ran) / 200 == pytest.approx(asked[0], abs=1.0)
     assert sum(angular for _, angular in ran) / 200 == pytest.approx(asked[1], abs=0.02)
     told = [kinematics.wheels(asked) for _ in range(200)]
@@ -44,4 +44,4 @@ def test_every_share_is_on_a_level_and_rest_is_rest():
 def test_an_absurd_gain_is_not_believed():
     kinematics = Kinematics(NOMINAL)
     kinematics.wear = WheelCorrection(0.01, 0.01, 1.0, 0.0, 0.0)
-    assert kinematics.goes(kinematics.wheels((100.0, 0.0)))[0] == pytest.approx(100.0, rel=0.1)
+    assert kinematics.expected_twist(kinematics.wheels((100.0, 0.0)))[0] == pytest.approx(100.0, rel=0.1)

@@ -59,7 +59,7 @@ def test_the_tracker_is_told_what_the_wheels_come_to_and_nothing_of_robots_that_
     wheels = rig.kinematics[0].wheels((200.0, 0.5))
     rig.tell([wheels, WheelCommand(0.0, 0.0), None, None])
     (told,) = tracker.told
-    assert told[0] == pytest.approx(rig.kinematics[0].comes_to(wheels))
+    assert told[0] == pytest.approx(rig.kinematics[0].nominal_twist(wheels))
     assert told[1:] == [(0.0, 0.0), None, None]
 
 

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.hardware.control.virtual_walls import GAMMA, SHARED, SPARE, clipped, coasting, limits
+from pigaming_app.hardware.control.virtual_walls import GAMMA, SHARED, SPARE, clip_twist, speed_limits, stopping_pose
 from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
@@ -17,7 +17,7 @@ ACROSS = (800.0, 0.0, 800.0, 900.0)  # a wall down the middle, 30 px thick
 
 def driven(world, pose, asked, others=()):
     """The speed that is left, px/s."""
-    return clipped(pose, asked, limits(world, pose[0], pose[1], others))[0]
+    return clip_twist(pose, asked, speed_limits(world, pose[0], pose[1], others))[0]
 
 
 def test_straight_at_a_wall_the_speed_is_the_gap_times_gamma():
@@ -47,8 +47,8 @@ def test_backwards_counts_what_is_behind():
 def test_in_a_wall_only_the_way_out_is_open_and_turning_is_free():
     world = floor([ACROSS])
     pose = (800.0 - 20.0, 450.0, 0.0)
-    assert clipped(pose, (260.0, 2.0), limits(world, *pose[:2])) == (0.0, 2.0)
-    assert clipped(pose, (-260.0, 0.0), limits(world, *pose[:2])) == (-260.0, 0.0)
+    assert clip_twist(pose, (260.0, 2.0), speed_limits(world, *pose[:2])) == (0.0, 2.0)
+    assert clip_twist(pose, (-260.0, 0.0), speed_limits(world, *pose[:2])) == (-260.0, 0.0)
 
 
 @pytest.mark.parametrize(("x", "y", "inward"), [(-50.0, 450.0, 0.0), (1700.0, 450.0, pi), (800.0, -40.0, pi / 2)])
@@ -83,9 +83,9 @@ def test_swinging_the_nose_into_a_wall_slows_down_in_time():
 
 
 def test_coasting_goes_on_by_speed_times_lag():
-    x, y, heading = coasting((100.0, 200.0, 0.5), (250.0, 0.0), 0.08)
+    x, y, heading = stopping_pose((100.0, 200.0, 0.5), (250.0, 0.0), 0.08)
     assert (x, y, heading) == pytest.approx((100.0 + 20.0 * cos(0.5), 200.0 + 20.0 * sin(0.5), 0.5))
-    assert coasting((0.0, 0.0, 0.0), (0.0, 3.0), 0.1) == pytest.approx((0.0, 0.0, 0.3))
+    assert stopping_pose((0.0, 0.0, 0.0), (0.0, 3.0), 0.1) == pytest.approx((0.0, 0.0, 0.3))
 
 
 @pytest.mark.parametrize("lag", [0.03, 0.08, 0.15])
@@ -101,8 +101,8 @@ def test_a_minute_of_mashing_enters_no_wall_however_lazy_the_motors(lag):
     for tick in range(3000):
         if tick >= until:
             asked, until = (chance.choice((-420.0, 0.0, 420.0, 420.0)), chance.choice((-3.0, 0.0, 3.0))), tick + 20
-        rest = coasting((x, y, heading), (linear, angular), lag)
-        told = clipped(rest, asked, limits(world, rest[0], rest[1]), lag)
+        rest = stopping_pose((x, y, heading), (linear, angular), lag)
+        told = clip_twist(rest, asked, speed_limits(world, rest[0], rest[1]), lag)
         linear += (told[0] - linear) * follow
         angular += (told[1] - angular) * follow
         heading += 0.02 * angular

@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Optics
-from pigaming_app.hardware.emulator.robots import FULL_SPEED, STEP, EmulatedRobot, RobotParameters, drawn, part
+from pigaming_app.hardware.emulator.robots import (
+    FULL_SPEED,
+    STEP,
+    EmulatedRobot,
+    RobotParameters,
+    push_apart,
+    random_parameters,
+)
 
 cv2 = pytest.importorskip("cv2")
 
@@ -56,15 +63,15 @@ def test_nothing_moves_within_the_deadband():
 
 def test_no_two_robots_are_alike():
     random = Random(3)
-    assert len({drawn(random).left_gain for _ in range(4)}) == 4
+    assert len({random_parameters(random).left_gain for _ in range(4)}) == 4
 
 
 def test_robots_push_each_other_apart_unless_one_is_carried():
     one, other = EmulatedRobot(IDEAL, 0, 0, 0, Random(1)), EmulatedRobot(IDEAL, 60, 0, 0, Random(1))
-    part([one, other])
+    push_apart([one, other])
     assert other.x - one.x == pytest.approx(95.0)
     other.x, other.height = one.x, 100.0
-    part([one, other])
+    push_apart([one, other])
     assert other.x == one.x
 
 
@@ -165,7 +172,7 @@ def test_it_shares_no_code_with_what_it_proves():
 
 def kept_pictures(arena):
     """How many different projected pictures the arena still holds."""
-    queued = [image for _, image in arena._coming] + [one.scene.image for one in arena.camera._under_way]
+    queued = [image for _, image in arena._pending] + [one.scene.image for one in arena.camera._in_transit]
     return len({id(image) for image in queued})
 
 
