@@ -22,7 +22,7 @@ def test_turning_right_on_the_spot_needs_the_left_wheel_ahead():
     assert right == -left
 
 
-@pytest.mark.parametrize("asked", [(260.0, 0.0), (-120.0, 1.5), (0.0, -3.0), (300.0, 2.0), (1.0, 0.0), (0.0, 0.0)])
+@pytest.mark.parametrize("requested", [(260.0, 0.0), (-120.0, 1.5), (0.0, -3.0), (300.0, 2.0), (1.0, 0.0), (0.0, 0.0)])
 def test_twist_inverts_wheel_shares_for_any_wheels(requested):
     assert twist(UNEVEN, *wheel_shares(UNEVEN, *requested)) == pytest.approx(requested)
 

@@ -267,7 +267,7 @@ def test_cutting_through_the_middle_is_no_lap_and_says_so(track):
     ride.along(0, second - 30.0, second + 30.0)
     assert not ride.racers[0].missed
     ride.along(0, second + 30.0, own + (ride.course.length if own < second else 0.0) + 30.0)
-    assert ride.state.robots[0].score == 1, "whoever goes back and does it properly has it"
+    assert ride.state.robots[0].score == 1, "after going back properly the lap counts"
 
 
 LINE_OF_TRACK = [(track, seat) for track in TRACKS for seat in range(4)]

@@ -111,7 +111,7 @@ def test_a_missed_line_is_named_and_must_be_gone_back_to():
     racer = ride.racers[0]
     ride.along(0, one - 30.0, two - 100.0)
     ride.along(0, two - 100.0, two + 100.0, aside=140.0)
-    assert racer.missed == 0, "nothing is told before a later line is crossed"
+    assert racer.missed == 0, "no line counts as missed before a later one is crossed"
     ride.along(0, two + 100.0, three + 30.0)
     assert racer.missed == 2
     ride.along(0, three + 30.0, one + ride.course.length + 30.0)
