@@ -1,4 +1,4 @@
-"""From a bare Python to the arcade: what is used, what is installed, and what is said when that cannot be."""
+"""Start from a bare Python: choice of the interpreter, installation of packages, error messages."""
 
 import ast
 import errno
@@ -49,7 +49,7 @@ elif mood and (mood.partition(":")[0] in " ".join(wanted)):
 
 @pytest.fixture
 def clone(tmp_path):
-    """The files that the start needs, with a job that only says where it runs and what it was told."""
+    """The files needed for a start, with a command line that only prints its environment and arguments."""
     clone = tmp_path / "clone"
     for name in FILES:
         (clone / name).parent.mkdir(parents=True, exist_ok=True)
@@ -60,7 +60,7 @@ def clone(tmp_path):
 
 @pytest.fixture
 def furnished(clone):
-    """The same, with an empty .venv in which pip only pretends."""
+    """The clone with an empty .venv and a fake pip."""
     venv.create(clone / ".venv", symlinks=os.name != "nt")
     pip = interpreter.site_packages(clone / ".venv") / "pip"
     pip.mkdir()
@@ -75,7 +75,7 @@ def surroundings(clone, **extra):
 
 
 def started(clone, *arguments, python=BARE, **extra):
-    """A start that came to its end."""
+    """Run main.py to completion."""
     command = [python, str(clone / "main.py"), *arguments]
     return subprocess.run(
         command, cwd=clone.parent, env=surroundings(clone, **extra), capture_output=True, text=True, timeout=120
@@ -83,13 +83,13 @@ def started(clone, *arguments, python=BARE, **extra):
 
 
 def calls(clone):
-    """What pip was asked for, call by call: names only."""
-    said = (interpreter.site_packages(clone / ".venv") / "pip" / "calls").read_text().splitlines()
-    return [set(re.sub(r"[<>][^ ]*", "", line).split()) for line in said]
+    """Names of the packages requested in each call of pip."""
+    lines = (interpreter.site_packages(clone / ".venv") / "pip" / "calls").read_text().splitlines()
+    return [set(re.sub(r"[<>][^ ]*", "", line).split()) for line in lines]
 
 
 def refused(ended):
-    """The last line on standard error of a start that could not be; all that it said are plain lines."""
+    """The last line on standard error of a failed start; asserts that all lines are plain messages."""
     assert (ended.returncode, ended.stdout) == (2, "")
     assert all(line.startswith("PiGaming: ") for line in ended.stderr.splitlines())
     return ended.stderr.splitlines()[-1]
@@ -98,17 +98,17 @@ def refused(ended):
 # An old Python
 
 
-def test_an_old_python_is_told_what_is_needed():
+def test_an_old_python_is_refused_with_the_version_needed():
     assert too_old((3, 9)) == "PiGaming needs Python 3.11 or newer; this is 3.9"
     assert too_old((3, 11)) is None
     assert too_old((4, 0)) is None
 
 
-def test_an_old_python_can_read_as_far_as_that():
+def test_an_old_python_can_parse_main():
     ast.parse((ROOT / "main.py").read_text(), feature_version=(3, 8))
 
 
-# All is there
+# Everything is installed
 
 
 def test_a_second_start_goes_straight_into_the_environment(furnished):
@@ -154,7 +154,7 @@ def test_an_environment_with_both_pygames_is_named(furnished):
     assert f"{furnished / '.venv'} holds both pygame and pygame-ce" in started(furnished).stderr
 
 
-# What a job needs
+# Packages of a job
 
 
 def test_the_tests_fetch_their_tools_and_the_compiler(furnished):
@@ -171,12 +171,12 @@ def test_a_duel_goes_on_without_the_compiler(furnished):
 
 
 @pytest.mark.parametrize("words", [["play", "--real=1,3"], ["--emulate", "3"], ["bench", "robots"]], ids=" ".join)
-def test_words_that_mean_real_robots_fetch_opencv(furnished, words):
+def test_words_for_real_robots_install_opencv(furnished, words):
     started(furnished, *words)
     assert "opencv-python-headless" in calls(furnished)[-1]
 
 
-def test_who_only_asks_how_a_duel_works_waits_for_no_compiler(furnished):
+def test_help_on_a_duel_installs_no_compiler(furnished):
     started(furnished, "duel", "--help")
     assert "numba" not in calls(furnished)[-1]
 
@@ -193,7 +193,7 @@ def test_other_requirements_are_installed_when_the_list_has_changed(furnished):
 
 
 @pytest.mark.long
-def test_offline_one_line_says_what_to_do_and_nothing_is_lost(clone):
+def test_offline_the_remedy_is_reported_and_nothing_is_lost(clone):
     offline = {"PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull, "PIP_NO_CACHE_DIR": "1"}
     assert "is not to be had: if this machine is online" in refused(started(clone, "doctor", **offline))
     again = started(clone, "doctor", **offline)
@@ -206,12 +206,12 @@ def test_without_the_venv_module_its_package_is_named(tmp_path, monkeypatch):
         install.make(tmp_path / "venv")
 
 
-def test_a_full_disk_is_said(furnished):
+def test_a_full_disk_is_reported(furnished):
     full = "numpy:Could not install packages due to an OSError: [Errno 28] No space left on device"
     assert refused(started(furnished, MOOD=full)) == f"PiGaming: {install.NO_ROOM}"
 
 
-def test_a_network_that_is_down_is_said(furnished):
+def test_a_network_failure_is_reported(furnished):
     down = "numpy:WARNING: Retrying (Retry(total=4)) after connection broken: Temporary failure in name resolution"
     assert "connect this machine to the internet" in refused(started(furnished, MOOD=down))
 
@@ -223,10 +223,10 @@ def test_stopped_while_installing_it_goes_on_next_time(furnished):
     )
     until(lambda: (interpreter.site_packages(furnished / ".venv") / "pip" / "calls").exists())
     os.killpg(running.pid, signal.SIGINT)
-    said = running.communicate(timeout=30)[1]
+    errors = running.communicate(timeout=30)[1]
     assert running.returncode == 130
-    assert said.splitlines()[-1] == "PiGaming: stopped. Start it again, and it goes on from there."
-    assert "Traceback" not in said
+    assert errors.splitlines()[-1] == "PiGaming: stopped. Start it again, and it goes on from there."
+    assert "Traceback" not in errors
     assert started(furnished).returncode == 0
 
 
@@ -241,13 +241,13 @@ def test_of_two_starts_at_once_one_installs_and_the_other_waits(furnished):
         )
         for _ in range(2)
     ]
-    said = [one.communicate(timeout=60) for one in both]
-    assert [out for out, _ in said] == [f"{furnished / '.venv'}\n"] * 2
-    assert sum("waiting for it" in err for _, err in said) == 1
+    outputs = [process.communicate(timeout=60) for process in both]
+    assert [out for out, _ in outputs] == [f"{furnished / '.venv'}\n"] * 2
+    assert sum("waiting for it" in err for _, err in outputs) == 1
     assert len(calls(furnished)) == 1
 
 
-def test_a_lock_that_a_dead_start_left_behind_holds_nobody(furnished):
+def test_a_lock_of_a_dead_process_does_not_block(furnished):
     (furnished / ".venv.lock").write_text("")
     assert "waiting" not in started(furnished).stderr
 
@@ -283,7 +283,7 @@ def test_an_environment_left_half_made_does_not_work(tmp_path):
     assert not install.works(tmp_path)
 
 
-def test_another_python_below_an_environment_is_noticed(furnished):
+def test_another_base_python_of_an_environment_is_detected(furnished):
     started(furnished)
     stamp = furnished / ".venv" / "ready"
     stamp.write_text(stamp.read_text().replace("python3", "python2"))
@@ -307,12 +307,12 @@ def test_where_nothing_can_be_written_both_folders_are_named(tmp_path, monkeypat
         install._claimed()
 
 
-def test_a_project_file_that_is_missing_is_said_in_one_line(clone):
+def test_a_missing_project_file_is_reported_in_one_line(clone):
     (clone / "pyproject.toml").unlink()
     assert "pyproject.toml cannot be read" in refused(started(clone))
 
 
-# Small things
+# Details
 
 
 @pytest.mark.parametrize(
@@ -331,7 +331,7 @@ def test_a_version_fits_or_not(requirement, version, lacking):
     assert interpreter.lacks({"numpy": version}, requirement) is lacking
 
 
-def test_the_project_file_says_only_what_the_start_understands():
+def test_the_project_file_has_only_requirements_that_boot_supports():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     extras = project["optional-dependencies"]
     for one in [*project["dependencies"], *(one for extra in extras.values() for one in extra)]:

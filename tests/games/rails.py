@@ -1,4 +1,4 @@
-"""A plant that puts robots where a test says, tick by tick: whatever drives, pushes or carries them."""
+"""A plant that places robots at poses given by a test, tick by tick."""
 
 from math import atan2, tau
 
@@ -9,7 +9,7 @@ from pigaming_app.sim.plant import Sighting
 
 
 class Rails:
-    """Robots stand where they were put last; nothing else moves them."""
+    """Robots stay where they were last put; nothing else moves them."""
 
     def __init__(self):
         self.poses = [(0.0, 0.0, 0.0)] * 4
@@ -25,7 +25,7 @@ class Rails:
 
 
 class Ride:
-    """A race on rails, with what a test does with it."""
+    """A race on rails, with helpers to move its robots."""
 
     def __init__(self, arena="classic", present=(0, 1, 2, 3), laps=3, minutes=10.0):
         one, two, three, four = (Seat("idle" if i in present else "off", i) for i in range(4))
@@ -36,7 +36,7 @@ class Ride:
         self.course, self.lines, self.racers = self.state.course, self.state.lines, self.state.racers
 
     def put(self, seat, x, y, heading=None):
-        """Robot `seat` stands there on the next tick."""
+        """Put robot `seat` there for the next tick."""
         self.rails.poses[seat] = (x, y, self.rails.poses[seat][2] if heading is None else heading)
 
     def to(self, seat, x, y):
@@ -50,17 +50,17 @@ class Ride:
             self.match.tick()
 
     def along(self, seat, start, end, aside=0.0):
-        """Follow the course from `start` to `end` (px, may be beyond a lap, or backwards), so far aside of it."""
+        """Follow the course from `start` to `end` (px, may exceed a lap or run backwards), `aside` px from its line."""
         steps = max(1, int(abs(end - start) / 8.0) + 1)
         for k in range(steps + 1):
             x, y = point_at(self.course, (start + (end - start) * k / steps) % self.course.length, aside)
             self.to(seat, x, y)
 
     def before(self, seat, line, way=60.0):
-        """Px along the course, so far before a line."""
+        """The position along the course at a distance before a line, px."""
         return self.lines[line].along - way
 
     def lap(self, seat, aside=0.0):
-        """Once round, from before the own line to just past it."""
+        """Drive a lap, from before the robot's own line to just past it."""
         own = self.lines[seat].along
         self.along(seat, own - 30.0, own + self.course.length + 30.0, aside)

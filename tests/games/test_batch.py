@@ -1,4 +1,4 @@
-"""Many matches at once are the same matches as one at a time, plain or compiled."""
+"""A batch of matches gives the same results as single matches, plain or compiled."""
 
 import numpy as np
 import pytest
@@ -22,21 +22,21 @@ def setups():
     ]
 
 
-def wishes(tick):
-    """What every seat of every match asks for, (n, 4, 4), held for ten ticks."""
+def actions_at(tick):
+    """Random actions of every seat of every match, (n, 4, 4), held for ten ticks."""
     luck = np.random.default_rng(tick // 10)
     sticks = luck.uniform(-1.2, 1.2, (len(VARIANTS), 4, 2))
     return np.concatenate([sticks, luck.integers(0, 2, (len(VARIANTS), 4, 2))], axis=2)
 
 
 class Given:
-    """Does what the row of wishes says."""
+    """A brain that plays a row of `actions_at`."""
 
     def __init__(self, index):
         self.index = index
 
     def think(self, state, seat):
-        linear, angular, fire, turbo = wishes(state.tick)[self.index][seat]
+        linear, angular, fire, turbo = actions_at(state.tick)[self.index][seat]
         set_action(state.actions[seat], linear, angular, int(fire), int(turbo))
 
 
@@ -56,18 +56,18 @@ def alone():
 def test_plain_matches_at_once_are_the_same_matches_alone(alone):
     states = initial_states(setups())
     for tick in range(TICKS):
-        step_all(states, wishes(tick).tolist())
+        step_all(states, actions_at(tick).tolist())
     assert [digest(state) for state in states] == alone
 
 
 def test_compiled_matches_at_once_are_the_same_matches_alone(alone):
     rows = matches(setups())
     for tick in range(TICKS):
-        step_all(rows, wishes(tick))
+        step_all(rows, actions_at(tick))
     assert [digest(row) for row in rows] == alone
 
 
-def test_no_matches_are_no_trouble():
+def test_an_empty_batch_is_accepted():
     step_all([], [])
     step_all(matches(setups())[:0], np.zeros((0, 4, 4)))
 

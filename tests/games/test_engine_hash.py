@@ -1,4 +1,4 @@
-"""The hash of the engine changes with what a match plays out like, and with nothing else."""
+"""The engine hash changes with the code of the engine, not with its wording, formatting or module paths."""
 
 import shutil
 
@@ -37,7 +37,7 @@ def drive(robot, dt):
         ('f"{', "f'{"),
     ],
 )
-def test_wording_layout_and_place_leave_it(old, new):
+def test_wording_formatting_and_module_paths_do_not_change_it(old, new):
     assert old in SOURCE
     edited = SOURCE.replace(old, new)
     edited = edited.replace('!r}"', "!r}'") if "f'" in new else edited
@@ -65,7 +65,7 @@ def test_a_name_a_number_or_an_operator_changes_it(old, new):
 
 
 def test_it_is_the_same_on_every_python():
-    """The digest of this very source, found with Python 3.11, 3.12 and 3.13."""
+    """The digest of SOURCE, as computed by Python 3.11, 3.12 and 3.13."""
     assert syntax_hash(SOURCE.encode()) == DIGEST
 
 

@@ -1,4 +1,4 @@
-"""A match: who sits where, how it ends, who has won."""
+"""A match: seats, ticks, final standings and winners."""
 
 from itertools import pairwise
 
@@ -17,7 +17,7 @@ def setup(teams=(0, 1, 2, 3), brains=("random",) * 4, minutes=0.1, seed=1):
 
 
 class Steady:
-    """Always the same stick."""
+    """A brain with a constant stick."""
 
     def __init__(self, linear, angular=0.0):
         self.linear, self.angular = linear, angular
@@ -85,7 +85,7 @@ def test_equal_scores_share_a_place_and_the_next_is_left_out():
     assert outcome.winners == ()
 
 
-def test_a_tie_behind_the_winner_is_no_tie_for_the_win():
+def test_a_tie_behind_the_winner_does_not_affect_the_win():
     outcome = with_scores([-2, 4, -2, 0])
     assert outcome.winners == (1,)
     assert [row.place for row in outcome.rows] == [1, 2, 3, 3]

@@ -1,4 +1,4 @@
-"""Replays: what is saved plays out again to the last bit, and anything else is refused in one line."""
+"""Replays: a saved match plays out again bit by bit; any other file is refused in one line."""
 
 import hashlib
 import json
@@ -46,7 +46,7 @@ def path(match, tmp_path):
 
 
 def refused(path, raw):
-    """The one line with which these bytes are refused."""
+    """The error of one line with which these bytes are refused."""
     path.write_bytes(raw)
     with pytest.raises(ReplayError) as caught:
         read(path)
@@ -58,7 +58,7 @@ def refused(path, raw):
 
 
 def forged(path, packed=None, **changes):
-    """The bytes of the file with another head and a check that fits: somebody did it on purpose."""
+    """The bytes of the file with a changed head and a matching check, as forged on purpose."""
     line, _, rest = path.read_bytes().partition(b"\n")
     head = {**json.loads(line), **changes}
     head = {key: value for key, value in head.items() if key != "check" and value is not None}
@@ -165,7 +165,7 @@ def test_a_replay_of_another_engine_is_read_and_says_so(path):
 
 @pytest.mark.parametrize("path", OLD, ids=lambda path: f"{path.parent.name} {path.stem}")
 def test_replays_of_older_versions_are_read_and_compared(path):
-    """The workers of Robot Factory walk otherwise since 1.4.0; everything else still plays out to the last bit."""
+    """The workers of Robot Factory walk differently since 1.4.0; everything else still plays out bit by bit."""
     replay = read(path)
     assert replay.other_engine
     assert verify(replay) is ((path.parent.name, path.stem) != ("1.3.0", "factory"))

@@ -1,4 +1,4 @@
-"""A stick is held within its gate and comes in 64ths."""
+"""The stick is clamped and quantised to 64ths."""
 
 from math import inf, nan
 
@@ -11,7 +11,7 @@ from pigaming_app.sim.world import Action
 
 
 @given(st.floats())
-def test_a_notch_is_a_whole_number_of_64ths_within_reach(value):
+def test_a_quantised_stick_is_a_whole_number_of_64ths_in_range(value):
     notched = quantise(value)
     assert -1.0 <= notched <= 1.0
     assert notched * 64 == int(notched * 64)
@@ -28,7 +28,7 @@ def test_a_stick_pushed_too_far_stops_at_the_edge(value, held):
     assert quantise(value) == held
 
 
-def test_press_sets_stick_and_buttons():
+def test_set_action_sets_stick_and_buttons():
     action = Action()
     set_action(action, 3.0, -0.25, 7, 0)
     assert (action.linear, action.angular, action.fire, action.turbo) == (1.0, -0.25, 1, 0)

@@ -1,4 +1,4 @@
-"""Angles come round."""
+"""Wrapping of angles and turns."""
 
 from math import cos, pi, sin, tau
 

@@ -1,4 +1,4 @@
-"""Arena files: those that ship are good, and a broken one is refused in one line that says what and where."""
+"""Arena files: all shipped ones are valid, and an invalid one raises an error of one line with key and reason."""
 
 from functools import partial
 from math import pi
@@ -30,7 +30,7 @@ SPLIT = "[[wall]]\nfrom = [800, 0]\nto = [800, 900]\n"
 
 
 @pytest.mark.parametrize("name", arenas("pitanks"))
-def test_every_arena_that_ships_is_good(name):
+def test_every_shipped_arena_is_valid(name):
     arena = load("pitanks", name)
     world = World()
     build(world, arena)
@@ -43,7 +43,7 @@ def test_classic_comes_first():
     assert arenas("pitanks")[0] == "classic"
 
 
-def test_a_good_file_is_read_as_it_says():
+def test_a_valid_file_is_parsed():
     arena = parse(GOOD, "good.toml")
     assert arena.name == "good"
     assert arena.starts[1].heading == pytest.approx(pi)
@@ -113,7 +113,7 @@ def test_a_file_anywhere_is_loaded_by_its_path(tmp_path):
     assert load("pitanks", str(path)).name == "mine"
 
 
-def test_what_is_not_there_or_no_text_is_refused(tmp_path):
+def test_a_missing_file_or_one_that_is_not_text_is_refused(tmp_path):
     with pytest.raises(ArenaError, match=r"nowhere: no such arena for pitanks; there are classic"):
         load("pitanks", "nowhere")
     path = tmp_path / "noise.toml"

@@ -1,4 +1,4 @@
-"""Robots at walls and at each other: they slide, they stop, they are pushed, they are never inside anything."""
+"""Contact of robots with walls and each other: they slide, stop and push, and never end up inside anything."""
 
 from math import atan2, cos, hypot, pi, radians, sin
 from random import Random
@@ -38,7 +38,7 @@ def from_wall(wall, x, y):
 
 
 def depth(world):
-    """How far the deepest present robot is inside a wall, px: measured here, without the grid."""
+    """Largest overlap of a present robot with a wall, px, computed without the grid."""
     deepest = 0.0
     for robot in world.robots:
         if robot.present:
@@ -160,7 +160,7 @@ def test_no_driving_gets_into_a_wall(walls, poses, sticks, half):
 
 
 def test_a_crowd_near_walls_never_gets_into_one():
-    """Random driving from fixed free poses where it is narrow, for 20 s."""
+    """Random driving for 20 s, from fixed free poses in narrow places."""
     walls = [(500.0, 300.0, 700.0, 500.0), (700.0, 300.0, 500.0, 500.0), (500.0, 600.0, 700.0, 600.0)]
     world = floor(walls, [(400.0, 400.0, 0.0), (800.0, 400.0, pi), (600.0, 200.0, 1.6), (450.0, 550.0, 0.0)])
     luck = SimpleNamespace(random=seeded(5))
@@ -173,13 +173,13 @@ def test_a_crowd_near_walls_never_gets_into_one():
 
 
 def overlap(world):
-    """By how many px the two nearest robots overlap."""
+    """Overlap of the two nearest robots, px."""
     gaps = [hypot(a.x - b.x, a.y - b.y) for i, a in enumerate(world.robots) for b in world.robots[:i]]
     return 2 * RADIUS - min(gaps)
 
 
 def huddle(random, walls, x, y):
-    """A floor with four robots at free places as near to (x, y) as there is room."""
+    """A world with four robots at the free positions nearest to (x, y)."""
     world = floor(walls)
     poses, spread = [], 100.0
     while len(poses) < 4:
@@ -192,7 +192,7 @@ def huddle(random, walls, x, y):
 
 
 def crushed(world, drivers, seconds):
-    """Drive on, each robot as its driver says; the deepest overlap of two robots. Nobody gets into a wall."""
+    """Run the drivers; returns the deepest overlap of two robots, px. Asserts that no robot gets into a wall."""
     deepest = 0.0
     for tick in range(round(seconds * HZ)):
         for robot, driver in zip(world.robots, drivers, strict=True):
@@ -208,7 +208,7 @@ def crushed(world, drivers, seconds):
 
 
 def towards(x, y, speed):
-    """Press on to a point, backwards if the speed is negative."""
+    """A driver towards a point, backwards if the speed is negative."""
 
     def driver(robot, tick):
         robot.heading = atan2(y - robot.y, x - robot.x) + (pi if speed < 0.0 else 0.0)
@@ -218,7 +218,7 @@ def towards(x, y, speed):
 
 
 def mashing(random):
-    """Full ahead or full back with some turn, another way five times a second."""
+    """A driver at full speed, forwards or backwards with a random turn, changed five times a second."""
 
     def driver(robot, tick):
         if tick % 10 == 0:
@@ -232,7 +232,7 @@ FLOORS = [(game, arena) for game in games() for arena in arenas(game)]
 
 @pytest.mark.parametrize(("game", "arena"), FLOORS, ids=[arena + "-" + game for game, arena in FLOORS])
 def test_a_crush_leaves_robots_apart_on_every_floor(game, arena):
-    """All four into a corner of the arena, against the end of a wall, against each other, or anyhow."""
+    """All four into a corner of the arena, against the end of a wall, against each other, or at random."""
     random = Random(arena)
     walls = [(wall.ax, wall.ay, wall.bx, wall.by) for wall in load(game, arena).walls]
     ends = [(0.0, 0.0), (WIDTH, HEIGHT), (800.0, 0.0), *[wall[:2] for wall in walls], *[wall[2:] for wall in walls]]
@@ -261,8 +261,8 @@ def test_a_crush_leaves_robots_apart_among_any_walls(walls, half, seed):
 
 
 @pytest.mark.parametrize(("x", "y"), [(0.0, 0.0), (WIDTH, 450.0), (700.0, 300.0)])
-def test_who_was_crushed_drives_away_freely(x, y):
-    """Nobody sticks: after four seconds of pressing all of them back out, each at least 100 px in a second."""
+def test_a_crushed_robot_can_drive_away(x, y):
+    """No robot sticks: after four seconds of pressing all reverse, each by at least 100 px within a second."""
     walls = [(700.0, 300.0, 1100.0, 300.0), (700.0, 300.0, 700.0, 700.0)]
     world = huddle(Random(4), walls, x + 60.0, y + 60.0)
     assert crushed(world, [towards(x, y, FASTEST)] * 4, 4.0) <= DEEPEST
@@ -272,8 +272,8 @@ def test_who_was_crushed_drives_away_freely(x, y):
     assert all(hypot(robot.x - a, robot.y - b) > 100.0 for robot, (a, b) in zip(world.robots, before, strict=True))
 
 
-def test_pressing_on_in_a_corner_everybody_comes_to_rest():
-    """No jitter: after five seconds of four robots with full sticks, nobody moves by a tenth of a px any more."""
+def test_robots_pressed_into_a_corner_come_to_rest():
+    """No jitter: after five seconds of full sticks, none of four robots moves by more than 0.1 px."""
     world = huddle(Random(2), (), 60.0, 60.0)
     headings = [atan2(-robot.y, -robot.x) for robot in world.robots]
 

@@ -1,4 +1,4 @@
-"""Wheels, shares and twists, and a simulated robot that drives like a measured one."""
+"""Drivetrain kinematics, its file format, and a simulated robot with measured parameters."""
 
 from math import pi
 
@@ -11,7 +11,7 @@ from tests.floor import floor
 UNEVEN = Drivetrain(Wheel(700.0, 0.05), Wheel(800.0, 0.10), 60.0, 0.05, 0.06)
 
 
-def test_a_robot_that_goes_straight_turns_both_wheels_alike():
+def test_driving_straight_gives_both_wheels_equal_shares():
     left, right = wheel_shares(NOMINAL, NOMINAL.left.speed / 2, 0.0)
     assert left == right == pytest.approx(0.5)
 
@@ -22,9 +22,9 @@ def test_turning_right_on_the_spot_needs_the_left_wheel_ahead():
     assert right == -left
 
 
-@pytest.mark.parametrize("asked", [(260.0, 0.0), (-120.0, 1.5), (0.0, -3.0), (300.0, 2.0), (1.0, 0.0), (0.0, 0.0)])
-def test_what_was_asked_is_what_comes_out_whatever_the_wheels_are_like(asked):
-    assert twist(UNEVEN, *wheel_shares(UNEVEN, *asked)) == pytest.approx(asked)
+@pytest.mark.parametrize("requested", [(260.0, 0.0), (-120.0, 1.5), (0.0, -3.0), (300.0, 2.0), (1.0, 0.0), (0.0, 0.0)])
+def test_twist_inverts_wheel_shares_for_any_wheels(requested):
+    assert twist(UNEVEN, *wheel_shares(UNEVEN, *requested)) == pytest.approx(requested)
 
 
 def test_below_the_deadband_a_wheel_stands_still():
@@ -32,20 +32,20 @@ def test_below_the_deadband_a_wheel_stands_still():
     assert twist(UNEVEN, 0.06, 0.0)[0] > 0.0
 
 
-def test_too_much_is_slowed_without_changing_the_bend():
+def test_excess_speed_is_scaled_down_without_changing_the_curvature():
     linear, angular = twist(UNEVEN, *wheel_shares(UNEVEN, 2000.0, 10.0))
     assert linear < 800.0
     assert linear / angular == pytest.approx(200.0)
 
 
-def test_a_file_brings_back_what_was_written():
+def test_a_written_file_is_parsed_to_the_same_robots():
     (one, other) = parse(to_toml([UNEVEN, NOMINAL]), "robots.toml")
     assert one == UNEVEN
     assert other.left.speed == pytest.approx(NOMINAL.left.speed, abs=0.01)
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "reason"),
     [
         ("", "robots.toml: robot: 0 robots"),
         ("robot = 3", "robot: must be written as [[robot]]"),
@@ -55,14 +55,14 @@ def test_a_file_brings_back_what_was_written():
         ("[[robot]", "robots.toml: syntax"),
     ],
 )
-def test_a_file_that_cannot_be_used_is_refused_in_one_line(text, said):
+def test_an_invalid_file_is_refused_in_one_line(text, reason):
     with pytest.raises(DrivetrainError, match=r"robots\.toml") as caught:
         parse(text, "robots.toml")
-    assert said in str(caught.value)
+    assert reason in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-def test_a_simulated_robot_answers_as_late_and_as_lazily_as_the_measured_one():
+def test_a_simulated_robot_has_the_measured_dead_time_and_lag():
     world = floor(poses=[(200.0, 300.0, 0.0), (200.0, 600.0, 0.0)])
     plant = SimPlant(world, [UNEVEN])
     late, own = world.robots[0], world.robots[1]
@@ -76,7 +76,7 @@ def test_a_simulated_robot_answers_as_late_and_as_lazily_as_the_measured_one():
     assert own.x - late.x == pytest.approx(200.0 * (0.06 + 0.05 - 0.08), abs=4.0)
 
 
-def test_a_robot_put_in_its_place_has_forgotten_what_it_was_told():
+def test_placing_a_robot_discards_its_pending_commands():
     world = floor(poses=[(200.0, 300.0, 0.0)])
     plant = SimPlant(world, [UNEVEN])
     for _ in range(3):

@@ -1,4 +1,4 @@
-"""Finding the way: round walls, to the goal, and harmlessly nowhere."""
+"""Path planning: around walls, to the goal, and without failure if there is no path."""
 
 from math import atan2, cos, hypot
 
@@ -24,7 +24,7 @@ def route(x, y):
 
 
 def follow(world, robot, to, seconds):
-    """Drive where the way leads; the seconds it took, or None."""
+    """Follow the route to its goal; returns the time in s, or None if it was not reached."""
     for tick in range(round(seconds * HZ)):
         update_route(world, to, robot.x, robot.y)
         bearing = turn_to(atan2(to.way_y - robot.y, to.way_x - robot.x) - robot.heading)

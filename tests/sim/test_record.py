@@ -1,4 +1,4 @@
-"""A state is declared once: the plain object and the NumPy record are the same bytes."""
+"""Records: the plain object and the NumPy record of a state have the same bytes."""
 
 from typing import Annotated
 
@@ -25,7 +25,7 @@ class Cart:
 
 
 def filled(kind, seed=1):
-    """A record with a different number in every place."""
+    """A record with a different number in every field."""
     state = kind()
 
     class Source:
@@ -46,7 +46,7 @@ def filled(kind, seed=1):
     return state
 
 
-def test_a_cart_takes_the_bytes_one_counts_by_hand():
+def test_a_cart_has_the_size_counted_by_hand():
     assert dtype(Cart).itemsize == 2 * (8 + 8) + 4 * 2 + 8
     cart = Cart()
     cart.wheels[1].turns, cart.marks[3], cart.load = 1, 2, 0.0
@@ -142,7 +142,7 @@ def test_a_packed_record_is_its_own_and_writable():
     assert rows[1]["load"] == 0.0
 
 
-def test_what_is_no_number_is_refused():
+def test_fields_that_are_not_numbers_are_refused():
     with pytest.raises(TypeError, match=r"name: .* is not float, int or a record"):
 
         @record

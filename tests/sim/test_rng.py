@@ -1,4 +1,4 @@
-"""Chance is a number in the match: the same number, the same luck."""
+"""The random generator: reproducible, uniform, and independent between neighbouring seeds."""
 
 from itertools import pairwise
 from types import SimpleNamespace

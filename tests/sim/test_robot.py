@@ -1,4 +1,4 @@
-"""How a robot drives, told in pixels and seconds."""
+"""Motion of a robot in px and s: speed, lag, turns, turbo."""
 
 from math import cos, exp, hypot, pi, sin
 
@@ -74,7 +74,7 @@ def test_turbo_meter_empties_in_2_s_and_fills_in_4_s():
         if not made.boosting:
             break
         burning += 1
-    assert burning in (2 * HZ - 1, 2 * HZ)  # the last drop may be lost to rounding
+    assert burning in (2 * HZ - 1, 2 * HZ)  # rounding may cost the last tick
     filling = 0
     while made.turbo < 1.0 and filling < 1000:
         use_turbo(made, 0, RULE_DRAIN, RULE_REFILL)

@@ -1,4 +1,4 @@
-"""Sweeps against an oracle that walks the way in small steps and measures distances."""
+"""Swept collision tests against an oracle that moves in small steps and measures distances."""
 
 from math import hypot
 
@@ -36,7 +36,7 @@ def from_segment(made, x, y):
 
 
 def check(t, gap, reach, way):
-    """`gap(t)` is the distance at a share of the way: t is the first contact, neither late nor early."""
+    """Assert that t is the time of first contact, where `gap(t)` is the distance at a fraction of the displacement."""
     if t == FAR:
         shares = [i / STEPS for i in range(STEPS + 1)]
         assert min(gap(share) for share in shares) >= reach - 1e-6

@@ -1,4 +1,4 @@
-"""The log: whole lines, also after the disk was full, and never a traceback on the screen."""
+"""The log: complete lines, even after a full disk, and never a traceback on the terminal."""
 
 import logging
 import os
@@ -41,7 +41,7 @@ def test_a_rotation_on_a_full_disk_keeps_the_log_before(tmp_path, capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_a_pipe_in_place_of_the_log_makes_nobody_wait(tmp_path):
+def test_a_pipe_in_place_of_the_log_does_not_block(tmp_path):
     os.mkfifo(tmp_path / FILE)
     with pytest.raises(OSError, match="not a file"):
         log_file(tmp_path)

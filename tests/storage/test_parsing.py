@@ -1,4 +1,4 @@
-"""Whatever stands in a file, reading it ends soon: with a value that can be checked, or with one short line."""
+"""Parsing of arbitrary files terminates quickly, with a value that can be validated or an error of one short line."""
 
 import os
 from math import inf
@@ -52,7 +52,7 @@ def test_the_limits_of_64_bits_stay_whole():
     assert parse_toml(f"a = {2**63 - 1}\nb = {-(2**63)}") == {"a": 2**63 - 1, "b": -(2**63)}
 
 
-def test_5000_digits_end_in_a_value_or_a_line():
+def test_5000_digits_give_a_value_or_an_error_of_one_line():
     assert parse_json("[" + "9" * 5000 + "]") == [inf]
     with pytest.raises(ParseError, match="too many digits"):
         parse_toml("a = " + "9" * 5000)

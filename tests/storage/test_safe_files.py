@@ -1,4 +1,4 @@
-"""A file is whole whenever anybody looks: after a full disk, a failed call of the system, or a kill at any moment."""
+"""A file is complete at any time: after a full disk, a failed system call, or a kill at any moment."""
 
 import os
 import random
@@ -103,7 +103,7 @@ def test_a_discarded_draft_leaves_nothing(tmp_path):
 
 
 @POSIX
-def test_a_killed_process_leaves_a_whole_file_and_what_it_began_is_swept(tmp_path):
+def test_a_killed_process_leaves_a_complete_file_and_its_temporary_file_is_deleted(tmp_path):
     path, chance = tmp_path / "file", random.Random(4)
     path.write_bytes(b"a" * 3_000_000)
     left = 0
@@ -121,7 +121,7 @@ def test_a_killed_process_leaves_a_whole_file_and_what_it_began_is_swept(tmp_pat
     assert left, "no kill came while a file was being written"
 
 
-def test_what_another_copy_is_writing_is_not_swept(tmp_path):
+def test_a_file_that_another_instance_is_writing_is_not_deleted(tmp_path):
     draft = AtomicFile(tmp_path / "file")
     draft.write(b"in the middle")
     delete_temporary_files(tmp_path)
@@ -129,7 +129,7 @@ def test_what_another_copy_is_writing_is_not_swept(tmp_path):
     assert content(tmp_path) == {"file": b"in the middle"}
 
 
-def test_what_version_1_3_0_left_behind_is_swept_and_nothing_else(tmp_path):
+def test_temporary_files_of_version_1_3_0_are_deleted_and_no_others(tmp_path):
     left = {".settings.toml-abcd_123", ".scores.toml.bak-aaaaaaaa", ".VOLT.npz-12345678", ".pigaming-0123abcd.tmp"}
     others = {"settings.toml", ".hidden", "pigaming-0123abcd.tmp", ".pigaming-notes.txt", "a.toml-12345678"}
     for name in left | others:
@@ -163,7 +163,7 @@ def test_devices_and_pipes_are_never_replaced(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["x" * 256, "a\0b", "no/such/folder"])
-def test_a_name_that_no_file_can_have_is_said_in_one_line(tmp_path, name):
+def test_an_invalid_file_name_is_an_error_of_one_line(tmp_path, name):
     with pytest.raises(NotSaved) as refused:
         require_writable(tmp_path / name)
     assert str(refused.value).isprintable()

@@ -1,4 +1,4 @@
-"""Settings survive pulled plugs, broken files and full disks; what is wrong in them is said, and costs only itself."""
+"""Settings survive power cuts, broken files and full disks; an invalid entry is reported and affects no other."""
 
 import errno
 import os
@@ -12,11 +12,11 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import FILE, Choice, Settings, folders
 
 
-def test_without_a_file_there_are_defaults_and_nothing_is_said(tmp_path):
+def test_without_a_file_there_are_defaults_and_no_messages(tmp_path):
     assert Settings.load(tmp_path / "new") == (Settings(), [])
 
 
-def test_what_is_saved_comes_back(tmp_path):
+def test_saved_settings_are_loaded_again(tmp_path):
     changed = Settings(language="pt", music=0, shake=False, attract_seconds=90.0)
     changed.choice("race").goal = 5
     changed.choice("pitanks").arena = "islands"
@@ -30,14 +30,14 @@ def test_the_version_before_stays_beside_it(tmp_path):
     assert tomllib.loads((tmp_path / f"{FILE}.bak").read_text())["music"] == 1
 
 
-def test_a_broken_file_is_kept_aside_and_said_once(tmp_path):
+def test_a_broken_file_is_set_aside_and_reported_once(tmp_path):
     (tmp_path / FILE).write_text("language = \n")
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     (aside,) = tmp_path.glob(f"{FILE}.broken-*")
     assert settings == Settings()
     assert aside.read_text() == "language = \n"
-    assert len(said) == 1
-    assert all(part in said[0] for part in (str(tmp_path / FILE), "line 1", aside.name))
+    assert len(problems) == 1
+    assert all(part in problems[0] for part in (str(tmp_path / FILE), "line 1", aside.name))
     assert Settings.load(tmp_path) == (Settings(), [])
 
 
@@ -45,10 +45,10 @@ def test_the_one_before_serves_when_the_last_is_broken(tmp_path):
     Settings(language="pt").save(tmp_path)
     Settings(language="pt").save(tmp_path)
     (tmp_path / FILE).write_bytes(b"\xff\x00")
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     assert settings.language == "pt"
-    assert "it is not text in UTF-8" in said[0]
-    assert said[0].endswith("the version before it is back.")
+    assert "it is not text in UTF-8" in problems[0]
+    assert problems[0].endswith("the version before it is back.")
     assert Settings.load(tmp_path) == (settings, [])
 
 
@@ -76,19 +76,19 @@ def test_notepad_may_have_edited_it(tmp_path):
         ("loudness = 3", "loudness is not a setting; it is ignored"),
     ],
 )
-def test_a_wrong_line_is_named_and_costs_only_itself(tmp_path, line, reason):
+def test_an_invalid_line_is_reported_and_affects_no_other(tmp_path, line, reason):
     (tmp_path / FILE).write_text(f"sounds = 1\n{line}\n")
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     assert settings == replace(Settings(), sounds=1, games=settings.games)
     assert all(choice == Choice() for choice in settings.games.values())
-    assert said == [f"{tmp_path / FILE}: {reason}."]
+    assert problems == [f"{tmp_path / FILE}: {reason}."]
 
 
-def test_what_an_older_arcade_kept_goes_to_its_only_game(tmp_path):
+def test_legacy_settings_go_to_the_only_game_of_that_time(tmp_path):
     (tmp_path / FILE).write_text('arena = "islands"\nminutes = 3\nvariant = "plain"\n')
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     assert settings.choice("pitanks") == Choice("islands", 3, "plain")
-    assert said == []
+    assert problems == []
 
 
 def test_a_whole_number_will_do_for_seconds(tmp_path):
@@ -131,7 +131,7 @@ def test_a_plug_pulled_before_the_last_step_leaves_the_old_file(tmp_path, monkey
     assert Settings.load(tmp_path) == (Settings(music=1), [])
 
 
-def test_a_file_in_place_of_the_folder_is_said_and_harmed_by_nothing(tmp_path):
+def test_a_file_in_place_of_the_folder_is_reported_and_unchanged(tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(NotSaved):
         Settings().save(tmp_path / "file")
@@ -169,12 +169,12 @@ def test_without_it_they_are_the_platforms_own(monkeypatch):
         ("mat = 1", "neither true nor false"),
     ],
 )
-def test_what_is_wrong_about_camera_and_radio_is_named(tmp_path, line, reason):
+def test_invalid_camera_and_radio_settings_are_reported(tmp_path, line, reason):
     (tmp_path / FILE).write_text(line + "\n")
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     assert settings == Settings()
-    assert len(said) == 1
-    assert reason in said[0]
+    assert len(problems) == 1
+    assert reason in problems[0]
 
 
 def test_the_robots_and_their_radios_are_kept(tmp_path):
@@ -183,7 +183,7 @@ def test_the_robots_and_their_radios_are_kept(tmp_path):
     assert Settings.load(tmp_path) == (chosen, [])
 
 
-def test_choosing_what_does_not_fit_says_why_and_changes_nothing():
+def test_choosing_an_invalid_value_raises_the_reason_and_changes_nothing():
     settings = Settings()
     with pytest.raises(ValueError, match="baud = 7 is not between 1200 and 921600"):
         settings.choose("baud", 7)

@@ -1,4 +1,4 @@
-"""Several arcades on one folder: each writes only the settings that it has changed itself."""
+"""Several instances share a folder: each writes only the settings that it has changed."""
 
 import subprocess
 import sys
@@ -26,15 +26,15 @@ for value in [*range(9), int(sys.argv[3])]:
 """
 
 
-def test_what_two_copies_change_is_kept(tmp_path, caplog):
+def test_changes_of_two_instances_are_merged(tmp_path, caplog):
     Settings().save(tmp_path)
     one, other = Settings.load(tmp_path)[0], Settings.load(tmp_path)[0]
     one.language, one.choice("race").goal = "pt", 5
     other.music, other.choice("race").arena = 2, "kidney"
     one.save(tmp_path)
     other.save(tmp_path)
-    kept, said = Settings.load(tmp_path)
-    assert not said
+    kept, problems = Settings.load(tmp_path)
+    assert not problems
     assert (kept.language, kept.music, kept.choice("race")) == ("pt", 2, Choice("kidney", goal=5))
     expected = "settings of another copy of the arcade kept: language, games.race.goal."
     assert [record.message for record in caplog.records] == [expected]
@@ -50,7 +50,7 @@ def test_looking_at_a_game_changes_nothing_that_another_copy_chose(tmp_path):
     assert Settings.load(tmp_path)[0].choice("race").arena == "kidney"
 
 
-def test_of_two_choices_the_later_one_holds_and_the_log_names_it(tmp_path, caplog):
+def test_the_later_of_two_choices_wins_and_is_logged(tmp_path, caplog):
     one, other = Settings.load(tmp_path)[0], Settings.load(tmp_path)[0]
     one.music, other.music = 1, 2
     one.save(tmp_path)
@@ -68,7 +68,7 @@ def test_copies_in_any_order_keep_the_last_saved_choice_of_every_setting(tmp_pat
     folder = tmp_path_factory.mktemp("shared")
     copies = [Settings.load(folder)[0] for _ in range(3)]
     there = {"music": 6, "sounds": 8, "goal": 0}
-    known = [dict(there) for _ in copies]  # as each copy loaded or saved it last
+    known = [dict(there) for _ in copies]  # as each instance last loaded or saved it
     mine = [dict(there) for _ in copies]
     for copy, name, value in [*story, *((copy, "save", 0) for copy in range(3))]:
         settings = copies[copy]
@@ -90,8 +90,8 @@ def test_parallel_processes_keep_the_choices_of_all(tmp_path):
         for name, value in wanted.items()
     ]
     assert [copy.wait() for copy in copies] == [0, 0, 0]
-    kept, said = Settings.load(tmp_path)
-    assert not said
+    kept, problems = Settings.load(tmp_path)
+    assert not problems
     assert {name: getattr(kept, name) for name in wanted} == wanted
     assert {name: kept.choice(name).minutes for name in wanted} == wanted
     assert kept.choice("race").goal == 7
@@ -122,13 +122,13 @@ def test_parallel_processes_keep_the_choices_of_all(tmp_path):
         "[[games.race]]\ngoal = 3",
     ],
 )
-def test_an_odd_line_is_named_in_one_line_and_costs_only_itself(tmp_path, line):
+def test_an_odd_line_is_reported_in_one_line_and_affects_no_other(tmp_path, line):
     (tmp_path / FILE).write_text(f"sounds = 1\n{line}\n")
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     assert settings.sounds == 1
-    assert len(said) == 1
-    assert "\n" not in said[0]
-    assert len(said[0]) < 400
+    assert len(problems) == 1
+    assert "\n" not in problems[0]
+    assert len(problems[0]) < 400
     settings.save(tmp_path)
     assert Settings.load(tmp_path) == (settings, [])
 
@@ -139,17 +139,17 @@ def test_an_odd_line_is_named_in_one_line_and_costs_only_itself(tmp_path, line):
 )
 def test_an_unreadable_file_is_put_aside(tmp_path, text):
     (tmp_path / FILE).write_text(text)
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     assert settings == Settings()
-    assert len(said) == 1
+    assert len(problems) == 1
     assert list(tmp_path.glob(f"{FILE}.broken-*"))
 
 
 def test_thousands_of_odd_lines_are_summed_up(tmp_path):
     lines = [f"key{i} = {i}" for i in range(3000)] + [f"[games.game{i}]\ngoal = 3" for i in range(3000)]
     (tmp_path / FILE).write_text("sounds = 1\n" + "\n".join(lines))
-    settings, said = Settings.load(tmp_path)
+    settings, problems = Settings.load(tmp_path)
     assert settings.sounds == 1
     assert len(settings.games) == MAX_GAMES
-    assert len(said) == MAX_MESSAGES + 1
-    assert said[-1].endswith(f"{6000 - MAX_GAMES - MAX_MESSAGES} more lines are wrong; they are ignored.")
+    assert len(problems) == MAX_MESSAGES + 1
+    assert problems[-1].endswith(f"{6000 - MAX_GAMES - MAX_MESSAGES} more lines are wrong; they are ignored.")

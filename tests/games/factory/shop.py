@@ -1,4 +1,4 @@
-"""A factory whose robots stand where a test puts them, and what a test does with them."""
+"""A match of Robot Factory whose robots are placed by a test, with helpers for forks and pallets."""
 
 from math import cos, sin
 
@@ -28,32 +28,32 @@ class Shop:
             self.match.tick()
 
     def own(self, team):
-        """The pallets of a team that take part."""
+        """The pallets of a team that exist in the match."""
         return [p for p in range(team * MOST_PALLETS, (team + 1) * MOST_PALLETS) if self.pallets[p].exists]
 
     def slot(self, kind, team=-1, machine=-1, which=0):
-        """The number of a slot: of a team's entry or exit, or of a machine's input or output."""
+        """Index of a slot: of a team's entry or exit, or of a machine's input or output."""
         them = [s for s, one in enumerate(self.slots) if (one.kind, one.team, one.machine) == (kind, team, machine)]
         return them[which]
 
     def input_of(self, makes, which=0):
-        """The input slot of a machine of that kind."""
+        """The input slot of a machine of a kind."""
         them = [m for m, machine in enumerate(self.state.machines) if machine.kind == makes]
         return self.slot(INPUT, machine=them[which])
 
     def output_of(self, makes, which=0):
-        """The output slot of a machine of that kind."""
+        """The output slot of a machine of a kind."""
         them = [m for m, machine in enumerate(self.state.machines) if machine.kind == makes]
         return self.slot(OUTPUT, machine=them[which])
 
     def stand(self, seat, s, off=0.0, heading=0.0):
-        """The robot's fork is `off` px beside slot s from the next tick on."""
+        """Put the robot so that its fork is `off` px from slot s, from the next tick on."""
         fork, slot = self.state.rules.fork, self.slots[s]
         x, y = slot.x - fork * cos(heading), slot.y + off - fork * sin(heading)
         self.rails.poses[seat] = (x, y, heading)
 
     def press(self, seat, s, off=0.0):
-        """Drive to a slot, press fire for two ticks, let go; whether that did anything."""
+        """Go to a slot, press fire for two ticks, release. True if that had an effect."""
         before = self.loads[seat].pallet
         self.stand(seat, s, off)
         self.match.brains[seat].fire = 1
@@ -63,14 +63,14 @@ class Shop:
         return self.loads[seat].pallet != before
 
     def carry(self, seat, s, t):
-        """Lift what lies in slot s and put it into slot t; the number of that pallet."""
+        """Lift the pallet in slot s and put it into slot t; returns its index."""
         p = self.slots[s].pallet - 1
         assert self.press(seat, s), f"nothing to lift in slot {s}"
         assert self.press(seat, t), f"slot {t} does not take it"
         return p
 
     def give(self, p, state, s):
-        """Pallet p lies in slot s in some state, as if it had been brought there."""
+        """Put pallet p into slot s, in a state, as if it had been brought there."""
         pallet = self.pallets[p]
         if pallet.place == IN_SLOT:
             self.slots[pallet.at].pallet = 0
@@ -78,7 +78,7 @@ class Shop:
         self.slots[s].pallet = p + 1
 
     def until(self, happened, seconds=60.0):
-        """Tick until something has happened; the number of ticks."""
+        """Tick until a condition holds; returns the number of ticks."""
         for k in range(round(seconds * 50)):
             if happened():
                 return k
@@ -87,7 +87,7 @@ class Shop:
 
 
 class Fire:
-    """Stands still and holds fire, or not."""
+    """A brain that stands still, with or without fire pressed."""
 
     fire = 0
 

@@ -1,4 +1,4 @@
-"""Floors: files that are refused in one line that says what and where, and what holds for those that are not."""
+"""Floors: invalid files are refused with key and reason; properties of the valid ones."""
 
 from math import hypot
 
@@ -21,7 +21,7 @@ WORKER = "[[worker]]\nat = [720, 450]\n"
 
 
 def broken(old, new):
-    """A good file with one thing changed, the first time that it is there."""
+    """A valid file with the first occurrence of `old` replaced."""
     source = (ASSETS / "arenas" / "factory" / "hall.toml").read_text(encoding="utf-8")
     assert old in source
     return source.replace(old, new, 1)
@@ -129,7 +129,7 @@ def test_people_get_from_home_to_every_machine_and_back(floor):
 
 @pytest.mark.parametrize("floor", FLOORS)
 def test_both_teams_have_the_same_ways(floor):
-    """Turned or mirrored, a floor looks the same to both: no side is the shorter one."""
+    """Rotated or mirrored, a floor is the same for both teams: neither has shorter ways."""
     arena = load("factory", floor)
     ice, fire = arena.plan.slots[:8], arena.plan.slots[8:16]
     kinds = [machine.kind for machine in arena.plan.machines]

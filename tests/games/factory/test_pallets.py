@@ -1,4 +1,4 @@
-"""Pallets: whatever anybody does, none is lost, doubled, in two places, or carried by the others."""
+"""Pallets: none is ever lost, duplicated, in two places, or carried by the other team."""
 
 from random import Random
 
@@ -46,7 +46,7 @@ PAIRS, TWO = ("hard", "random", "normal", "easy"), ("hard", "easy", "off", "off"
 
 
 class Watch:
-    """Looks at all pallets of a match after every tick."""
+    """Checks the invariants of all pallets of a match after every tick."""
 
     def __init__(self, state):
         self.state = state
@@ -56,7 +56,7 @@ class Watch:
         self.seen = set()
 
     def look(self):
-        """Every promise about pallets holds right now, and since the last look."""
+        """Assert the invariants of all pallets, now and in comparison with the last check."""
         state = self.state
         assert [p for p, pallet in enumerate(state.pallets) if pallet.exists] == self.there
         assert [state.pallets[p].team for p in self.there] == self.teams
@@ -68,13 +68,13 @@ class Watch:
             assert state.delivered[team] == len(out)
 
     def shown(self, p):
-        """Whether something holds pallet p."""
+        """True if any place holds pallet p."""
         place = self.state.pallets[p].place
         assert place in (IN_SLOT, ON_ROBOT, IN_MACHINE, BY_WORKER, WAITING, SHIPPED)
         return place not in (WAITING, SHIPPED)
 
     def held(self):
-        """Where each pallet is, told by what holds it."""
+        """The location of each pallet, from the contents of all places."""
         state, where = self.state, {}
         for place, holders in (
             (IN_SLOT, state.slots),
@@ -89,7 +89,7 @@ class Watch:
         return where
 
     def look_at(self, p):
-        """A pallet is where its state and team allow, and has not changed but as it may."""
+        """Assert that a pallet's location is valid for its state and team, and that its change of state is legal."""
         pallet = self.state.pallets[p]
         if pallet.state != self.before[p]:
             step = self.before[p], pallet.state
@@ -115,7 +115,7 @@ class Watch:
 @pytest.mark.parametrize("brains", [PAIRS, TWO])
 @pytest.mark.parametrize("pallets", one_in(3, [5, 2, 8]))
 @pytest.mark.parametrize("floor", FLOORS)
-def test_pallets_keep_their_promises_while_drivers_of_all_kinds_play(floor, pallets, brains):
+def test_invariants_hold_while_drivers_of_all_kinds_play(floor, pallets, brains):
     one, two, three, four = (Seat(brain, i % 2) for i, brain in enumerate(brains))
     match = Match(Setup("factory", floor, (one, two, three, four), 5.0, pallets, "standard", pallets))
     for seat, brain in enumerate(brains):
@@ -130,7 +130,7 @@ def test_pallets_keep_their_promises_while_drivers_of_all_kinds_play(floor, pall
 
 
 def likely(shop, seat, chance):
-    """A slot at which there is something to do for a robot: mostly the right one, at times a wrong machine, or any."""
+    """A slot at which a robot can act: usually the right one, sometimes a wrong machine or any slot."""
     load = shop.loads[seat]
     luck = chance.random()
     if luck < 0.15:
@@ -140,14 +140,14 @@ def likely(shop, seat, chance):
         return chance.choice([s for s in full if shop.slots[s].kind == OUTPUT] or full or [0])
     state = shop.pallets[load.pallet - 1].state
     free = [s for s, slot in enumerate(shop.slots) if slot.kind == INPUT and not slot.pallet]
-    if free and luck < (0.6 if state == DONE else 0.25):  # few are ever done, so that these go astray more often
+    if free and luck < (0.6 if state == DONE else 0.25):  # few pallets are ever done, so these go astray more often
         return chance.choice(free)
     exit_slot = shop.slot(EXIT, seat % 2, -1, chance.randrange(4))
     return {RAW: shop.input_of(A), HALF: shop.input_of(B), DONE: exit_slot}.get(state, 0)
 
 
 def jump(shop, present, chance, seconds):
-    """Robots jump from slot to slot and press fire, watched; all changes of state that were seen."""
+    """Robots jump from slot to slot and press fire, with checks; returns all changes of state that occurred."""
     watch = Watch(shop.state)
     for _ in range(seconds * HZ):
         for seat in present:
@@ -164,13 +164,13 @@ def jump(shop, present, chance, seconds):
 @pytest.mark.parametrize("present", [(0, 1, 2, 3), (0, 1)])
 @pytest.mark.parametrize("pallets", one_in(3, range(2, 9)))
 @pytest.mark.parametrize("floor", FLOORS)
-def test_pallets_keep_their_promises_while_robots_jump_from_slot_to_slot_and_press_fire(floor, pallets, present):
-    """Whatever can be lifted and put anywhere soon is, right or wrong."""
+def test_invariants_hold_while_robots_jump_from_slot_to_slot_and_press_fire(floor, pallets, present):
+    """Within a short time every permitted lift and drop occurs, right or wrong."""
     seen = jump(Shop(floor, pallets, present), present, Random(f"{floor} {pallets} {present}"), 40)
     assert (RAW, HALF) in seen
 
 
-def test_all_that_can_become_of_a_pallet_does_so_while_robots_jump():
-    """The test above would be worth little if some of the ways were never gone."""
+def test_every_change_of_state_occurs_while_robots_jump():
+    """Otherwise the test above would not cover some of them."""
     chance = Random(5)
     assert set().union(*(jump(Shop("hall", 8, seed=k), range(4), chance, 60) for k in range(16))) == STEPS

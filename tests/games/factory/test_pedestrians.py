@@ -1,4 +1,4 @@
-"""People who walk: round walls and robots, never into either, and there in the time that their pace allows."""
+"""Pedestrians walk around walls and robots, never into either, and arrive within the time that their speed permits."""
 
 from math import cos, hypot, pi, sin
 from random import Random
@@ -24,7 +24,7 @@ BOX = [*U, (600.0, 650.0, 600.0, 250.0)]
 
 @record
 class Walker:
-    """The least that walks."""
+    """A minimal walker."""
 
     x: float
     y: float
@@ -38,13 +38,13 @@ class Walker:
 
 @record
 class Yard(World):
-    """The least on which people walk."""
+    """A minimal world for walkers."""
 
     motions: Annotated[list[Motion], ROBOTS]
 
 
 def floor(walls=(), poses=()):
-    """A floor on which the robots of `poses` are present and stand."""
+    """A world with robots at rest at `poses`."""
     world = Yard()
     build(world, arena(walls, poses))
     for robot, motion in zip(world.robots, world.motions, strict=True):
@@ -54,7 +54,7 @@ def floor(walls=(), poses=()):
 
 
 def drive_on(world, ticks=1):
-    """The first robot drives straight on at its motors' speed, whatever is in its way; it is watched."""
+    """The first robot drives straight on at its motors' speed, through any obstacle; its motion is tracked."""
     robot = world.robots[0]
     for _ in range(ticks):
         robot.x += DT * robot.linear * cos(robot.heading)
@@ -63,7 +63,7 @@ def drive_on(world, ticks=1):
 
 
 def at_speed(world, speed):
-    """The first robot has driven at that speed for a second when it comes to where it stands."""
+    """Let the first robot arrive at its pose after a second of driving at a speed."""
     robot = world.robots[0]
     robot.linear = speed
     robot.x -= speed * cos(robot.heading)
@@ -79,7 +79,7 @@ def walker(x, y, to):
 
 
 def go(world, who, seconds):
-    """Walk for so long at most, watched; the s it took, or None."""
+    """Walk for at most `seconds`, with checks; returns the time in s, or None if the goal was not reached."""
     for tick in range(round(seconds * HZ)):
         x, y = who.x, who.y
         there = walk(world, who, PACE, GIRTH)
@@ -99,7 +99,7 @@ def far_off(who):
 
 
 def test_it_walks_straight_where_nothing_is_in_the_way_and_stays_there():
-    """300 px less the 6 px that count as there, at 130 px/s."""
+    """300 px, less the 6 px within which it has arrived, at 130 px/s."""
     who = walker(200.0, 450.0, (500.0, 450.0))
     assert go(floor(), who, 5.0) == pytest.approx((300.0 - THERE) / PACE, abs=2 * DT)
     assert who.y == 450.0
@@ -158,7 +158,7 @@ def test_it_gets_from_anywhere_to_anywhere(place):
         assert far_off(who) < THERE
 
 
-def test_where_no_way_leads_it_comes_to_no_harm_and_never_claims_to_be_there():
+def test_an_unreachable_goal_is_never_reported_as_reached():
     who = walker(200.0, 450.0, (800.0, 450.0))
     assert go(floor(walls=BOX), who, 20.0) is None
     assert far_off(who) > 200.0 - 15.0
@@ -193,7 +193,7 @@ def test_robots_that_are_not_there_are_in_nobodys_way():
 
 
 def crossing(world, who, seconds):
-    """The first robot drives straight on while somebody walks; (s, or None, until there; least px between them)."""
+    """The first robot drives straight on while a person walks; (s to the goal or None, least distance in px)."""
     robot, least = world.robots[0], 1e9
     for tick in range(round(seconds * HZ)):
         if walk(world, who, PACE, GIRTH):
@@ -226,7 +226,7 @@ def test_it_does_not_wait_for_a_robot_that_drives_away():
 
 
 def test_it_steps_out_of_the_way_of_what_has_come_too_near():
-    """A robot has been pushed against it: what leads away from the robot is free."""
+    """A robot has been pushed against it: steps away from the robot are free."""
     world = floor(poses=[(800.0, 450.0, 0.0)])
     who = walker(850.0, 450.0, (1100.0, 450.0))
     assert go(world, who, 4.0) is not None
@@ -234,7 +234,7 @@ def test_it_steps_out_of_the_way_of_what_has_come_too_near():
 
 
 def test_it_never_walks_into_a_robot_wherever_robots_stand():
-    """Four robots at a time, on floors with and without walls: whoever moves does not come nearer than allowed."""
+    """Four robots at a time, on floors with and without walls: no moving walker violates the clearance."""
     chance, arrived = Random(7), 0
     for trial in range(20):
         walls = U if trial % 2 else ()
@@ -254,8 +254,8 @@ def test_it_never_walks_into_a_robot_wherever_robots_stand():
 
 
 @pytest.mark.parametrize("off", [0.0, 40.0])
-def test_where_somebody_stands_on_the_goal_it_comes_as_near_as_it_can_and_is_there(off):
-    """Else whoever parks where people work would stop the work for good."""
+def test_with_a_robot_on_the_goal_it_arrives_as_near_as_it_can(off):
+    """Otherwise a robot parked on a worker's spot would block the work forever."""
     world = floor(poses=[(1000.0 + off, 450.0, 0.0)])
     who = walker(600.0, 450.0, (1000.0, 450.0))
     assert go(world, who, 10.0) is not None
@@ -282,7 +282,7 @@ def test_a_robot_whose_motors_turn_but_that_stays_where_it_is_is_passed_like_one
 
 
 def test_a_stick_to_and_fro_twelve_times_a_second_is_no_driving():
-    """The robot moves, by 3 px, and gets nowhere."""
+    """The robot oscillates by 3 px."""
     world = floor(poses=[(800.0, 450.0, 0.0)])
     who = walker(500.0, 450.0, (800.0, 450.0))
     robot = world.robots[0]
@@ -295,7 +295,7 @@ def test_a_stick_to_and_fro_twelve_times_a_second_is_no_driving():
 
 
 def test_a_robot_that_is_pushed_sideways_is_waited_for():
-    """Its motors stand, and it moves all the same."""
+    """It moves although its motors are at rest."""
     world = floor(poses=[(800.0, 450.0, 0.0)])
     robot, motion = world.robots[0], world.motions[0]
     for _ in range(HZ):
@@ -328,8 +328,8 @@ def test_what_is_carried_off_has_not_driven():
 
 
 @pytest.mark.parametrize("walls", [(), U])
-def test_who_gets_on_is_not_held_up_and_who_is_shut_in_is(walls):
-    """On a detour the way to go counts, not the distance: in a U it first gets farther from its goal."""
+def test_a_walker_on_a_detour_is_not_held_up_and_an_enclosed_one_is(walls):
+    """Progress is measured by path length, not distance: in a U it first moves away from its goal."""
     world = floor(walls)
     who = walker(900.0, 450.0, (1200.0, 450.0))
     longest = 0
@@ -349,7 +349,7 @@ def test_who_gets_on_is_not_held_up_and_who_is_shut_in_is(walls):
 
 @pytest.mark.parametrize("y", [70.0, 830.0])
 @pytest.mark.parametrize("x", [600.0, 1000.0])
-def test_where_a_wall_ends_one_side_it_goes_round_on_the_other(x, y):
+def test_with_one_side_blocked_by_a_wall_it_uses_the_other(x, y):
     world = floor(poses=[(800.0, y, 0.0)])
     assert go(world, walker(x, y, (1600.0 - x, y)), 15.0) is not None
 

@@ -1,4 +1,4 @@
-"""Robot Factory, rule by rule: forks, machines and people, damage, contact, deliveries, and how it ends."""
+"""Robot Factory, rule by rule: forks, machines and people, damage, contact, deliveries, end of the match."""
 
 from math import hypot, pi
 
@@ -121,8 +121,8 @@ def test_a_full_slot_within_reach_gives_way_to_a_free_one():
 
 
 @pytest.mark.parametrize("state", [RAW, HALF, DONE, DAMAGED])
-def test_what_takes_what(state):
-    """Own entry: all. Own exit: only what is done. Inputs: all, at the driver's risk. Outputs and the others': none."""
+def test_slots_accept_pallets_by_kind_and_state(state):
+    """Own entry: any. Own exit: only done. Inputs: any, at the driver's risk. Outputs and other team's slots: none."""
     shop = Shop()
     shop.press(0, entry(shop, ICE))
     p = shop.loads[0].pallet - 1
@@ -151,7 +151,7 @@ def test_nothing_is_set_down_on_the_floor_or_on_another_pallet():
     assert shop.loads[0].pallet
 
 
-def test_a_press_that_can_do_nothing_is_counted_from_then_on_until_one_can():
+def test_ticks_are_counted_from_a_press_without_effect_to_one_with_effect():
     shop = Shop()
     load = shop.loads[0]
     assert load.refused == 0
@@ -239,7 +239,7 @@ def test_without_people_no_machine_works():
     shop.until(lambda: shop.pallets[p].state == HALF, 20.0)
 
 
-def test_work_is_credited_to_who_has_put_the_pallet_in():
+def test_work_is_credited_to_the_robot_that_fed_the_machine():
     shop = Shop()
     shop.carry(2, entry(shop, ICE), shop.input_of(A))
     shop.until(lambda: shop.slots[shop.output_of(A)].pallet)
@@ -336,7 +336,7 @@ def test_a_worker_who_has_nothing_to_do_goes_home():
 @pytest.mark.parametrize("makes", [A, B])
 @pytest.mark.parametrize("team", [ICE, FIRE])
 def test_after_twenty_seconds_a_worker_carries_it_to_its_owners_entry(team, makes):
-    """The same pallet, in the state it had, on a free slot there; then the machine is free for anybody."""
+    """The same pallet, with its state, on a free slot there; the machine is then free."""
     shop = Shop()
     state, out = (HALF, DONE)[makes], shop.output_of(makes)
     p = shop.own(team)[0]
@@ -378,8 +378,8 @@ def test_an_owner_who_comes_in_time_sends_the_worker_home():
     assert shop.loads[0].pallet == p + 1
 
 
-def test_who_is_blocked_by_a_finished_pallet_gets_on_after_a_while():
-    """FIRE leaves its half-done pallet in a machine; ICE's raw one waits behind it, and is worked on in the end."""
+def test_a_pallet_behind_an_uncollected_one_is_processed_eventually():
+    """FIRE leaves its half-done pallet in a machine; ICE's raw one waits behind it until the output is cleared."""
     shop = Shop()
     shop.give(shop.own(FIRE)[0], HALF, shop.output_of(A))
     p = shop.carry(0, entry(shop, ICE), shop.input_of(A))
@@ -473,7 +473,7 @@ def test_its_replacement_can_be_delivered_like_any_other():
 
 
 def bump(shop, seat=0, w=1, speed=200.0, gap=0.0):
-    """The robot is `gap` px from the middle of a worker, at a speed, for one tick."""
+    """Put the robot `gap` px from a worker's centre, at a speed, for one tick."""
     worker = shop.state.workers[w]
     shop.rails.poses[seat] = (worker.x, worker.y + gap, 0.0)
     shop.state.robots[seat].linear = speed
@@ -481,7 +481,7 @@ def bump(shop, seat=0, w=1, speed=200.0, gap=0.0):
 
 
 @pytest.mark.parametrize("speed", [200.0, -200.0])
-def test_who_drives_over_somebody_stands_still_for_three_seconds(speed):
+def test_driving_over_a_person_freezes_for_three_seconds(speed):
     shop = Shop()
     shop.match.brains[0] = Stick()
     worker = shop.state.workers[1]
@@ -498,7 +498,7 @@ def test_who_drives_over_somebody_stands_still_for_three_seconds(speed):
 
 
 @pytest.mark.parametrize(("speed", "gap"), [(200.0, RADIUS + 21.0), (19.0, 40.0), (-19.0, 40.0), (0.0, 0.0)])
-def test_who_passes_by_or_hardly_moves_drives_over_nobody(speed, gap):
+def test_passing_by_or_hardly_moving_does_not_count(speed, gap):
     shop = Shop()
     bump(shop, speed=speed, gap=gap)
     assert (shop.loads[0].hits, shop.loads[0].frozen) == (0, 0)
@@ -519,7 +519,7 @@ def test_it_counts_once_for_each_contact():
     assert shop.loads[0].frozen == 3 * HZ
 
 
-def test_each_robot_and_each_person_is_a_contact_of_its_own():
+def test_each_pair_of_robot_and_person_counts_separately():
     shop = Shop()
     bump(shop, seat=0, w=1, gap=50.0)
     bump(shop, seat=3, w=1, gap=50.0)
@@ -539,7 +539,7 @@ def test_a_frozen_robot_lifts_nothing_and_keeps_what_it_carries():
     assert shop.press(0, entry(shop, ICE))
 
 
-def test_who_is_driven_over_at_work_goes_on_working():
+def test_a_worker_who_is_driven_over_continues_working():
     shop = Shop()
     p = shop.carry(0, entry(shop, ICE), shop.input_of(A))
     shop.until(lambda: shop.pallets[p].place == IN_MACHINE)
@@ -550,7 +550,7 @@ def test_who_is_driven_over_at_work_goes_on_working():
 
 
 class Stick:
-    """Full ahead."""
+    """A brain at full speed ahead."""
 
     def think(self, state, seat):
         action = state.actions[seat]
@@ -576,7 +576,7 @@ def test_stick_and_turbo_ask_for_the_speeds_of_the_rules():
 
 
 def deliver(shop, seat, which=0):
-    """Bring one pallet of the seat's team to its exit, as if it were done; the number of that pallet."""
+    """Bring a pallet of the seat's team, set to done, to its exit; returns its index."""
     team = seat % 2
     p = next(p for p in shop.own(team) if shop.pallets[p].state == RAW and shop.pallets[p].place == IN_SLOT)
     assert shop.press(seat, shop.pallets[p].at)
@@ -610,7 +610,7 @@ def test_the_fifth_delivery_finds_room_since_the_oldest_drives_off():
 
 
 @pytest.mark.parametrize("pallets", range(2, 9))
-def test_whoever_has_delivered_everything_wins_at_once(pallets):
+def test_the_first_team_to_deliver_everything_wins_at_once(pallets):
     shop = Shop(pallets=pallets)
     assert len(shop.own(ICE)) == len(shop.own(FIRE)) == pallets
     for k in range(pallets):
@@ -633,7 +633,7 @@ def test_whoever_has_delivered_everything_wins_at_once(pallets):
 @pytest.mark.parametrize("seats", [(0, 1), (2, 1), (0, 3), (3, 2)])
 @pytest.mark.parametrize("last", [False, True])
 def test_two_teams_that_finish_on_the_same_tick_tie(seats, work, last):
-    """Whoever sits first, whoever has had more work done, and on the last tick of the match too."""
+    """Independent of seats and of work done, and also on the last tick of the match."""
     shop = Shop(pallets=2)
     for seat, steps in zip(seats, work, strict=True):
         deliver(shop, seat)
@@ -657,7 +657,7 @@ def test_two_teams_that_finish_on_the_same_tick_tie(seats, work, last):
 
 @pytest.mark.parametrize("first", [0, 1])
 def test_a_tick_earlier_is_a_win_whatever_the_others_have_done(first):
-    """Both have one pallet left on the fork; the others have had far more work done."""
+    """Both have their last pallet on the fork; the other team has had far more work done."""
     shop = Shop(pallets=2)
     for seat in (0, 1):
         deliver(shop, seat)
@@ -723,14 +723,14 @@ def test_pallets_above_four_come_onto_the_entry_as_its_slots_get_free():
     assert not shop.slots[entry(shop, ICE, 0)].pallet, "none are left"
 
 
-def test_four_pallets_a_team_if_nobody_says_otherwise():
+def test_the_default_is_four_pallets_per_team():
     assert len(Shop(pallets=0).own(ICE)) == FACTORY.default_goal == 4
     assert tuple(FACTORY.goals) == tuple(range(2, 9))
 
 
 @pytest.mark.parametrize("seats", [(0, 1), (0, 3), (2, 1), (2, 3)])
 def test_one_against_one(seats):
-    """The other two robots are not there, and nobody misses them."""
+    """The match works without the other two robots."""
     shop = Shop(present=seats, pallets=2)
     ice, fire = seats
     p = shop.carry(ice, entry(shop, ICE), shop.input_of(A))

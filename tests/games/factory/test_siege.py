@@ -1,4 +1,4 @@
-"""A robot that leans on a machine, parks in its slots or on its worker's place does not stop it, nor the match."""
+"""A robot that leans on a machine, or parks in its slots or on its worker's spot, stops neither it nor the match."""
 
 from math import atan2, hypot
 
@@ -34,7 +34,7 @@ EVERY = [(floor, m) for floor in FLOORS for m in range(MACHINES)]
 
 
 class Stick:
-    """Full ahead, or to and fro with so many ticks each way; turning or not."""
+    """Full speed ahead, or alternating with a period in ticks; turning or not."""
 
     def __init__(self, every=0, angular=0.0, linear=1.0):
         self.every, self.angular, self.linear = every, angular, linear
@@ -59,14 +59,14 @@ def begun(floor, brains, minutes=5.0):
 
 
 def put(match, seat, x, y, heading):
-    """A robot stands there."""
+    """Put a robot there, at rest."""
     poses = [(robot.x, robot.y, robot.heading) for robot in match.state.robots]
     poses[seat] = (x, y, heading)
     match.plant.place(poses)
 
 
 def against(state, m):
-    """Poses of robots that drive against machine m: one at each free side, and one on the place of its worker."""
+    """Poses of robots that drive against machine m: one at each free side, and one on its worker's spot."""
     machine, poses = state.machines[m], []
     for dx, dy in WAYS:
         x, y = machine.x + 103.0 * dx, machine.y + 103.0 * dy
@@ -76,7 +76,7 @@ def against(state, m):
 
 
 def time_to_process(floor, m, pose=None, stick=None):
-    """The s from when a pallet lies in the input of machine m until it lies in its output."""
+    """Time from a pallet's arrival in the input of machine m to that in its output, s."""
     match = begun(floor, (stick, None, None, None) if pose else (None, PARK, None, None))
     state = match.state
     if pose:
@@ -94,7 +94,7 @@ def time_to_process(floor, m, pose=None, stick=None):
 
 @pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
 def test_a_robot_against_a_machine_costs_a_few_seconds_at_most(floor, m):
-    """Its worker may have to go round it, and does not wait for what only turns its wheels."""
+    """Its worker may have to walk around it, and does not wait for a robot that only spins its wheels."""
     undisturbed = time_to_process(floor, m)
     assert undisturbed < 8.5
     state = begun(floor, (PARK, None, None, None)).state
@@ -107,7 +107,7 @@ def test_a_robot_against_a_machine_costs_a_few_seconds_at_most(floor, m):
 
 
 def ended(floor, brains, pose=None):
-    """A match to its end; the robot on seat 1 stands at `pose`."""
+    """Run a match to its end; the robot on seat 1 begins at `pose`."""
     match = begun(floor, brains)
     if pose:
         put(match, 1, *pose)
@@ -118,7 +118,7 @@ def ended(floor, brains, pose=None):
 
 @pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
 def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floor, m):
-    """The longest of 4992 such matches took 117 s; 60 s without anybody in the way."""
+    """The longest of 4992 such matches took 117 s; 60 s without an obstacle."""
     poses = against(begun(floor, (PARK, None, None, None)).state, m)
     match = ended(floor, ("hard", MANNERS[("push", "shake")[m % 2]], "hard", "hard"), poses[m % len(poses)])
     assert match.state.winner
@@ -135,7 +135,7 @@ def test_and_while_one_is_parked_in_a_slot_of_a_machine(floor, m):
 
 
 def test_a_pair_gets_everything_out_while_both_others_stand_in_its_way():
-    """One on a worker's place, the other in the yard: the straight way to the last free slot of the exit is closed."""
+    """One on a worker's spot, the other in the yard, where it blocks the direct way to the last free exit slot."""
     match = begun("yard", ("hard", Stick(), "hard", Stick()))
     for seat, pose in ((1, against(match.state, 0)[-1]), (3, (800.0, 414.0, -1.57))):
         put(match, seat, *pose)
@@ -148,7 +148,7 @@ def test_a_pair_gets_everything_out_while_both_others_stand_in_its_way():
 
 
 def shut_in(match, w):
-    """Four robots stand round worker w, who rests at (600, 450)."""
+    """Put four robots around worker w, who rests at (600, 450)."""
     worker = match.state.workers[w]
     worker.x, worker.y = worker.home_x, worker.home_y = 600.0, 450.0
     match.plant.place([(600.0 + 70.0 * dx, 450.0 + 70.0 * dy, 0.0) for dx, dy in WAYS])
@@ -175,7 +175,7 @@ def test_an_idle_worker_takes_over_from_one_who_cannot_get_there():
 
 
 def test_another_machine_comes_before_the_one_that_nobody_gets_to():
-    """Two of the three are at work elsewhere, and the third cannot get to the machine that waits longest."""
+    """Two of the three are working elsewhere, and the third cannot reach the machine that has waited longest."""
     match = begun("hall", (PARK,) * 4)
     state = match.state
     match.plant.place([(60.0 + 80.0 * k, 60.0, 0.0) for k in range(4)])
@@ -206,7 +206,7 @@ def test_a_worker_who_cannot_fetch_leaves_that_to_another_too():
 
 @pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
 def test_a_driver_takes_its_pallet_to_the_other_machine_if_nobody_comes_to_this_one(floor, m):
-    """The place of its worker lies where nobody gets to."""
+    """Its worker's spot is unreachable."""
     match = begun(floor, ("hard", None, None, None))
     machine = match.state.machines[m]
     machine.spot_x, machine.spot_y = machine.x, machine.y
@@ -218,7 +218,7 @@ def test_a_driver_takes_its_pallet_to_the_other_machine_if_nobody_comes_to_this_
 
 
 def test_a_driver_that_waits_for_its_turn_leaves_its_pallet_where_it_is():
-    """All workers are busy for ten seconds: that is no reason to carry it away."""
+    """All workers are busy for ten seconds, which is no reason to take the pallet away."""
     match = begun("hall", ("hard", None, "hard", None))
     lifted = 0
     while not match.over:

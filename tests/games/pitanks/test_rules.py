@@ -1,4 +1,4 @@
-"""PiTanks, played with matches set up by hand: who is hit, who is not, and what each pick-up does."""
+"""PiTanks, rule by rule, in matches set up by hand: shots, hits, walls, protection and pick-ups."""
 
 from itertools import pairwise
 from math import cos, hypot, pi, sin
@@ -29,7 +29,7 @@ FLIGHT = (400.0 - RADIUS - 6.0 - 64.0) / 560.0  # s from the muzzle to contact
 
 
 def ticks(match, count, fire=(), move=True):
-    """Play on; the seats in `fire` hold the button."""
+    """Advance the match; the seats in `fire` hold the button."""
     for _ in range(count):
         for seat, action in enumerate(match.actions):
             action.fire = int(seat in fire)
@@ -44,7 +44,7 @@ def alive(match, seat=0):
 
 
 def put_bullet(match, seat, x, y, heading, place=0, bounces=0):
-    """A bullet of a seat that is in flight already."""
+    """Put a bullet of a seat in flight."""
     bullet = match.bullets[seat * OWN_BULLETS + place]
     bullet.alive, bullet.x, bullet.y, bullet.bounces = 1, x, y, bounces
     bullet.vx, bullet.vy = 560.0 * cos(heading), 560.0 * sin(heading)
@@ -110,7 +110,7 @@ def test_an_absent_robot_is_not_hit_and_does_not_shoot():
 @pytest.mark.parametrize("gap", [0.0, 1.0, 10.0, 20.0, 28.0, 40.0])
 @pytest.mark.parametrize("half", [5.0, 15.0])
 def test_no_shot_passes_a_wall_at_point_blank(gap, half):
-    """The robot stands `gap` px from the wall: its muzzle is before, inside or behind it."""
+    """The robot is `gap` px from the wall: its muzzle is in front of, inside or behind it."""
     wall_x = 400.0 + RADIUS + gap + half
     match = pitanks([(400.0, 450.0, 0.0), (wall_x + half + RADIUS, 450.0, pi)], [(wall_x, 300.0, wall_x, 600.0)])
     for wall in match.walls[: match.wall_count]:
@@ -174,7 +174,7 @@ def test_a_solid_wall_takes_any_number():
 
 
 def test_two_bullets_of_one_tick_both_stop_at_a_wall_that_takes_one_more():
-    """All bullets see the walls as the tick began: neither slips through behind the other, whoever owns it."""
+    """All bullets meet the walls as they were at the beginning of the tick: neither passes behind the other."""
     match = pitanks([FACING[0], (800.0, 450.0, 0.0), (400.0, 600.0, 0.0)], [(600.0, 300.0, 600.0, 600.0)], health=1)
     one = put_bullet(match, 0, 578.0, 450.0, 0.0)
     other = put_bullet(match, 2, 570.0, 450.0, 0.0)
@@ -188,7 +188,7 @@ def test_two_bullets_of_one_tick_both_stop_at_a_wall_that_takes_one_more():
 
 
 def test_after_a_hit_three_quarters_of_a_second_protect():
-    """A bullet waits at the victim on every tick: the second one that counts comes 0.75 s (rounded up) later."""
+    """A bullet is at the victim on every tick: the second one counts 0.75 s (rounded up) after the first."""
     match = pitanks(FACING)
     counted = []
     for tick in range(HZ * 2):
@@ -443,7 +443,7 @@ def test_a_mine_arms_within_a_second_and_goes_off_under_an_opponent():
     assert match.tanks[0].landed == 0  # no shot landed
 
 
-def test_a_mine_spares_owner_mates_and_whoever_blinks():
+def test_a_mine_spares_its_owner_team_mates_and_protected_robots():
     match = holding(SHIELD, three(), teams=(0, 0, 1, 1))
     mines = [lay(match, 0, 400.0, 450.0), match.mines[1]]
     mines[1].alive, mines[1].x, mines[1].y = 30 * HZ, 800.0, 450.0
@@ -508,7 +508,7 @@ def test_scores_add_up_to_zero_whatever_happens(variant):
 
 
 def test_the_order_of_the_seats_does_not_matter():
-    """The same fight with the seats the other way round has the same scores the other way round."""
+    """The same fight with reversed seats has reversed scores."""
     poses = [(500.0, 450.0, 0.0), (700.0, 452.0, pi), (610.0, 350.0, pi / 2), (595.0, 560.0, -pi / 2)]
     walls = [(300.0, 200.0, 300.0, 700.0), (1000.0, 200.0, 1000.0, 700.0)]
     there, back = pitanks(poses, walls), pitanks(poses[::-1], walls)

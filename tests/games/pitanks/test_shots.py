@@ -1,7 +1,7 @@
-"""Bullets against an exact oracle: what each strikes first and where; and a bouncing bullet stays in the arena.
+"""Bullets against an exact oracle for their first contact; and bouncing bullets stay in the arena.
 
-The oracle shares nothing with the rules. The distance from a point on a straight way to a capsule is convex along that
-way, so ternary search finds the nearest approach, and bisection the first contact before it.
+The oracle shares no code with the rules. The distance from a point moving on a straight line to a capsule is convex, so
+ternary search finds the nearest approach, and bisection the first contact before it.
 """
 
 from math import atan2, cos, hypot, pi, sin
@@ -30,9 +30,9 @@ NOWHERE = (-9e3, -9e3, -9e3, -9e3, 1.0)  # a capsule that nothing reaches
 
 
 def contacts(ways, capsules):
-    """The share of each way (x, y, dx, dy) at which it first touches each of its capsules (ax, ay, bx, by, reach).
+    """Time of first contact of each displacement (x, y, dx, dy) with each of its capsules (ax, ay, bx, by, reach).
 
-    `ways` (n, 4), `capsules` (n, m, 5); NEVER where it does not. Also by how many px each nearest approach is a hit.
+    `ways` (n, 4), `capsules` (n, m, 5); NEVER without contact. Also returns by how many px each nearest approach hits.
     """
     x, y, dx, dy = (ways[:, None, i] for i in range(4))
     ax, ay, bx, by, reach = (capsules[:, :, i] for i in range(5))
@@ -60,20 +60,20 @@ def contacts(ways, capsules):
 
 
 def at_bounds(x, y, dx, dy):
-    """The share of a way at which a bullet touches an outer wall."""
+    """Time at which a bullet touches an outer wall, as a fraction of its displacement."""
     sides = ((BULLET - x, dx), (WIDTH - BULLET - x, dx), (BULLET - y, dy), (HEIGHT - BULLET - y, dy))
     shares = [room / way for room, way in sides if way and room * way >= 0.0 and abs(room) <= abs(way)]
     return min(shares, default=NEVER)
 
 
 class Shots:
-    """Shots and what the rules made of them, to be judged all at once."""
+    """Shots and their results by the rules, for comparison with the oracle in one batch."""
 
     def __init__(self):
         self.ways, self.capsules, self.names, self.found, self.where = [], [], [], [], []
 
     def play(self, match):
-        """Fire and fly one tick, and note every bullet's way, what could stop it, and what did."""
+        """Fire, advance one tick, and record every bullet's displacement, its possible obstacles, and its hit."""
         for k in range(4):
             use_gun(match, k)
         ways = []
@@ -92,7 +92,7 @@ class Shots:
             self.where.append((bullet.x, bullet.y))
 
     def wrong(self):
-        """(shots that differ from the oracle, shots that were certain)."""
+        """(number of shots that differ from the oracle, number of unambiguous shots)."""
         most = max(len(capsules) for capsules in self.capsules)
         capsules = np.array([[*one, *[NOWHERE] * (most - len(one))] for one in self.capsules])
         shares, deep = contacts(np.array(self.ways), capsules)
@@ -113,7 +113,7 @@ class Shots:
 
 
 def stops(match, seat):
-    """What can stop a bullet of a seat: as `bullet.struck` counts it, and as a capsule."""
+    """The possible obstacles of a bullet of a seat: (value of `bullet.struck`, capsule)."""
     names, capsules = [], []
     for i, wall in enumerate(match.walls[: match.wall_count]):
         if wall.health:
@@ -130,7 +130,7 @@ def stops(match, seat):
 
 
 def crowd(random, walls):
-    """Poses of four robots, most of them in a crowd, clear of walls and of each other; headings mostly at somebody."""
+    """Poses of four robots, mostly crowded, clear of walls and of each other, mostly facing another robot."""
     poses = []
     x, y = random.uniform(40, WIDTH - 40), random.uniform(40, HEIGHT - 40)
     while len(poses) < 4:
@@ -150,14 +150,14 @@ def crowd(random, walls):
 
 
 def segment(x, y, ax, ay, bx, by):
-    """Px from a point to a segment."""
+    """Distance from a point to a segment, px."""
     ex, ey = bx - ax, by - ay
     t = min(1.0, max(0.0, ((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey)))
     return hypot(x - ax - t * ex, y - ay - t * ey)
 
 
 def stroke(random):
-    """A wall anywhere, of any length."""
+    """A random wall."""
     x, y, way, length = (
         random.uniform(0, WIDTH),
         random.uniform(0, HEIGHT),
@@ -168,8 +168,8 @@ def stroke(random):
 
 
 @pytest.mark.parametrize("teams", [(0, 1, 2, 3), (0, 1, 0, 1)], ids=["alone", "pairs"])
-def test_what_a_shot_strikes_first_is_what_an_exact_oracle_finds(teams):
-    """Thousands of shots, most at point-blank, single and triple, and the bullets then in flight, among walls."""
+def test_the_first_contact_of_a_shot_agrees_with_an_exact_oracle(teams):
+    """Thousands of shots, mostly at point-blank range, single and triple, and bullets in flight, among walls."""
     random, shots = Random(8), Shots()
     for _ in range(220):
         walls = [stroke(random) for _ in range(6)]
@@ -195,7 +195,7 @@ def test_what_a_shot_strikes_first_is_what_an_exact_oracle_finds(teams):
 
 @pytest.mark.parametrize("arena", arenas("pitanks"))
 def test_in_the_arenas_too(arena):
-    """Robots anywhere in the arenas that are played on."""
+    """Robots at random positions in the shipped arenas."""
     random, shots = Random(9), Shots()
     lines = [(wall.ax, wall.ay, wall.bx, wall.by) for wall in load("pitanks", arena).walls]
     for _ in range(60):
@@ -218,7 +218,7 @@ def test_in_the_arenas_too(arena):
     st.sampled_from((5.0, 15.0, 40.0)),
 )
 def test_at_point_blank_with_a_wall_beside_the_victim(way, gap, aside, off, lean, half):
-    """The shooter stands at (800, 450), the victim `gap` px off; a wall lies `off` px beyond the shooter's hull."""
+    """The shooter is at (800, 450), the victim `gap` px away; a wall lies `off` px beyond the shooter's hull."""
     x, y = 800.0 + gap * cos(way), 450.0 + gap * sin(way)
     from_wall = RADIUS + half + abs(off)
     mx, my = 800.0 + from_wall * cos(way + lean), 450.0 + from_wall * sin(way + lean)
@@ -254,12 +254,12 @@ def ricochet(match, x, y, way, bounces):
 
 
 def clear_of(walls, x, y, room):
-    """Whether a point is at least `room` px from the middle of every wall."""
+    """True if a point is at least `room` px from the centre line of every wall."""
     return all(segment(x, y, *wall) >= room for wall in walls)
 
 
 def bounces_inside(match, walls, half, bullet, ticks):
-    """Play; the bullet is inside the arena, outside every wall, and as fast as ever, on each tick. How many bounces."""
+    """Advance the match; asserts on each tick that the bullet is in free space at full speed. Returns the bounces."""
     left = bullet.bounces
     for _ in range(ticks):
         judge(match)
@@ -293,7 +293,7 @@ def test_a_bouncing_bullet_stays_in_the_arena_and_out_of_walls(half):
 @pytest.mark.parametrize("degrees", [225, 224.9, 200, 181, 269])
 @pytest.mark.parametrize("corner", [(0, 0), (1, 0), (0, 1), (1, 1)])
 def test_in_a_corner_it_turns_back(corner, degrees):
-    """Two bounces at most, and it flies away along the diagonal or beside it."""
+    """At most two bounces, and it flies away near the diagonal."""
     way = degrees * pi / 180
     match = pitanks([(800.0, 450.0, 0.0)], minutes=5.0)
     x, y = (20.0, WIDTH - 20.0)[corner[0]], (20.0, HEIGHT - 20.0)[corner[1]]
@@ -306,7 +306,7 @@ def test_in_a_corner_it_turns_back(corner, degrees):
 
 @pytest.mark.parametrize("degrees", range(1, 90, 8))
 def test_in_a_wedge_it_comes_out_again(degrees):
-    """Two walls at 20 degrees: after at most nine bounces (180 / 20) it is on its way out."""
+    """Two walls at 20 degrees: it leaves after at most nine bounces (180 / 20)."""
     lean = 10 * pi / 180
     arm_x, arm_y = 400.0 * cos(lean), 400.0 * sin(lean)
     walls = [(600.0, 450.0, 600.0 + arm_x, 450.0 - arm_y), (600.0, 450.0, 600.0 + arm_x, 450.0 + arm_y)]
@@ -318,7 +318,7 @@ def test_in_a_wedge_it_comes_out_again(degrees):
 
 
 def test_between_two_walls_just_wider_than_itself_it_goes_to_and_fro():
-    """12.5 px: nothing tunnels, nothing sticks."""
+    """A gap of 12.5 px: no tunnelling, no sticking."""
     walls = [(400.0, 450.0, 1000.0, 450.0), (400.0, 492.5, 1000.0, 492.5)]
     match = pitanks([(120.0, 110.0, 0.0)], walls, health=-1, minutes=5.0)
     bullet = ricochet(match, 500.0, 471.25, pi / 3, 200)
@@ -326,7 +326,7 @@ def test_between_two_walls_just_wider_than_itself_it_goes_to_and_fro():
 
 
 def test_a_robot_beside_a_wall_that_fires_into_it_sees_the_bullet_come_back():
-    """The muzzle is beyond the wall; the bullet turns at its face."""
+    """The muzzle is beyond the wall; the bullet reflects off its face."""
     for x, way in ((RADIUS, pi), (WIDTH - RADIUS, 0.0)):
         match = pitanks([(x, 450.0, way), (800.0, 100.0, 0.0)])
         match.tanks[0].powers[RICOCHET], match.actions[0].fire = 400, 1
@@ -338,7 +338,7 @@ def test_a_robot_beside_a_wall_that_fires_into_it_sees_the_bullet_come_back():
 
 
 def test_a_bullet_that_leaves_a_wall_it_has_touched_passes_along_it():
-    """Bounced into the angle between a wall and the arena's edge it still comes out."""
+    """A bullet that bounced into the angle between a wall and the arena's edge still comes out."""
     walls = [(300.0, 40.0, 900.0, 40.0)]
     match = pitanks([(120.0, 450.0, 0.0)], walls, health=-1, minutes=5.0)
     bullet = ricochet(match, 200.0, 15.0, 0.4, 300)

@@ -1,4 +1,4 @@
-"""Courses: what is where along them, and files that are refused in one line that says what and where."""
+"""Courses: location along them, and invalid files, which are refused with key and reason."""
 
 from math import cos, hypot, pi, sin
 from random import Random
@@ -21,7 +21,7 @@ RING = (  # a ring of straights of 400 and 200 px, and quarter circles of 150 px
 
 
 def brute(course, x, y):
-    """(px inside the edge, px along) of the nearest place, looking at all of the course, 0.2 px by 0.2 px."""
+    """(px inside the edge, px along) of the nearest place, by exhaustive search in steps of 0.2 px."""
     nearest, inside, along = 1e9, 0.0, 0.0
     for k in range(POINTS):
         after = (k + 1) % POINTS
@@ -85,8 +85,8 @@ def test_the_way_round_wraps():
 
 
 @pytest.mark.parametrize("track", TRACKS)
-def test_places_are_those_that_looking_everywhere_finds(track):
-    """On the course along and aside agree; off it the two agree that it is off."""
+def test_locations_agree_with_exhaustive_search(track):
+    """On the course both positions agree; off the course both agree that it is off."""
     course, place, random = load("race", track).plan.course, CoursePosition(), Random(track)
     on = 0
     for _ in range(250):
@@ -137,7 +137,7 @@ def good():
 
 
 def broken(change):
-    """A good file with one thing changed: (old, new), the first time that it is there."""
+    """A valid file with one change (old, new), at its first occurrence."""
     old, new = change
     source = good()
     assert old in source
@@ -206,7 +206,7 @@ def test_a_course_that_cannot_be_driven_is_refused(corners, key, reason):
     refused(HEAD + "".join(CORNER.format(*corner) for corner in corners), key, reason)
 
 
-def test_a_file_without_its_lines_is_refused():
+def test_a_file_without_lines_is_refused():
     refused(HEAD.partition("[track]")[0] + "".join(CORNER.format(*c[:3]) for c in RING), "track", "a table is missing")
 
 

@@ -1,7 +1,7 @@
-"""Laps are counted right whatever robots do: against an oracle that sees nothing but the paths they drove.
+"""Lap counting for arbitrary paths, compared with an oracle that has nothing but the paths.
 
-The oracle is written another way than the rules: it takes the whole path of a robot when all is over, cuts it with each
-of the four lines by the orientation of triangles, and matches what was crossed, greedily, against the lines in order.
+The oracle works differently from the rules: it intersects the complete path of a robot with each of the four lines, by
+the orientation of triangles, and greedily matches the crossings with the lines in order.
 """
 
 from itertools import pairwise
@@ -25,12 +25,12 @@ TRACKS = arenas("race")
 
 
 def area(a, b, c):
-    """Twice the area of a triangle, positive if it runs clockwise on the screen."""
+    """Twice the signed area of a triangle, positive if clockwise on the screen."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def cuts(path, left, right, carried):
-    """(when, way) of each time that a path crosses the line from left to right: when in steps, way 1 is forwards.
+    """(when, direction) of each crossing of the line from left to right: when in steps, direction 1 is forwards.
 
     Before the line is where (left, right, point) runs clockwise; the line itself belongs to what is behind it.
     """
@@ -50,12 +50,12 @@ def cuts(path, left, right, carried):
 
 
 def judged(path, lines, seat, laps, carried):
-    """What a path is worth: lines crossed in order, lap times in ticks, laps that did not count, the missed line."""
+    """Result of a path: lines crossed in order, lap times in ticks, laps that did not count, the missed line."""
     ends = [((line.ax, line.ay), (line.bx, line.by)) for line in lines]
     events = sorted((when, line, way) for line, (a, b) in enumerate(ends) for when, way in cuts(path, a, b, carried))
     wanted = [(seat + i) % 4 for i in range(4 * laps + 1)]  # in order, all the way to the finish
     passed, own_at, void, missed = 0, [], 0, 0
-    undone = []  # lines gone back over since the last that counted, the nearest last
+    undone = []  # lines gone back over since the last that counted, most recent last
     for when, line, way in events:
         if passed == len(wanted):
             break
@@ -75,7 +75,7 @@ def judged(path, lines, seat, laps, carried):
 
 
 def agree(match, paths):
-    """Raises AssertionError where the rules and the oracle differ about any robot."""
+    """Assert that the rules and the oracle agree on every robot."""
     state = match.state
     for seat, path in enumerate(paths):
         racer = state.racers[seat]
@@ -90,7 +90,7 @@ def agree(match, paths):
 
 
 class Wild:
-    """A driver that does all sorts of things for a while each, with an able one that races in between."""
+    """A driver that alternates between random manoeuvres and a competent AI."""
 
     def __init__(self, seat, seed):
         self.random, self.able = Random(seed * 7 + seat), make("race", "hard", seed)
@@ -150,7 +150,7 @@ def test_wild_robots_that_push_each_other(track, seed):
 @pytest.mark.parametrize("track", TRACKS)
 @pytest.mark.parametrize("seed", one_in(4, range(4)))
 def test_any_path_at_all(track, seed):
-    """Random walks over the lines, sideways too, along the course and back, through the infield, and carried about."""
+    """Random walks: over lines, also sideways, along the course and back, through the infield, and carried about."""
     ride = Ride(track, laps=9)
     random = Random(seed)
     paths = [[pose[:2]] for pose in ride.rails.poses]
@@ -167,7 +167,7 @@ def test_any_path_at_all(track, seed):
 
 
 def walk(random, ride, seat):
-    """The points of a walk without end, from where the robot stands."""
+    """Endless generator of the points of a walk, from the robot's position."""
     x, y, _ = ride.rails.poses[seat]
     yield x, y
     along, course = ride.lines[seat].along, ride.course
@@ -207,14 +207,14 @@ def walk(random, ride, seat):
             yield x, y
 
 
-def nearer(at, to, most):
-    """At most so many px from one point towards another."""
+def nearer(at, to, limit):
+    """The point up to `limit` px from one point towards another."""
     way = hypot(to[0] - at[0], to[1] - at[1])
-    share = min(1.0, most / way) if way else 0.0
+    share = min(1.0, limit / way) if way else 0.0
     return at[0] + share * (to[0] - at[0]), at[1] + share * (to[1] - at[1])
 
 
-# ------------------------------------------------------------------------------------------- what the issue names, told
+# ---------------------------------------------------------------------------------------------------- specified cases
 
 
 @pytest.mark.parametrize("track", TRACKS)
@@ -254,7 +254,7 @@ def test_going_to_and_fro_over_the_own_line_is_no_lap(track):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_cutting_through_the_middle_is_no_lap_and_says_so(track):
-    """Over the own line, through the infield, over the own line from before: the lap does not count."""
+    """Over the own line, through the infield, over the own line again: the lap does not count."""
     ride = Ride(track, present=(0,))
     own, second, last = (ride.lines[i].along for i in (0, 1, 3))
     ride.along(0, own - 30.0, own + 60.0)
@@ -267,14 +267,14 @@ def test_cutting_through_the_middle_is_no_lap_and_says_so(track):
     ride.along(0, second - 30.0, second + 30.0)
     assert not ride.racers[0].missed
     ride.along(0, second + 30.0, own + (ride.course.length if own < second else 0.0) + 30.0)
-    assert ride.state.robots[0].score == 1, "whoever goes back and does it properly has it"
+    assert ride.state.robots[0].score == 1, "after going back properly the lap counts"
 
 
 LINE_OF_TRACK = [(track, seat) for track in TRACKS for seat in range(4)]
 
 
 def round_the_end(ride, seat, side):
-    """From behind a line back to before it, round one of its ends; the line is not crossed."""
+    """Drive from past a line back to before it, around one of its ends, without crossing it."""
     line = ride.lines[seat]
     out = (ride.course.half[0] + 60.0) * side
     ride.along(seat, line.along + 50.0, line.along + 51.0, aside=out)
@@ -283,14 +283,14 @@ def round_the_end(ride, seat, side):
 
 
 def carry(ride, seat, along):
-    """Lift a robot and put it down elsewhere on the course."""
+    """Carry a robot to another position on the course."""
     ride.put(seat, *point_at(ride.course, along % ride.course.length, 0.0))
     ride.match.tick()
 
 
 @pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
-def test_who_crosses_only_the_own_line_again_and_again_has_missed_the_next(track, seat):
-    """Round either end of the line, through the mud, and carried: the sign is up after the second crossing."""
+def test_crossing_only_the_own_line_repeatedly_misses_the_next(track, seat):
+    """Around either end of the line, through the mud, and carried: it is reported after the second crossing."""
     for way in (1.0, -1.0, 0.0):
         ride = Ride(track, present=(seat,))
         racer, own = ride.racers[seat], ride.lines[seat].along
@@ -312,7 +312,7 @@ def test_who_crosses_only_the_own_line_again_and_again_has_missed_the_next(track
 @pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
 @pytest.mark.parametrize("skipped", [(1,), (2,), (3,), (1, 2), (2, 3), (1, 3), (1, 2, 3), ()])
 def test_the_first_line_left_out_is_the_one_to_go_back_to(track, seat, skipped):
-    """Carried over some of the lines of a lap: a lap with all of them counts, any other does not and shows which."""
+    """Carried over some lines of a lap: a lap with all lines counts, any other does not and reports the line."""
     ride = Ride(track, present=(seat,))
     racer, own = ride.racers[seat], ride.lines[seat].along
     for step in range(4):

@@ -1,4 +1,4 @@
-"""Every rule of Robot Race, told with robots on rails or on their own wheels."""
+"""Robot Race, rule by rule, with robots on rails or on wheels."""
 
 from math import pi
 
@@ -27,7 +27,7 @@ def race(brains=("idle",) * 4, arena="classic", laps=3, minutes=10.0, seed=1):
 
 
 class Stick:
-    """A driver that holds the stick the way it is."""
+    """A driver with a constant stick."""
 
     def __init__(self, linear=1.0, angular=0.0, turbo=0):
         self.linear, self.angular, self.turbo = linear, angular, turbo
@@ -105,13 +105,13 @@ def test_before_the_own_line_nothing_is_missed():
 
 
 def test_a_missed_line_is_named_and_must_be_gone_back_to():
-    """Round line 2 on the outside: crossing line 3 tells, and so does the lap that then does not count."""
+    """A robot bypasses line 2: crossing line 3 reveals it, and the lap does not count."""
     ride = Ride(present=(0,))
     one, two, three, _ = (line.along for line in ride.lines)
     racer = ride.racers[0]
     ride.along(0, one - 30.0, two - 100.0)
     ride.along(0, two - 100.0, two + 100.0, aside=140.0)
-    assert racer.missed == 0, "nothing is told before a later line is crossed"
+    assert racer.missed == 0, "no line counts as missed before a later one is crossed"
     ride.along(0, two + 100.0, three + 30.0)
     assert racer.missed == 2
     ride.along(0, three + 30.0, one + ride.course.length + 30.0)
@@ -145,13 +145,13 @@ def test_a_robot_that_is_carried_over_a_line_has_not_crossed_it():
 
 
 def tick_at(ride, seat, along):
-    """One tick that ends there."""
+    """Advance one tick that ends there."""
     ride.put(seat, *point_at(ride.course, along, 0.0))
     ride.match.tick()
 
 
-def test_times_have_the_share_of_the_tick():
-    """From 2 px before the line to 6 px behind it in one tick: it was crossed after a quarter of it."""
+def test_times_are_interpolated_within_the_tick():
+    """From 2 px before the line to 6 px behind it in one tick: the crossing is after a quarter of the tick."""
     ride = Ride(present=(0,), laps=1)
     own = ride.lines[0].along
     tick_at(ride, 0, own - 10.0)
@@ -225,7 +225,7 @@ def test_at_the_start_all_are_level_and_the_seats_decide():
     assert {racer.progress for racer in match.state.racers} == {-55.0}
 
 
-def test_what_lies_behind_a_missed_line_is_no_progress():
+def test_distance_past_a_missed_line_is_no_progress():
     ride = Ride(present=(0, 1))
     one, two, three, _ = (line.along for line in ride.lines)
     ride.along(0, one - 30.0, one + 60.0)
@@ -247,7 +247,7 @@ def test_progress_grows_all_the_way_and_shrinks_all_the_way_back(track):
         assert racer.progress == pytest.approx(goal, abs=ride.course.step)
 
 
-def test_who_has_finished_first_stands_first_then_progress_counts():
+def test_finishers_rank_by_time_then_the_others_by_progress():
     ride = Ride(laps=1)
     ride.lap(2)
     ride.lap(0)
@@ -290,7 +290,7 @@ def test_driving_against_the_way_counts_until_it_ends():
     assert racer.wrong == 0
 
 
-def test_who_goes_back_to_a_missed_line_is_not_told_off():
+def test_going_back_to_a_missed_line_is_not_the_wrong_way():
     ride = Ride(present=(0,))
     one, two, three, _ = (line.along for line in ride.lines)
     ride.along(0, one - 30.0, one + 60.0)
@@ -337,7 +337,7 @@ def test_the_clock_ends_a_race_in_which_nobody_finishes():
     assert match.outcome().winners == (), "nobody got anywhere: all are level"
 
 
-def test_who_has_finished_rolls_on_for_a_second_and_a_half_and_then_stops():
+def test_a_finisher_rolls_on_for_a_second_and_a_half_and_then_stops():
     ride = Ride(present=(0, 1), laps=1)
     ride.match.sit(0, Stick(1.0, 0.5, 1))
     ride.lap(0)
@@ -350,7 +350,7 @@ def test_who_has_finished_rolls_on_for_a_second_and_a_half_and_then_stops():
     assert (robot.ask_angular, robot.boosting) == (0, 0)
 
 
-def test_what_is_driven_after_the_finish_counts_no_more():
+def test_driving_after_the_finish_does_not_count():
     ride = Ride(present=(0, 1), laps=1)
     ride.lap(0)
     finish = ride.racers[0].finish
@@ -370,7 +370,7 @@ def test_one_to_nine_laps_can_be_chosen(laps):
     assert len(games()["race"].times(ride.state, 0)) == laps
 
 
-def test_three_laps_if_nobody_says_otherwise():
+def test_the_default_is_three_laps():
     assert Ride(laps=0).state.rules.laps == games()["race"].default_goal == 3
 
 

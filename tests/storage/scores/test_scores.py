@@ -1,4 +1,4 @@
-"""High scores: who is in the table, for how long, and what a broken file costs."""
+"""High scores: order and retention of rows, saving, and recovery from a broken file."""
 
 import time
 from dataclasses import replace
@@ -54,8 +54,8 @@ def test_of_times_the_shortest_comes_first(tmp_path):
     for name, ms in (("SLO", 12_340), ("FST", 9_870), ("MID", 9_871)):
         scores.add(LAP, name, ms, NOON)
     scores.save(tmp_path)
-    kept, said = Scores.load(tmp_path)
-    assert not said
+    kept, messages = Scores.load(tmp_path)
+    assert not messages
     assert [(row.initials, row.score) for row in kept.best(LAP)] == [("FST", 9_870), ("MID", 9_871), ("SLO", 12_340)]
     assert kept.place(LAP, 9_870) == 2, "behind its equal"
     assert kept.place(LAP, 20_000) == 4
@@ -94,12 +94,12 @@ def test_initials_are_three_capitals(initials):
 
 
 @pytest.mark.parametrize("arena", ["classic", "two words", "", "a.b", "a\nb", "Ação", "“]'#"])
-def test_what_is_saved_comes_back(tmp_path, arena):
+def test_saved_scores_are_loaded_again(tmp_path, arena):
     scores, table = filled(3, 9), replace(TANKS, arena=arena, length=0.5)
     scores.add(table, "XYZ", 1, NOON)
     scores.save(tmp_path)
-    again, said = Scores.load(tmp_path)
-    assert said == []
+    again, messages = Scores.load(tmp_path)
+    assert messages == []
     assert again.tables() == scores.tables()
     assert [again.best(one) for one in again.tables()] == [scores.best(one) for one in scores.tables()]
 
@@ -118,19 +118,19 @@ def test_a_broken_file_gives_back_the_tables_before_it(tmp_path):
     scores.add(TANKS, "ABC", 4, NOON)
     scores.save(tmp_path)
     (tmp_path / FILE).write_text('[[table]]\nrows = [ { initials = "AB')
-    scores, said = Scores.load(tmp_path)
+    scores, messages = Scores.load(tmp_path)
     assert points(scores) == [3]
-    assert len(said) == 1
+    assert len(messages) == 1
     assert list(tmp_path.glob(f"{FILE}.broken-*"))
 
 
-def test_a_place_that_cannot_be_written_is_said(tmp_path):
+def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(NotSaved, match=r"scores2\.toml was not saved"):
         filled(1).save(tmp_path / "file")
 
 
-def test_rows_of_a_clock_that_was_wrong_push_nobody_out_of_today(tmp_path):
+def test_rows_of_a_wrong_clock_displace_none_of_today(tmp_path):
     scores, now = Scores(), datetime.now().astimezone()
     for year in range(1, 20):
         for score in range(100, 100 + LENGTH):

@@ -1,4 +1,4 @@
-"""Scores files that somebody spoilt: the arcade starts, one sentence says so, and the good rows are there."""
+"""Corrupt scores files: loading succeeds, reports one sentence, and retains the valid rows."""
 
 import os
 from dataclasses import asdict, replace
@@ -52,30 +52,30 @@ def good(scores):
 
 
 def loaded(folder):
-    """The scores of a folder, which can be saved and loaded again without another word."""
-    scores, said = Scores.load(folder)
-    assert all("\n" not in line and len(line) < 500 for line in said)
+    """Load the scores of a folder; asserts that they can be saved and loaded again without further messages."""
+    scores, messages = Scores.load(folder)
+    assert all("\n" not in line and len(line) < 500 for line in messages)
     scores.add(TABLE, "XYZ", 3)
     scores.save(folder)
     assert Scores.load(folder)[1] == []
-    return scores, said
+    return scores, messages
 
 
 @pytest.mark.parametrize("row", ROWS)
 def test_a_bad_row_costs_only_itself(tmp_path, row):
     head = HEAD.format(arena="classic") + "length = 2\npeople = 1\nside = 0\n"
     (tmp_path / FILE).write_text(f"{head}rows = [{row}, {GOOD}]\n")
-    scores, said = loaded(tmp_path)
+    scores, messages = loaded(tmp_path)
     assert good(scores) == [4, 3]
-    assert said == [f"{tmp_path / FILE}: 1 entry is not a score (in pitanks.classic); ignored."]
+    assert messages == [f"{tmp_path / FILE}: 1 entry is not a score (in pitanks.classic); ignored."]
 
 
 @pytest.mark.parametrize("row", ROWS)
 def test_a_bad_row_of_version_130_costs_only_itself(tmp_path, row):
     (tmp_path / "scores.toml").write_text(f"[pitanks]\nclassic = [{row}, {GOOD}]\n")
-    scores, said = loaded(tmp_path)
+    scores, messages = loaded(tmp_path)
     assert good(scores) == [3, 4]
-    assert len(said) == 1
+    assert len(messages) == 1
 
 
 @pytest.mark.parametrize(
@@ -95,17 +95,17 @@ def test_a_table_with_bad_conditions_costs_only_itself(tmp_path, lines):
     first = HEAD.format(arena="islands") + f"{lines}\nrows = [{GOOD}]\n"
     second = HEAD.format(arena="classic").partition("\n")[2] + f"length = 2\npeople = 1\nside = 0\nrows = [{GOOD}]\n"
     (tmp_path / FILE).write_text(first + second)
-    scores, said = loaded(tmp_path)
+    scores, messages = loaded(tmp_path)
     assert good(scores) == [4, 3]
-    assert len(said) == 1
+    assert len(messages) == 1
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_odd_names_are_names_or_ignored(tmp_path, name):
     (tmp_path / "scores.toml").write_text(f"[pitanks]\nclassic = [{GOOD}]\n{name} = [{GOOD}]\n[{name}]\n{name} = [3]\n")
-    scores, said = loaded(tmp_path)
+    scores, messages = loaded(tmp_path)
     assert good(scores) == [3, 4]
-    assert len(said) == 1
+    assert len(messages) == 1
 
 
 @pytest.mark.parametrize(
@@ -129,9 +129,9 @@ def test_an_unreadable_file_is_put_aside_and_the_one_before_serves(tmp_path, tex
     before.add(TABLE, "ABC", 5)
     before.save(tmp_path)
     (tmp_path / FILE).write_text(text)
-    scores, said = loaded(tmp_path)
+    scores, messages = loaded(tmp_path)
     assert good(scores) == [4, 3]
-    assert len(said) == 1
+    assert len(messages) == 1
     assert len(list(tmp_path.glob(f"{FILE}.broken-*"))) == 1
 
 
@@ -139,27 +139,27 @@ def test_an_unreadable_file_is_put_aside_and_the_one_before_serves(tmp_path, tex
 def test_a_file_of_100_mb_is_put_aside_unread(tmp_path, name):
     with (tmp_path / name).open("wb") as file:
         file.truncate(100_000_000)
-    scores, said = loaded(tmp_path)
+    scores, messages = loaded(tmp_path)
     assert good(scores) == [3]
-    assert len(said) == 1
-    assert "larger than" in said[0]
+    assert len(messages) == 1
+    assert "larger than" in messages[0]
 
 
 @pytest.mark.parametrize("make", [os.mkdir, getattr(os, "mkfifo", os.mkdir)])
 @pytest.mark.parametrize("name", [FILE, "scores.toml"])
 def test_a_folder_or_a_pipe_in_its_place_is_put_aside(tmp_path, name, make):
     make(tmp_path / name)
-    scores, said = loaded(tmp_path)
+    scores, messages = loaded(tmp_path)
     assert good(scores) == [3]
-    assert len(said) == 1
+    assert len(messages) == 1
 
 
 def test_thousands_of_tables_and_rows_are_read_and_bounded(tmp_path):
     many = "\n".join(f"arena{i} = [{GOOD}]" for i in range(2000))
     long = ",".join(GOOD.replace("4", str(i)) for i in range(2000))
     (tmp_path / "scores.toml").write_text(f"[pitanks]\n{many}\nclassic = [{long}]\n")
-    scores, said = loaded(tmp_path)
-    assert not said
+    scores, messages = loaded(tmp_path)
+    assert not messages
     assert len(scores.tables()) == 2002
     assert [row.score for row in scores.best(OLDER)] == [*range(1999, 1989, -1)]
     assert (tmp_path / FILE).stat().st_size < 1_000_000
@@ -189,7 +189,7 @@ def test_whatever_a_file_holds_it_is_read_and_written_again(tmp_path_factory, ch
     old = {"pitanks": {"classic": [*rows, *strangers], "islands": [row]}}
     (folder / FILE).write_text(tomli_w.dumps(new), encoding="utf-8")
     (folder / "scores.toml").write_text(tomli_w.dumps(old), encoding="utf-8")
-    scores, said = loaded(folder)
-    assert len(said) <= 2
+    scores, messages = loaded(folder)
+    assert len(messages) <= 2
     assert [one.score for one in scores.best(replace(OLDER, arena="islands"))] == [4]
     assert all(contests(scores)), "the page can sort what there is"

@@ -1,4 +1,4 @@
-"""The file of version 1.3.0: backed up before anything is written, carried over once, and left to version 1.3.0."""
+"""Migration of the file of version 1.3.0: backed up before anything is written, imported once, left unchanged."""
 
 from datetime import UTC, datetime
 
@@ -46,8 +46,8 @@ def folder(tmp_path):
 
 
 def test_every_row_is_carried_over_to_a_table_whose_conditions_are_unknown(folder):
-    scores, said = Scores.load(folder)
-    assert said == []
+    scores, messages = Scores.load(folder)
+    assert messages == []
     assert rows(scores) == FOUND
     assert all(table.older for table in scores.tables())
     assert rows(Scores.load(folder)[0]) == FOUND, "once, not at every start"
@@ -68,11 +68,11 @@ def test_an_earlier_backup_is_never_overwritten(folder):
     assert (folder / "scores-1.3.0-2.toml").read_text() == OLD
 
 
-def test_what_version_130_adds_after_a_downgrade_is_carried_over_too(folder):
+def test_rows_that_version_130_adds_after_a_downgrade_are_migrated_too(folder):
     Scores.load(folder)
     (folder / "scores.toml").write_text(MORE)
-    scores, said = Scores.load(folder)
-    assert said == []
+    scores, messages = Scores.load(folder)
+    assert messages == []
     assert rows(scores) == {**FOUND, POINTS: [("ANA", 9), ("NEW", 5), ("BEN", -3)]}
     assert (folder / "scores-1.3.0-2.toml").read_text() == MORE
     assert [one.rows for one in migrations(folder)[0]] == [{"pitanks": 2, "race": 3, "factory": 1}, {"pitanks": 1}]
@@ -114,8 +114,8 @@ def test_on_a_full_disk_the_rows_are_shown_and_the_next_save_carries_them_over(f
         raise keeping.NotSaved("the disk is full")
 
     monkeypatch.setattr("pigaming_app.storage.scores.migration.write_atomic", full)
-    scores, said = Scores.load(folder)
-    assert said == ["the disk is full"]
+    scores, messages = Scores.load(folder)
+    assert messages == ["the disk is full"]
     assert rows(scores) == FOUND
     assert not (folder / FILE).exists(), "nothing is written before the backup"
     monkeypatch.undo()
@@ -124,22 +124,22 @@ def test_on_a_full_disk_the_rows_are_shown_and_the_next_save_carries_them_over(f
     assert (folder / "scores-1.3.0.toml").read_text() == OLD
 
 
-def test_what_is_wrong_in_the_old_file_is_said_once_and_costs_only_itself(folder):
+def test_invalid_rows_in_the_old_file_are_reported_once_and_affect_no_others(folder):
     (folder / "scores.toml").write_text(
         OLD + 'lines = [{ initials = "abc", score = 1, when = 2026-11-21T12:00:00Z }, 7]\n'
     )
-    scores, said = Scores.load(folder)
+    scores, messages = Scores.load(folder)
     assert rows(scores) == FOUND
-    assert said == [f"{folder / 'scores.toml'}: 2 entries are not scores (first in factory.lines); ignored."]
+    assert messages == [f"{folder / 'scores.toml'}: 2 entries are not scores (first in factory.lines); ignored."]
     assert Scores.load(folder)[1] == []
 
 
 def test_a_broken_old_file_gives_way_to_its_own_backup(folder):
     (folder / "scores.toml.bak").write_text(OLD)
     (folder / "scores.toml").write_text("[pitanks")
-    scores, said = Scores.load(folder)
+    scores, messages = Scores.load(folder)
     assert rows(scores) == FOUND
-    assert len(said) == 1
+    assert len(messages) == 1
 
 
 def test_looking_for_migrations_changes_nothing(folder):

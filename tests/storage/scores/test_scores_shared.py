@@ -1,4 +1,4 @@
-"""Several arcades on one folder: no row is lost or doubled, a reset stays one, and no copy hangs on a dead one."""
+"""Several instances share a folder: no row is lost or duplicated, resets hold, and none blocks on a dead one."""
 
 import signal
 import subprocess
@@ -40,12 +40,12 @@ with locked(Path(sys.argv[1])):
 
 
 def numbers(scores: Scores) -> Counter[int]:
-    """How often each value is there."""
+    """Number of rows with each value."""
     return Counter(row.score for table in scores.tables() for row in scores._content.tables[table])
 
 
 def writer(folder: Path, first: int, count: int) -> "subprocess.Popen[str]":
-    """A process that adds and saves the numbers from `first` on, and prints each when it is saved."""
+    """A process that adds and saves `count` scores from `first` on, and prints each after saving."""
     command = [sys.executable, "-c", WRITER, str(folder), str(first), str(count)]
     return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
 
