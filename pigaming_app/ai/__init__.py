@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from pigaming_app.ai.brain import baselines as simple
+from pigaming_app.ai.brain import baselines
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.factory import foreman, foreman_thoughts
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts
-from pigaming_app.ai.qlearning import table_files as tables
+from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.race import racer, racer_thoughts
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
@@ -20,26 +20,26 @@ from pigaming_app.sim.world import ROBOTS
 
 BRAINS: dict[str, dict[str, BrainKind]] = {
     "pitanks": {
-        "idle": simple.IDLE,
-        "random": simple.RANDOM,
+        "idle": baselines.IDLE,
+        "random": baselines.RANDOM,
         "easy": replace(fsm.EASY, explain=fsm_thoughts.explain),
         "normal": replace(fsm.NORMAL, explain=fsm_thoughts.explain),
         "hard": replace(fsm.HARD, explain=fsm_thoughts.explain),
         "fsm": replace(fsm.FSM, explain=fsm_thoughts.explain),
         "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
-        "q1": tables.seat("q1"),
-        "q2": tables.seat("q2"),
+        "q1": table_files.shipped_brain("q1"),
+        "q2": table_files.shipped_brain("q2"),
     },
     "factory": {
-        "idle": simple.IDLE,
-        "random": simple.RANDOM,
+        "idle": baselines.IDLE,
+        "random": baselines.RANDOM,
         "easy": replace(foreman.EASY, explain=foreman_thoughts.explain),
         "normal": replace(foreman.NORMAL, explain=foreman_thoughts.explain),
         "hard": replace(foreman.HARD, explain=foreman_thoughts.explain),
     },
     "race": {
-        "idle": simple.IDLE,
-        "random": simple.RANDOM,
+        "idle": baselines.IDLE,
+        "random": baselines.RANDOM,
         "easy": replace(racer.EASY, explain=racer_thoughts.explain),
         "normal": replace(racer.NORMAL, explain=racer_thoughts.explain),
         "hard": replace(racer.HARD, explain=racer_thoughts.explain),

@@ -30,7 +30,7 @@ def stand_still(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 @kernel
-def do_anything(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def act_randomly(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Draw one of the 3 x 3 x 2 x 2 actions every HOLD ticks (five times a second)."""
     if match.tick % HOLD == 0:
         linear = float(int(uniform(mind) * 3.0)) - 1.0
@@ -39,11 +39,11 @@ def do_anything(match: Any, seat: int, mind: Any, weights: Any) -> None:
         set_action(match.actions[seat], linear, angular, fire, int(uniform(mind) * 2.0))
 
 
-def explain_standing(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain_idle(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     return Thoughts("idle", "always")
 
 
-def explain_anything(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain_random(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """All moves with equal value, and the one drawn last."""
     action = match.actions[seat]
     moves = {(ahead, turn, fire): 0.0 for ahead in (1, 0, -1) for turn in (-1, 0, 1) for fire in (0, 1)}
@@ -51,5 +51,5 @@ def explain_anything(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts
     return Thoughts("random", "dice", names={"percent": 6}, moves=moves, chosen=chosen)
 
 
-IDLE = BrainKind("idle", SimpleMind, stand_still, reset, explain=explain_standing)
-RANDOM = BrainKind("random", SimpleMind, do_anything, reset, explain=explain_anything)
+IDLE = BrainKind("idle", SimpleMind, stand_still, reset, explain=explain_idle)
+RANDOM = BrainKind("random", SimpleMind, act_randomly, reset, explain=explain_random)

@@ -49,7 +49,7 @@ def drive_to(obs: Any, mind: Any, action: Any) -> None:
     if obs.straight and obs.goal_distance < obs.fork + TURN_IN:
         handle(obs, mind, action, slot)
     else:
-        follow_round(obs, mind, action)
+        follow_route(obs, mind, action)
 
 
 @kernel
@@ -76,23 +76,23 @@ def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
     speed = 0.0
     if abs(obs.goal_bearing) < 0.5:
         speed = (obs.goal_distance - obs.fork) / 40.0
-        if speed > 0.0 and room(obs, 0.0, 0.0) < 20.0:
+        if speed > 0.0 and free_distance(obs, 0.0, 0.0) < 20.0:
             speed = 0.0
     set_action(action, speed, turn_stick(obs.goal_bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
 
 
 @kernel
-def follow_round(obs: Any, mind: Any, action: Any) -> None:
+def follow_route(obs: Any, mind: Any, action: Any) -> None:
     """Follow the route, or the free direction nearest to it if people or robots block it."""
     bearing = obs.way_bearing
     free = False
     for i in range(LOOKS):
         lean = LEAN * ((i + 1) // 2)
         turn = bearing + (lean if i % 2 else -lean)  # right first, so robots that meet head-on both keep right
-        if room(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.way_distance):
+        if free_distance(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.way_distance):
             bearing, free = turn, True
             break
-    ahead = room(obs, 0.0, ROBOT_ROOM)
+    ahead = free_distance(obs, 0.0, ROBOT_ROOM)
     speed = mind.speed
     if abs(bearing) > 1.1 or ahead < 40.0:
         speed = 0.0
@@ -105,7 +105,7 @@ def follow_round(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def room(obs: Any, turn: float, robots: float) -> float:
+def free_distance(obs: Any, turn: float, robots: float) -> float:
     """Free distance in direction `turn` (rad, relative to the heading), px; 1000 if nothing is in the way.
 
     It ends PERSON_ROOM px from a person or `robots` px from a robot.
@@ -114,16 +114,16 @@ def room(obs: Any, turn: float, robots: float) -> float:
     for w in range(WORKERS):
         person = obs.people[w]
         if person.distance < 2.0 * LOOK:
-            free = min(free, gap(person.distance, person.bearing - turn, PERSON_ROOM))
+            free = min(free, free_gap(person.distance, person.bearing - turn, PERSON_ROOM))
     for i in range(OTHERS):
         other = obs.others[i]
         if other.present and other.distance < LOOK:
-            free = min(free, gap(other.distance, other.bearing - turn, robots))
+            free = min(free, free_gap(other.distance, other.bearing - turn, robots))
     return free
 
 
 @kernel
-def gap(distance: float, bearing: float, clearance: float) -> float:
+def free_gap(distance: float, bearing: float, clearance: float) -> float:
     """Distance along bearing 0 until an obstacle at (`distance`, `bearing`) is `clearance` px away; 1000 if never."""
     ahead, aside = distance * cos(bearing), distance * sin(bearing)
     if ahead <= 0.0 or aside >= clearance or aside <= -clearance:
@@ -133,7 +133,7 @@ def gap(distance: float, bearing: float, clearance: float) -> float:
 
 
 @kernel
-def lose_patience(obs: Any, mind: Any) -> None:
+def update_patience(obs: Any, mind: Any) -> None:
     """Shun the target for SHUN ticks after PATIENCE ticks without progress, measured along the route.
 
     If that target fails again while it is shunned, for want of another, start a detour to approach from elsewhere.
@@ -166,7 +166,7 @@ def make_detour(obs: Any, mind: Any, action: Any) -> None:
         return
     if obs.goal_distance < STAND_OFF:
         mind.detour = 0
-    follow_round(obs, mind, action)
+    follow_route(obs, mind, action)
 
 
 @kernel

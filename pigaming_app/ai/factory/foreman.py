@@ -11,7 +11,7 @@ estimates, never in rules.
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.factory.driving import back_out, detect_stuck, drive_to, lose_patience, make_detour
+from pigaming_app.ai.factory.driving import back_out, detect_stuck, drive_to, make_detour, update_patience
 from pigaming_app.ai.factory.task_allocation import choose_job
 from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.sim.action import set_action
@@ -90,7 +90,7 @@ def act(obs: Any, mind: Any, action: Any) -> None:
         make_detour(obs, mind, action)
     else:
         drive_to(obs, mind, action)
-        lose_patience(obs, mind)
+        update_patience(obs, mind)
     detect_stuck(obs, mind, action)
 
 

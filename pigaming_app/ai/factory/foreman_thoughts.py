@@ -9,8 +9,8 @@ from math import pi, tau
 from typing import Any
 
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Percept, Thoughts, blend, clamp, towards
-from pigaming_app.ai.factory.driving import HELD_UP_TICKS, LOOK, ROBOT_ROOM, room
-from pigaming_app.ai.factory.task_allocation import NO, QUEUE, away, cheapest_place, cost_of
+from pigaming_app.ai.factory.driving import HELD_UP_TICKS, LOOK, ROBOT_ROOM, free_distance
+from pigaming_app.ai.factory.task_allocation import NO, QUEUE, cheapest_place, cost_of, distance_to
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, B
 
 DEAR = 2600.0  # cost of a job with utility 0, px
@@ -72,9 +72,9 @@ def _wishes(obs: Any, mind: Any) -> dict[str, float]:
         if name in JOBS and not obs.carries:
             cost = cost_of(obs, s, QUEUE)
             if cost < NO / 2.0:
-                wishes[name] = max(wishes[name], clamp(1.0 - (away(obs, s) + cost) / DEAR))
+                wishes[name] = max(wishes[name], clamp(1.0 - (distance_to(obs, s) + cost) / DEAR))
     place = cheapest_place(obs, mind) if obs.carries else -1
-    wishes["put"] = clamp(1.0 - 0.8 * away(obs, place) / FAR) if place >= 0 else 0.0
+    wishes["put"] = clamp(1.0 - 0.8 * distance_to(obs, place) / FAR) if place >= 0 else 0.0
     wishes["wait"] = 1.0 if mind.near or obs.frozen or mind.resting > 0 else 0.0
     wishes["free"] = 1.0 if mind.freeing > 0 else clamp(mind.held_up / HELD_UP_TICKS)
     return wishes
@@ -109,7 +109,7 @@ def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
 
 def _rose(obs: Any, mind: Any, doing: str) -> list[float]:
     """Attraction along the route, repulsion from blocked directions."""
-    blocked = [clamp(room(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
+    blocked = [clamp(free_distance(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
     if doing in ("frozen", "ponder"):
         return blocked
     if doing == "free":

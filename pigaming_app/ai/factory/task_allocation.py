@@ -53,21 +53,21 @@ def is_taken(obs: Any, s: int) -> bool:
 
 
 @kernel
-def away(obs: Any, s: int) -> float:
+def distance_to(obs: Any, s: int) -> float:
     """Distance from the robot to slot s, px."""
     dx, dy = obs.slots[s].x - obs.x, obs.slots[s].y - obs.y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
-def between(obs: Any, s: int, t: int) -> float:
+def distance_between(obs: Any, s: int, t: int) -> float:
     """Distance from slot s to slot t, px."""
     dx, dy = obs.slots[s].x - obs.slots[t].x, obs.slots[s].y - obs.slots[t].y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
-def hindrance(slot: Any) -> float:
+def input_cost(slot: Any) -> float:
     """Cost of an input whose machine cannot start at once, px."""
     if slot.kind != INPUT:
         return 0.0
@@ -81,7 +81,7 @@ def delay(slot: Any) -> float:
 
 
 @kernel
-def shyness(mind: Any, s: int) -> float:
+def shun_cost(mind: Any, s: int) -> float:
     """SHUN for the shunned slot, else 0, px."""
     return SHUN if mind.shun > 0 and mind.shunned == s else 0.0
 
@@ -106,7 +106,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
         right = slot.kind == ENTRY if state == DAMAGED else may_take(slot, state)
         if not right:
             continue
-        cost = away(obs, s) + hindrance(slot) + shyness(mind, s)
+        cost = distance_to(obs, s) + input_cost(slot) + shun_cost(mind, s)
         if mind.target == s:
             cost -= KEEP
         if cost < least:
@@ -114,19 +114,19 @@ def cheapest_place(obs: Any, mind: Any) -> int:
     if best < 0 and mind.waiting > 16:  # eight seconds without a place: return it to the shelf, and take another job
         for s in range(SLOTS):
             slot = obs.slots[s]
-            if slot.put and slot.kind == ENTRY and away(obs, s) < least:
-                best, least = s, away(obs, s)
+            if slot.put and slot.kind == ENTRY and distance_to(obs, s) < least:
+                best, least = s, distance_to(obs, s)
     return best
 
 
 @kernel
-def onward(obs: Any, s: int, state: int) -> float:
+def onward_cost(obs: Any, s: int, state: int) -> float:
     """Cost from slot s to the best free place for a pallet in `state`, px; NO if there is none."""
     least = NO
     for t in range(SLOTS):
         slot = obs.slots[t]
         if may_take(slot, state) and not slot.holds and not is_taken(obs, t):
-            cost = between(obs, s, t) + hindrance(slot)
+            cost = distance_between(obs, s, t) + input_cost(slot)
             if cost < least:
                 least = cost
     return least
@@ -144,7 +144,7 @@ def cost_of(obs: Any, s: int, queue: float) -> float:
     state = slot.holds - 1
     if state == DAMAGED:
         return NO
-    then = onward(obs, s, state)
+    then = onward_cost(obs, s, state)
     if may_take(slot, state):  # in its right place: move it only if the machine stalls and another place is cheaper
         return then if slot.kind == INPUT and slot.stalled > STALLED and then < slot.stalled * SPEED else NO
     if slot.kind == OUTPUT:  # any pallet here blocks its machine
@@ -166,7 +166,7 @@ def share_out(obs: Any, mind: Any) -> int:
         then = cost_of(obs, s, queue)
         if then >= NO - FREES or (alone and is_taken(obs, s)):
             continue
-        cost = away(obs, s) + then + shyness(mind, s) - (KEEP if mind.target == s else 0.0)
+        cost = distance_to(obs, s) + then + shun_cost(mind, s) - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
             cost += mind.noise * NOISE * uniform(mind)
         if not alone:
@@ -204,7 +204,7 @@ def waiting_place(obs: Any, mind: Any) -> int:
         else:
             good = slot.mine == 1 or (slot.kind == OUTPUT and slot.ours == 1)
         if good and not is_taken(obs, s):
-            cost = away(obs, s) + slot.wait * SPEED + delay(slot) + shyness(mind, s)
+            cost = distance_to(obs, s) + slot.wait * SPEED + delay(slot) + shun_cost(mind, s)
             if slot.mine == 1:
                 cost += HOME
             if cost < least:

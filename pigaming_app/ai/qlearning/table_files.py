@@ -92,7 +92,7 @@ def shipped(name: str) -> Learned:
     return Learned(decode(path.read_bytes(), path.name).rows)
 
 
-def seat(name: str) -> BrainKind:
+def shipped_brain(name: str) -> BrainKind:
     """The brain of a table that ships with the arcade; the file is read on first use."""
     return player(name, lambda fast: shipped(name)(fast), reflex=True)
 

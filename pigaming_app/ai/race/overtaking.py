@@ -27,20 +27,20 @@ def choose_lane(obs: Any, mind: Any) -> None:
     """Set `mind.lane` to the cheapest lane: px lost behind others, plus px of a longer way round the bend."""
     mark = obs.ahead
     wanted = mind.line * mark.ideal
-    best, least = wanted, blocked(obs, mind, wanted)
+    best, least = wanted, lane_cost(obs, mind, wanted)
     if least > 0.0:
         least += STEADY * abs(wanted - mind.lane)
         room, away = mark.half - EDGE, OWN + abs(obs.turn)
         for i in range(LANES):
             lane = room * (2.0 * i / (LANES - 1) - 1.0)
-            cost = blocked(obs, mind, lane) + away * abs(lane - wanted) + STEADY * abs(lane - mind.lane)
+            cost = lane_cost(obs, mind, lane) + away * abs(lane - wanted) + STEADY * abs(lane - mind.lane)
             if cost < least:
                 best, least = lane, cost
     mind.lane = best
 
 
 @kernel
-def blocked(obs: Any, mind: Any, lane: float) -> float:
+def lane_cost(obs: Any, mind: Any, lane: float) -> float:
     """Cost of the robots on a lane, px; 0 if none is in the way. `lane`: px right of the middle."""
     cost = 0.0
     for i in range(OTHERS):
@@ -61,7 +61,7 @@ def blocked(obs: Any, mind: Any, lane: float) -> float:
 
 
 @kernel
-def held_to(obs: Any, mind: Any) -> float:
+def leader_speed(obs: Any, mind: Any) -> float:
     """Speed of a robot right ahead on the present lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
     for i in range(OTHERS):

@@ -12,7 +12,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
-from pigaming_app.ai.race.overtaking import EDGE, choose_lane, held_to
+from pigaming_app.ai.race.overtaking import EDGE, choose_lane, leader_speed
 from pigaming_app.games.race.observation import OTHERS, Observation, Senses, observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
@@ -171,7 +171,7 @@ def pursue(obs: Any, mind: Any, action: Any, x: float, y: float) -> None:
         set_action(action, 0.0, 3.0 * bearing, 0, 0)
         return
     bend = 2.0 * sin(bearing) / (sqrt(dx * dx + dy * dy) + 1.0)  # curvature, rad/px
-    held = held_to(obs, mind)
+    held = leader_speed(obs, mind)
     dash = wants_turbo(obs, mind, bend) if held > 1.0 else 0
     full = obs.speed * (obs.turbo_factor if dash else 1.0)
     speed, limit = mind.speed * obs.pace, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)

@@ -9,7 +9,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.race import racer
-from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, blocked, held_to
+from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, lane_cost, leader_speed
 from pigaming_app.games.race.observation import OTHERS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import ROBOTS
@@ -60,7 +60,7 @@ def _doing(obs: Any, mind: Any) -> str:
         return "return"
     if abs(aside) > CHANGED:
         return "pass_left" if aside < 0.0 else "pass_right"
-    if held_to(obs, mind) < 1.0:
+    if leader_speed(obs, mind) < 1.0:
         return "follow"
     if not obs.on:
         return "mud"
@@ -73,15 +73,15 @@ def _wishes(obs: Any, mind: Any) -> dict[str, float]:
     """Utilities of lanes (of another lane, higher the more its own is blocked) and of speed changes."""
     mark = obs.ahead
     room, own = mark.half - EDGE, mind.line * mark.ideal
-    costs = blocked(obs, mind, own)
-    sides = [blocked(obs, mind, min(room, max(-room, own + side * CLEAR))) for side in (-1.0, 1.0)]
+    costs = lane_cost(obs, mind, own)
+    sides = [lane_cost(obs, mind, min(room, max(-room, own + side * CLEAR))) for side in (-1.0, 1.0)]
     left, right = (clamp(costs / TROUBLE) * clamp(1.0 - side / TROUBLE) for side in sides)
     may = obs.on and obs.pace >= 1.0
     return {
         "left": left,
         "line": clamp(1.0 - costs / TROUBLE),
         "right": right,
-        "brake": clamp(1.0 - min(obs.pace, held_to(obs, mind), 1.0)),
+        "brake": clamp(1.0 - min(obs.pace, leader_speed(obs, mind), 1.0)),
         "turbo": 1.0 if obs.boosting else clamp(obs.turbo / max(0.1, mind.boost)) if may else 0.0,
         "back": 1.0 if mind.state == racer.GO_BACK else clamp(obs.past / racer.SLACK),
         "free": 1.0 if mind.state == racer.BREAK_FREE else clamp(mind.held_up / racer.HELD_UP_TICKS),
@@ -112,7 +112,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
         "lane": mind.lane,
         "error": mind.stray,
         "pace": obs.pace,
-        "held_to": held_to(obs, mind),
+        "held_to": leader_speed(obs, mind),
         "turbo": obs.turbo,
         "on_course": obs.on,
     }

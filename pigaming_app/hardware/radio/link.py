@@ -71,7 +71,7 @@ class Link:
         if self._line.open():
             self._line.write(self._protocol.open(self._clock()))
         now = self._clock()
-        self._protocol.hear(self._line.read(), now)
+        self._protocol.receive(self._line.read(), now)
         self._listened = now
         if now >= self._due:
             self._due = self._due + BEAT if now < self._due + BEAT else now + BEAT

@@ -27,7 +27,7 @@ class RadioProtocol(Protocol):
     def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
         """Bytes that command the robots 0 to 3; None: stop."""
 
-    def hear(self, heard: bytes, now: float) -> None:
+    def receive(self, received: bytes, now: float) -> None:
         """Process received bytes; called even when there are none."""
 
     def quality(self, robot: int, now: float) -> LinkQuality:

@@ -58,9 +58,9 @@ class StockProtocol:
         asks = now - self._asked >= (ASK_EVERY if self._is_stock else PATIENCE)
         return (self._query(now) if asks else b"") + motors(wheels[self._robot])
 
-    def hear(self, heard: bytes, now: float) -> None:
+    def receive(self, received: bytes, now: float) -> None:
         """Process the reply to the last query; replies carry no type of their own."""
-        self._buffer += heard
+        self._buffer += received
         if len(self._buffer) < self._expected or not self._expected:
             return
         reply, self._expected, self._answered = bytes(self._buffer[: self._expected]), 0, now

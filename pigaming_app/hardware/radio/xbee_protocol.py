@@ -74,14 +74,14 @@ class XBeeProtocol:
             return packet
         return self._framed(packets.TransmitRequest(1 + self.broadcasts % 255, BROADCAST, packet))
 
-    def hear(self, heard: bytes, now: float) -> None:
+    def receive(self, received: bytes, now: float) -> None:
         """Process the frames of the radio and the reports of the robots."""
         if self.mode is XBeeMode.TRANSPARENT:
-            self._decode_reports(0, heard, now)
-            if any(isinstance(packets.decode(data), ReceivedPacket) for data in self._frames.feed(heard)):
+            self._decode_reports(0, received, now)
+            if any(isinstance(packets.decode(data), ReceivedPacket) for data in self._frames.feed(received)):
                 self._wrong_mode = "1 or 2"
             return
-        for data in self._frames.feed(heard):
+        for data in self._frames.feed(received):
             self._note_decoded(now)
             match packets.decode(data):
                 case ReceivedPacket(source, strength, _, part):

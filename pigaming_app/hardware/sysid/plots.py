@@ -46,7 +46,7 @@ def _horizons(figure: Any, run: Recording, verdicts: Sequence[Identification]) -
     axes.set_xticks(HORIZONS)
     axes.set_xlabel("s ahead")
     axes.set_ylabel("root mean square error, mm")
-    axes.set_title("Where the model expects a robot, in the part of the run that it does not know")
+    axes.set_title("Prediction error on the held-out part of the recording")
     axes.grid(alpha=0.3)
     axes.legend()
 

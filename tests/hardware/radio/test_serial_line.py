@@ -1,4 +1,4 @@
-"""Everything that may be wrong with a port is one sentence, and a port that comes back is opened again."""
+"""The serial line: an operator message for every fault of a port, and reopening of lost ports."""
 
 import errno
 import itertools
@@ -13,7 +13,7 @@ from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time, Wire
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
-REFUSALS = {  # what opening raises on Linux, macOS and Windows: the reason
+REFUSALS = {  # errors on opening, on Linux, macOS and Windows: expected reason
     "no such port": (OSError(errno.ENOENT, "could not open port x: [Errno 2]"), "absent"),
     "no permission": (PermissionError(errno.EACCES, "could not open port x: [Errno 13]"), "denied"),
     "busy": (OSError(errno.EBUSY, "Device or resource busy"), "busy"),
@@ -204,7 +204,7 @@ def test_a_reader_that_pauses_is_not_taken_for_an_unplugged_radio():
 
 @POSIX
 def test_stale_commands_in_a_full_buffer_are_dropped():
-    """A robot must not go on driving by commands that waited: of those, only what the far end holds gets through."""
+    """Queued commands must not reach a robot late: only bytes already at the far end get through."""
     pytest.importorskip("serial")
     far, near = os.openpty()
     os.set_blocking(far, False)

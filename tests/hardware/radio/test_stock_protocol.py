@@ -1,4 +1,4 @@
-"""The serial-slave commands of a 3pi as it is sold, byte for byte, against a made-up robot that obeys them."""
+"""The protocol of a 3pi with factory firmware, byte for byte, against a simulated robot."""
 
 import pytest
 
