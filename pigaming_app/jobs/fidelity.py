@@ -79,7 +79,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
 
 
 def _present(session: RobotSession, rig: Any) -> list[int]:
-    """The robots that are seen and heard. Raises Refusal, before an earlier run is overwritten."""
+    """The robots that are in view and report by radio. Raises Refusal, before an earlier run is overwritten."""
     for _ in range(HZ):
         session.tick()
         rig.pump()
@@ -124,9 +124,8 @@ def identify(arguments: Namespace) -> dict[str, Any]:
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
         write_with_backup(out, to_toml(drivetrains))
-    lines = [
-        f"root mean square error in mm after {', '.join(f'{horizon:g}' for horizon in HORIZONS)} s, on held-out data"
-    ]
+    horizons = ", ".join(f"{horizon:g}" for horizon in HORIZONS)
+    lines = [f"root mean square error in mm after {horizons} s, on held-out data"]
     for verdict in verdicts:
         before, after = (" ".join(f"{mm:7.1f}" for mm in errors.mm) for errors in (verdict.before, verdict.after))
         lines.append(f"robot {verdict.robot + 1}  nominal {before}   identified {after}")

@@ -49,7 +49,7 @@ def options(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Run pytest and, beside it, the other tools; 0 if all pass. Raises Refusal.
+    """Run pytest and the other tools in parallel; 0 if all pass. Raises Refusal.
 
     The summary of pytest comes last on standard output; the other tools report after it on standard error.
     """
@@ -59,8 +59,8 @@ def run(arguments: Namespace) -> int:
     marked = ("-m", "long" if arguments.long else "not long")
     for_pytest = arguments.for_pytest
     units = UNITS if arguments.quick and not any(map(_is_path, for_pytest)) else ()
-    with ThreadPoolExecutor(1) as beside:
-        results = beside.map(_run, tools.items())
+    with ThreadPoolExecutor(1) as executor:
+        results = executor.map(_run, tools.items())
         with _python(("pytest", *WORKERS, *marked, *for_pytest, *units)) as pytest:
             code = pytest.wait()
         failed = [_report(result) for result in results]

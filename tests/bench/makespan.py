@@ -1,19 +1,19 @@
-"""How well the drivers of Robot Factory do: deadlocks, wrong machines, people driven over, who wins, how fast.
+"""Performance of the drivers of Robot Factory: deadlocks, wrong machines, people hit, wins, and makespan.
 
     python -m tests.bench.makespan [MATCHES]
 
-1000 matches of four hard drivers if nothing is said, over all floors, and as many in all of easy against normal, hard
+1000 matches of four hard drivers by default, over all floors, and as many in total of easy against normal, hard
 against normal and hard against easy; exit code 1 where a target is missed.
 
-A deadlock is a minute in which no team gets on (no machine finishes anything, nothing is delivered) while pallets
-remain, or a match of hard drivers that nobody has won when the time is up.
+A deadlock is a minute without progress (no machine finishes, nothing is delivered) while pallets remain, or a match of
+hard drivers without a winner at the end of the time.
 
-The reference for the makespan, the time in which a team has delivered everything, is relaxed: robots are points that
-lift and set down at once, never turn, and are in nobody's way; machines and people are free whenever they are needed.
-What remains is driving from slot to slot, through walls too, at full speed with turbo as often as the meter allows,
-loaded for each pallet by the shortest way, and empty from where one pallet was set down to where another is lifted. The
-trips are shared out evenly; and no less can it take than the first pallet's way to a machine A, the work of the two
-machines A on half the pallets each, and the last one's way on through a machine B to the exit.
+The reference for the makespan, the time in which a team delivers all pallets, is a relaxed lower bound: robots are
+points that lift and set down instantly, never turn and never collide; machines and people are always free. What remains
+is driving from slot to slot, also through walls, at full speed with as much turbo as the meter allows: loaded by the
+shortest route for each pallet, and empty from each drop to the next pick-up, shared out evenly. The makespan is also at
+least the first pallet's route to a machine A, the work of the two machines A on half of the pallets each, and the last
+pallet's route through a machine B to the exit.
 """
 
 import sys
@@ -40,13 +40,13 @@ Point = tuple[float, float]
 
 
 def setup(floor: str, strengths: tuple[str, ...], seed: int) -> Setup:
-    """A match of these drivers, "off" for an empty seat."""
+    """A match of these drivers; "off" is an empty seat."""
     one, two, three, four = (Seat(brain, team) for brain, team in zip(strengths, TEAMS, strict=True))
     return Setup("factory", floor, (one, two, three, four), MINUTES, seed, "standard", PALLETS)
 
 
 def play(floor: str, strengths: tuple[str, ...], seeds: range) -> tuple[Any, Any]:
-    """The ended matches as records, and for each the longest s without progress."""
+    """Play matches; returns their records, and the longest time without progress of each, s."""
     kinds = [BRAINS["factory"].get(brain) for brain in strengths]
     batch = Batch([setup(floor, strengths, seed) for seed in seeds], kinds, True)
     matches = batch.matches
@@ -60,12 +60,12 @@ def play(floor: str, strengths: tuple[str, ...], seeds: range) -> tuple[Any, Any
 
 
 def progress(matches: Any) -> Any:
-    """Deliveries and finished work of both teams."""
+    """Number of deliveries and finished machine steps of both teams."""
     return matches["delivered"].sum(axis=1) + matches["loads"]["steps"].sum(axis=1)
 
 
 def count(matches: Any, longest: Any) -> dict[str, Any]:
-    """What there is to report about some matches."""
+    """Statistics of matches by name."""
     loads = matches["loads"]
     return {
         "matches": len(matches),
@@ -80,7 +80,7 @@ def count(matches: Any, longest: Any) -> dict[str, Any]:
 
 
 def wins(better: str, worse: str, each: int) -> tuple[int, int, int]:
-    """Wins, ties and losses of one strength against another, sides swapped, over all floors."""
+    """Wins, ties and losses of one strength against another, on both sides, over all floors."""
     won, tied, lost = 0, 0, 0
     for floor in arenas("factory"):
         for side in (0, 1):
@@ -99,7 +99,7 @@ def wins(better: str, worse: str, each: int) -> tuple[int, int, int]:
 
 
 def reference(floor: str, robots: int, pallets: int) -> float:
-    """The s below which no team of so many robots can deliver so many pallets, by the relaxed reckoning above."""
+    """The relaxed lower bound of the makespan for a number of robots and pallets, s."""
     plan, starts = load("factory", floor).plan, load("factory", floor).starts
     nobody = Seat("off", 0)
     rules = Rules()
@@ -118,22 +118,22 @@ def reference(floor: str, robots: int, pallets: int) -> float:
             loaded.append(nearest(entry, [in_a]) + nearest([out_a], [in_b]) + nearest([out_b], leave))
             ends += [in_a, in_b]
             begins += [out_a, out_b]
-        way = min(loaded)
+        route = min(loaded)
         empty = sum(nearest(kind, [*entry, *begins]) for kind in (ends[0::2], ends[1::2], leave))
-        work = pallets * (way + empty) + robots * nearest(first, entry) - robots * empty
+        work = pallets * (route + empty) + robots * nearest(first, entry) - robots * empty
         rounds = -(-pallets // 2) + 1
-        chain = (nearest(first, entry) + way) / speed + rounds * rules.process * DT
+        chain = (nearest(first, entry) + route) / speed + rounds * rules.process * DT
         best = max(best, chain, work / robots / speed)
     return best
 
 
 def slot_of(plan: Any, m: int, kind: int) -> Point:
-    """Where a slot of machine m lies."""
+    """Position of a slot of machine m, px."""
     return next((slot.x, slot.y) for slot in plan.slots if slot.machine == m and slot.kind == kind)
 
 
 def nearest(some: list[Point], others: list[Point]) -> float:
-    """The px between the nearest two points of two groups."""
+    """Least distance between two groups of points, px."""
     return min(hypot(x - u, y - v) for (x, y), (u, v) in product(some, others))
 
 
@@ -141,25 +141,25 @@ def nearest(some: list[Point], others: list[Point]) -> float:
 
 
 def reports(matches: int) -> Iterator[bool]:
-    """Print each report; whether its target was met."""
+    """Print each report; yields true where its target is met."""
     floors = arenas("factory")
     each = -(-matches // len(floors))
     parts = []
     for floor in floors:
         played, longest = play(floor, ("hard",) * ROBOTS, range(1, each + 1))
-        found = count(played, longest)
+        statistics = count(played, longest)
         alone, _ = play(floor, ("hard", "off", "hard", "off"), range(1, 21))
         least, took = reference(floor, 2, PALLETS), float(np.median(alone["tick"])) * DT
-        print(f"{floor}: {found}")
+        print(f"{floor}: {statistics}")
         print(
             f"  makespan: reference {least:.1f} s; two hard drivers alone {took:.1f} s ({took / least:.2f} x);"
-            f" the winners against two others {found['median s']:.1f} s ({found['median s'] / least:.2f} x)",
+            f" the winners against two others {statistics['median s']:.1f} s ({statistics['median s'] / least:.2f} x)",
             flush=True,
         )
         parts.append(played["loads"]["hits"].ravel())
-        yield not (found["stuck"] or found["unfinished"] or found["spoiled"])
+        yield not (statistics["stuck"] or statistics["unfinished"] or statistics["spoiled"])
     median = float(np.median(np.concatenate(parts)))
-    print(f"people driven over: median {median:g} a robot")
+    print(f"people hit: median {median:g} a robot")
     yield median <= MOST_HITS
     few = -(-matches // (len(floors) * 2 * 3))
     for better, worse, least in (("hard", "easy", LEAST_WINS), ("hard", "normal", 0.5), ("normal", "easy", 0.5)):
@@ -168,13 +168,13 @@ def reports(matches: int) -> Iterator[bool]:
         yield won / (won + tied + lost) >= least
     for strength in ("easy", "normal"):
         for floor in floors:
-            found = count(*play(floor, (strength,) * ROBOTS, range(1, few + 1)))
-            print(f"{strength}, {floor}: {found}", flush=True)
-            yield not found["stuck"]
+            statistics = count(*play(floor, (strength,) * ROBOTS, range(1, few + 1)))
+            print(f"{strength}, {floor}: {statistics}", flush=True)
+            yield not statistics["stuck"]
 
 
 def main(matches: int) -> int:
-    """Print all reports; the exit code."""
+    """Print all reports; returns the exit code."""
     return 0 if all([*reports(matches)]) else 1
 
 

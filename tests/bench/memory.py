@@ -1,7 +1,7 @@
 """Memory of the headless arcade over a long day: `python -m tests.bench.memory [presses N SEED | attract MINUTES]`.
 
-`presses`: random keys, four in a frame of a twentieth of a second of made-up time, 200,000 in all. `attract`: nobody
-presses anything for seven minutes. Resident memory is printed on the way; exit code 1 where it exceeds its limit.
+`presses`: random keys, four per frame of 50 ms of simulated time, 200,000 in total. `attract`: seven minutes without
+input. Resident memory is printed regularly; exit code 1 where it exceeds its limit.
 """
 
 import os
@@ -28,7 +28,7 @@ REPORTS = 20
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run one of both; the exit code."""
+    """Run one of the two; returns the exit code."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
     os.environ["PIGAMING_HOME"] = tempfile.mkdtemp(prefix="pigaming-memory-")
     job, *numbers = arguments or ["presses"]
@@ -41,7 +41,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int:
-    """Run the arcade for so many frames of `step` s, with `act` before each; 1 if it ever exceeds `limit` MB."""
+    """Run the arcade for some frames of `step` s, with `act` before each; returns 1 if it exceeds `limit` MB."""
     from pigaming_app.scenes.app import Options, run
 
     began, found = process_time(), [0.0]
@@ -62,7 +62,7 @@ def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int
 
 
 def press(rng: random.Random, count: int) -> None:
-    """Press and release so many keys; now and then the mouse is clicked somewhere."""
+    """Press and release random keys; from time to time click the mouse at a random point."""
     for _ in range(count):
         code = rng.choice(KEYS)
         for kind in (pygame.KEYDOWN, pygame.KEYUP):

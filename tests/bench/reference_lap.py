@@ -1,17 +1,17 @@
-"""The fastest lap of each track, how near the drivers come to it, and whether they ever fail.
+"""Reference lap of each track, lap times of the drivers against it, and their failures.
 
     python -m tests.bench.reference_lap [RACES]
 
-1000 races if nothing is said; exit code 1 where a target is missed.
+1000 races by default; exit code 1 where a target is missed.
 
-The reference is a lap by dynamic programming over (x, y, heading), without turbo. The places lie on lines across the
-course at each of its 320 points, 3 px apart and up to 40 px into the mud; the headings are 2.5 degrees apart. From each
-the robot drives an arc to the next line across: at full speed as long as its turn rate allows, else slower, in the mud
-at a third. The best way is then driven without rounding, and timed. Motors are taken to follow at once, which no
-robot's do. Ways that leave the course further than that, through the infield, are not looked at.
+The reference is a lap by dynamic programming over (x, y, heading), without turbo. The states lie on lines across the
+course at each of its 320 points, 3 px apart and up to 40 px into the mud, with headings 2.5 degrees apart. From each
+the robot drives an arc to the next line: at full speed as far as its turn rate allows, else slower, in the mud at a
+third. The best path is then driven without rounding, and timed. Motors are assumed to have no lag. Paths further off
+the course, through the infield, are not searched.
 
-A driver's ratio is the reference over the mean of its flying laps, alone on the track, with its turbo meter empty for
-good, so that both have the same limits. With turbo, shown beside it, a driver may be faster than the reference.
+A driver's ratio is the reference over the mean of its flying laps, alone on the track, with its turbo meter always
+empty, so that both have the same limits. With turbo, printed beside it, a driver may be faster than the reference.
 """
 
 import sys
@@ -33,12 +33,12 @@ from pigaming_app.sim.kernel import compiled, kernel
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH
 
-ASIDE, ASIDES = 3.0, 111  # px between places, and how many
-LEAN, LEANS = pi / 72, 61  # rad between headings, and how many
+ASIDE, ASIDES = 3.0, 111  # px between states of a line, and their number
+LEAN, LEANS = pi / 72, 61  # rad between headings, and their number
 BENDS = (-3.0, -2.0, -1.4, -1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0)  # of the full-speed bend
-MUDDY = 40.0  # px off the course that are looked at
+MUDDY = 40.0  # px off the course, limit of the search
 NEVER = 1e6
-LAPS = 3  # of dynamic programming, after which the next lap costs the same from everywhere
+LAPS = 3  # of dynamic programming, until the cost of a further lap is the same from all states
 TARGETS = {"easy": (0.75, 0.85), "normal": (0.82, 0.95), "hard": (0.96, 1.01)}
 SOLO = 8  # races of a driver alone
 MIXTURES = (
@@ -48,12 +48,12 @@ MIXTURES = (
     ("easy", "hard", "normal", "easy"),
     ("hard", "easy", "hard", "normal"),
 )
-LOOK = 5  # ticks between two looks at a race
-STUCK, STUCK_PX = 3 * HZ, 10.0  # ticks with the stick pushed, in which a robot that is not stuck gets further than this
+LOOK = 5  # ticks between two checks of a race
+STUCK, STUCK_PX = 3 * HZ, 10.0  # ticks with the stick pushed, and px within which a robot is stuck
 
 
 def reference(course: Course) -> float:
-    """The s of the fastest flying lap."""
+    """Time of the fastest flying lap, s."""
     rules, nobody = Rules(), Seat("off", 0)
     set_rules(rules, Setup("race", "", (nobody, nobody, nobody, nobody), 1.0, 1, "standard"))
     ring = np.zeros((POINTS, 4))  # x, y, way, half
@@ -77,7 +77,7 @@ def reference(course: Course) -> float:
 
 @kernel
 def step(ring: Any, i: int, aside: float, lean: float, bend: float, limits: Any) -> tuple[float, float, float]:
-    """Where an arc from line i meets the next: aside, lean, and the s it takes; NEVER where it does not."""
+    """Intersection of an arc from line i with the next: offset, heading, and time in s; NEVER if there is none."""
     here, there = ring[i], ring[(i + 1) % len(ring)]
     x, y = here[0] - aside * sin(here[2]), here[1] + aside * cos(here[2])
     heading = here[2] + lean
@@ -104,7 +104,7 @@ def step(ring: Any, i: int, aside: float, lean: float, bend: float, limits: Any)
 
 @kernel
 def worth(table: Any, aside: float, lean: float) -> float:
-    """The table between its places."""
+    """The table, interpolated."""
     a, b = aside / ASIDE + ASIDES // 2, lean / LEAN + LEANS // 2
     i, j = int(a), int(b)
     if a < 0.0 or b < 0.0 or i >= ASIDES - 1 or j >= LEANS - 1:
@@ -117,30 +117,30 @@ def worth(table: Any, aside: float, lean: float) -> float:
 
 
 def fill(rest: Any, ring: Any, bends: Any, limits: Any) -> None:
-    """One lap backwards: what the rest costs from every place of every line."""
+    """One lap backwards: the cost-to-go of every state of every line."""
     for i in range(len(ring) - 1, -1, -1):
         for a in range(ASIDES):
             for b in range(LEANS):
                 aside, lean = (a - ASIDES // 2) * ASIDE, (b - LEANS // 2) * LEAN
-                least = NEVER
+                lowest = NEVER
                 if abs(aside) <= ring[i, 3] + MUDDY:
                     for bend in bends:
                         on, turned, cost = step(ring, i, aside, lean, bend, limits)
                         if cost < NEVER:
-                            least = min(least, cost + worth(rest[i + 1], on, turned))
-                rest[i, a, b] = least
+                            lowest = min(lowest, cost + worth(rest[i + 1], on, turned))
+                rest[i, a, b] = lowest
 
 
 def follow(rest: Any, ring: Any, bends: Any, limits: Any, path: Any) -> None:
-    """Drive the best way, without rounding: fills `path` from its first row on."""
+    """Drive the best path without rounding; fills `path` from its first row on."""
     for n in range(len(path) - 1):
         i = n % len(ring)
-        least = 1e9
+        lowest = 1e9
         for bend in bends:
             on, turned, cost = step(ring, i, path[n, 0], path[n, 1], bend, limits)
             total = cost + worth(rest[i + 1], on, turned)
-            if cost < NEVER and total < least:
-                least = total
+            if cost < NEVER and total < lowest:
+                lowest = total
                 path[n + 1, 0], path[n + 1, 1], path[n + 1, 2] = on, turned, path[n, 2] + cost
 
 
@@ -148,7 +148,7 @@ def follow(rest: Any, ring: Any, bends: Any, limits: Any, path: Any) -> None:
 
 
 def alone(track: str, strength: str, turbo: bool) -> float:
-    """The mean s of the flying laps of a driver that has the track to itself."""
+    """Mean time of the flying laps of a driver alone on the track, s."""
     seats = Seat(strength, 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
     setups = [Setup("race", track, seats, 10.0, seed, "standard", MOST_LAPS) for seed in range(1, SOLO + 1)]
     batch = Batch(setups, [BRAINS["race"][strength]], True)
@@ -160,7 +160,7 @@ def alone(track: str, strength: str, turbo: bool) -> float:
 
 
 def race(track: str, strengths: tuple[str, ...], seeds: range) -> dict[str, int]:
-    """Races of four drivers: how many missed a line, were stuck, or did not finish in the time that all have."""
+    """Races of four drivers: numbers that missed a line, were stuck, or did not finish in time."""
     one, two, three, four = (Seat(strength, i) for i, strength in enumerate(strengths))
     setups = [Setup("race", track, (one, two, three, four), 10.0, seed, "standard") for seed in seeds]
     batch = Batch(setups, [BRAINS["race"][strength] for strength in strengths], True)
@@ -183,7 +183,7 @@ def race(track: str, strengths: tuple[str, ...], seeds: range) -> dict[str, int]
 
 
 def sweep(races: int, first: int = 1) -> tuple[int, dict[str, int]]:
-    """About so many races over all tracks and mixtures of strengths, at least that many; what went wrong in them."""
+    """At least that many races over all tracks and mixtures of strengths; returns the failures."""
     tracks = arenas("race")
     each = -(-races // (len(tracks) * len(MIXTURES)))
     total = {"missed": 0, "stuck": 0, "unfinished": 0}
@@ -196,7 +196,7 @@ def sweep(races: int, first: int = 1) -> tuple[int, dict[str, int]]:
 
 
 def main(races: int) -> int:
-    """Print the ratios and the sweep; the exit code."""
+    """Print the ratios and the sweep; returns the exit code."""
     good = True
     for track in arenas("race"):
         lap = reference(load("race", track).plan.course)

@@ -1,13 +1,13 @@
-"""The published table of the Q-learner against the FSM, played again.
+"""Reproduction of the published table of the Q-learner against the FSM.
 
     python -m tests.bench.reproduce_table [--seeds FIRST LAST] [--plain] [--csv FILE]
     python -m tests.bench.reproduce_table --ship
 
-For each reward it trains robots from so many seeds (1 to 12 if nothing is said) in 200 matches of two minutes, plays
-100 matches of two minutes of each against the frozen FSM `classic`, sides swapped, without the freeing reflex that they
-have on a seat, and prints what came of it beside what was published, with Wilson's 95 % intervals: of every seed, of
-the median of them, and of the named seed whose table comes with the arcade. `--ship` trains just those two tables,
-writes them and measures them. Exit code 1 where one of the two lies outside the published interval.
+For each reward it trains one robot per seed (1 to 12 by default) in 200 matches of two minutes, plays 100 matches of
+two minutes of each against the frozen FSM `classic`, sides swapped, without the unstick reflex of seated robots, and
+prints the results beside the published ones, with Wilson's 95 % intervals: of every seed, of their median, and of the
+named seed whose table ships with the arcade. `--ship` trains, writes and measures only those two tables. Exit code 1
+where one of the two lies outside the published interval.
 """
 
 import argparse
@@ -29,12 +29,12 @@ from pigaming_app.sim.world import HZ
 PUBLISHED = {1: (32, 68, 0), 2: (94, 6, 0)}
 WITHIN = {1: (0.237, 0.417), 2: (0.875, 0.972)}  # wins: Wilson's interval of the published share
 MOST_LOST = 0.037  # the same for no loss in 100
-NAMED = {1: 158, 2: 5}  # the seeds of the tables that come with the arcade
+NAMED = {1: 158, 2: 5}  # the seeds of the shipped tables
 MATCHES, MEASURED, MEASURE_SEED = 200, 100, 1000
 
 
 class Row(NamedTuple):
-    """How the robot of one seed fared."""
+    """Results of the robot of one seed."""
 
     reward: int
     seed: int
@@ -44,68 +44,68 @@ class Row(NamedTuple):
 
     @property
     def within(self) -> bool:
-        """Whether it fared as published."""
+        """True if the results lie within the published intervals."""
         low, high = WITHIN[self.reward]
         return low <= self.wins / MEASURED <= high and self.losses / MEASURED <= MOST_LOST
 
 
 def trained(reward: int, seed: int, fast: bool) -> Training:
-    """A robot after its 200 matches."""
-    course = Training(RECIPES[reward], seed, fast=fast)
-    course.run(MATCHES * round(course.minutes * 60 * HZ))
-    return course
+    """A robot after MATCHES matches."""
+    learner = Training(RECIPES[reward], seed, fast=fast)
+    learner.run(MATCHES * round(learner.minutes * 60 * HZ))
+    return learner
 
 
-def measured(course: Training, reward: int, seed: int) -> Row:
-    """How it fares against the frozen FSM."""
+def measured(learner: Training, reward: int, seed: int) -> Row:
+    """Results against the frozen FSM."""
     opponent = BRAINS["pitanks"]["classic"]
-    return Row(reward, seed, *contest(course.checkpoint().kind, opponent, MEASURED, MEASURE_SEED, fast=course.fast))
+    return Row(reward, seed, *contest(learner.checkpoint().kind, opponent, MEASURED, MEASURE_SEED, fast=learner.fast))
 
 
 def rows(reward: int, seeds: range, fast: bool) -> Iterator[Row]:
-    """One after the other, told as they come."""
+    """Train and measure one seed after the other; each row is printed at once."""
     for seed in seeds:
         row = measured(trained(reward, seed, fast), reward, seed)
-        tell(str(seed), row)
+        print_row(str(seed), row)
         yield row
 
 
-def tell(what: str, row: Row) -> None:
-    """One line of the table."""
+def print_row(name: str, row: Row) -> None:
+    """Print a line of the table."""
     low, high = wilson(row.wins, MEASURED)
     interval = f"{100 * low:5.1f} to {100 * high:5.1f} %"
     mark = "  as published" if row.within else ""
-    print(f"{what:>16}{row.wins:7}{row.ties:7}{row.losses:7}   {interval}{mark}", flush=True)
+    print(f"{name:>16}{row.wins:7}{row.ties:7}{row.losses:7}   {interval}{mark}", flush=True)
 
 
 def table(reward: int, seeds: range, fast: bool) -> list[Row]:
-    """The table of one reward."""
+    """Print the table of one reward; returns its rows."""
     print(f"\nreward {reward}{'seed':>7}{'wins':>8}{'ties':>7}{'losses':>8}   wins, 95 %")
-    tell("published", Row(reward, 0, *PUBLISHED[reward]))
+    print_row("published", Row(reward, 0, *PUBLISHED[reward]))
     found = list(rows(reward, seeds, fast))
     wins, ties, losses = (round(median(row[k] for row in found)) for k in (2, 3, 4))
-    tell("median", Row(reward, 0, wins, ties, losses))
+    print_row("median", Row(reward, 0, wins, ties, losses))
     named = next((row for row in found if row.seed == NAMED[reward]), None)
     if named is None:
         named = measured(trained(reward, NAMED[reward], fast), reward, NAMED[reward])
         found.append(named)
-    tell(f"named: {named.seed}", named)
+    print_row(f"named: {named.seed}", named)
     return found
 
 
 def ship(fast: bool) -> list[Row]:
-    """Train the two tables that come with the arcade."""
+    """Train, save and measure the two shipped tables."""
     found = []
     for reward, seed in NAMED.items():
-        course = trained(reward, seed, fast)
-        save_table(course.trained(f"q{reward}"), ASSETS / "brains" / f"q{reward}.npz")
-        found.append(measured(course, reward, seed))
-        tell(f"q{reward}, seed {seed}", found[-1])
+        learner = trained(reward, seed, fast)
+        save_table(learner.trained(f"q{reward}"), ASSETS / "brains" / f"q{reward}.npz")
+        found.append(measured(learner, reward, seed))
+        print_row(f"q{reward}, seed {seed}", found[-1])
     return found
 
 
 def main() -> int:
-    """The whole bench."""
+    """Run the benchmark; returns the exit code."""
     parser = argparse.ArgumentParser(description="The published table of the Q-learner, played again.")
     parser.add_argument("--seeds", type=int, nargs=2, default=(1, 12), metavar=("FIRST", "LAST"))
     parser.add_argument("--plain", action="store_true", help="without numba")

@@ -1,8 +1,7 @@
-"""A day in the simulator: `python -m tests.bench.soak [HOURS]`. Exit code 1 where an invariant breaks.
+"""Soak test of the simulator: `python -m tests.bench.soak [HOURS]`. Exit code 1 where an invariant breaks.
 
-The hours are shared among the games, and every simulated second of every match is looked at: no number is NaN, nobody
-stands in a wall, and what the game itself promises holds. Then 10,000 plain matches are made and played briefly: memory
-stays flat.
+The hours are shared among the games, and every simulated second of every match is checked: no NaN, no robot in a wall,
+and the invariants of the game. Then 10,000 plain matches are created and played briefly: memory must stay flat.
 """
 
 import resource
@@ -29,7 +28,7 @@ SECONDS = 120
 
 
 def main(hours: float) -> int:
-    """Run both soaks; the exit code."""
+    """Run both soak tests; returns the exit code."""
     wrong = [trouble for game in games() for seconds in day(game, hours / len(games())) for trouble in seconds]
     print(f"{hours:g} simulated hours: {len(wrong)} broken invariants", *wrong[:5], sep="\n  ")
     grown = memory()
@@ -38,7 +37,7 @@ def main(hours: float) -> int:
 
 
 def setup(game: str, arena: str, seed: int) -> Setup:
-    """The longest way to the goal."""
+    """A match with the longest goal."""
     rules = games()[game]
     one, two, three, four = (Seat(name, team) for name, team in zip(BRAIN, rules.teams, strict=True))
     goal = max(rules.goals, default=0)
@@ -46,7 +45,7 @@ def setup(game: str, arena: str, seed: int) -> Setup:
 
 
 def day(game: str, hours: float) -> Iterator[list[str]]:
-    """What is wrong after each simulated second, over all arenas."""
+    """Broken invariants, checked after each simulated second, over all arenas."""
     seed, left = 1, hours * 3600.0
     while left > 0.0:
         for arena in arenas(game):
@@ -60,7 +59,7 @@ def day(game: str, hours: float) -> Iterator[list[str]]:
 
 
 def broken(game: str, batch: Batch) -> list[str]:
-    """The invariants that do not hold now."""
+    """The invariants that are broken now."""
     robots = batch.matches["robots"]
     wrong = [
         f"{field} is not a number"
@@ -73,14 +72,14 @@ def broken(game: str, batch: Batch) -> list[str]:
 
 
 def pitanks(matches: Any) -> list[str]:
-    """Scores sum to zero; nobody has more bullets than the rules allow."""
+    """Scores sum to zero; no robot has more bullets than the rules allow."""
     wrong = ["scores do not sum to zero"] if matches["robots"]["score"].sum(axis=1).any() else []
     alive = matches["bullets"]["alive"].reshape(len(matches), ROBOTS, OWN_BULLETS).sum(axis=2)
     return wrong + (["too many bullets"] if (alive > matches["rules"]["boosted_alive"][:, None]).any() else [])
 
 
 def race(matches: Any) -> list[str]:
-    """Every rank is there once; laps counted are lines crossed."""
+    """Every rank occurs once; counted laps equal crossed lines."""
     ranks = np.sort(matches["racers"]["rank"], axis=1)
     wrong = [] if (ranks == np.arange(1, ROBOTS + 1)).all() else ["two robots share a rank"]
     laps = np.maximum(0, matches["racers"]["passed"] - 1) // ROBOTS
@@ -101,7 +100,7 @@ PROMISES: dict[str, Callable[[Any], list[str]]] = {"pitanks": pitanks, "race": r
 
 
 def memory() -> float:
-    """MB by which the process grew while the last 9,000 of 10,000 short plain matches were played."""
+    """Growth of the process, MB, over the last 9,000 of 10,000 short plain matches."""
     first = 0
     names = list(games())
     for i in range(10_000):

@@ -1,6 +1,6 @@
-"""A mat without light, air or bytes: four robots, a tracker that knows, a link that tells, all in simulated time.
+"""A simulated mat with ideal tracker and link, for tests of the code between them.
 
-What is tried here is what lies between tracker and link; the emulated arena tries it with cameras and radio.
+The emulated arena covers the same with pictures and packets.
 """
 
 from collections import deque
@@ -22,20 +22,20 @@ STARTS = ((200.0, 200.0, 0.8), (1400.0, 200.0, 2.4), (1400.0, 700.0, 3.9), (200.
 
 
 class Robot:
-    """A true robot: a drivetrain and a pose."""
+    """A robot with its true drivetrain and pose."""
 
     def __init__(self, pose, train):
         self.x, self.y, self.heading = pose
         self.train = train
-        self.told = None
+        self.command = None
         self.linear = self.angular = 0.0
         self.seen, self.doubled, self.battery, self.heard = 0.0, False, 5.0, 0.0
         self.hidden = self.silent = False
 
     def roll(self):
-        goal = twist(self.train, *self.told) if self.told else (0.0, 0.0)
+        goal = twist(self.train, *self.command) if self.command else (0.0, 0.0)
         share = 1.0 - exp(-STEP / self.train.lag)
-        mean = 1.0 - share * self.train.lag / STEP  # of the way to the goal, over the step
+        mean = 1.0 - share * self.train.lag / STEP  # mean share of the way to the goal speed in a step
         way = STEP * (self.linear + (goal[0] - self.linear) * mean)
         turn = STEP * (self.angular + (goal[1] - self.angular) * mean)
         self.x += way * cos(self.heading + 0.5 * turn)
@@ -46,7 +46,7 @@ class Robot:
 
 
 class Mat:
-    """Eye, tracker and link in one; `rig` joins them."""
+    """Camera, tracker and link in one; `rig` combines them."""
 
     def __init__(self, poses=STARTS, train=TRUE):
         self.now = 0.0
@@ -55,8 +55,8 @@ class Mat:
         self.looked = 0.0
         self.refused = {}
         self.coming = deque()
-        self.radio = [0, 1, 2, 3]  # by robot: the channel that it listens to
-        self.past = deque()  # (s, poses), as long as they are on their way through the camera
+        self.radio = [0, 1, 2, 3]  # channel of each robot
+        self.past = deque()  # (s, poses) in transit through the camera
         self.pictures = 0
         self.rig = Rig(self, self, self, self.clock, (UNMEASURED,) * 4)
 
@@ -66,9 +66,9 @@ class Mat:
     def pass_time(self, seconds=0.02):
         for _ in range(round(seconds / STEP)):
             while self.coming and self.coming[0][0] <= self.now + 1e-9:
-                told = self.coming.popleft()[1]
+                command = self.coming.popleft()[1]
                 for robot, channel in zip(self.robots, self.radio, strict=True):
-                    robot.told = told[channel]
+                    robot.command = command[channel]
             self.now += STEP
             for robot in self.robots:
                 robot.roll()
@@ -78,9 +78,9 @@ class Mat:
                     robot.heard = self.now
             self.looked = self.looked if self.blind else self.now
 
-            self.past.append((self.now, [(one.x, one.y, one.heading) for one in self.robots]))
+            self.past.append((self.now, [(robot.x, robot.y, robot.heading) for robot in self.robots]))
 
-    # the eye: a picture of LATE s ago, 33 times a second, which is only a number
+    # camera: 33 pictures/s with a latency of LATE; the content is only a number
     def newest(self):
         if self.blind or self.now < self.pictures * 0.03 + LATE:
             return None
@@ -92,7 +92,7 @@ class Mat:
     def close(self):
         self.closed = True
 
-    # the tracker
+    # tracker
     def sent(self, time, twists):
         pass
 
@@ -103,12 +103,12 @@ class Mat:
         ahead = now - self.now
         return [
             Sighting(
-                one.x + ahead * one.linear * cos(one.heading),
-                one.y + ahead * one.linear * sin(one.heading),
-                one.heading + ahead * one.angular,
-                now - one.seen,
+                robot.x + ahead * robot.linear * cos(robot.heading),
+                robot.y + ahead * robot.linear * sin(robot.heading),
+                robot.heading + ahead * robot.angular,
+                now - robot.seen,
             )
-            for one in self.robots
+            for robot in self.robots
         ]
 
     def predict(self, now, ahead):
@@ -120,7 +120,7 @@ class Mat:
     def wear(self, robot):
         return IDEAL
 
-    # the link
+    # link
     @property
     def telemetry(self):
         return {i: Telemetry(i, robot.battery, 0, robot.heard) for i, robot in enumerate(self.robots)}

@@ -1,4 +1,4 @@
-"""Small pictures of a mat for the tests: a camera of their own over boards and robots, written without the package."""
+"""Small test pictures of boards and robots on a mat, by a pinhole camera independent of the package."""
 
 from math import cos, sin
 
@@ -10,7 +10,7 @@ SIZE = (1280, 720)
 
 
 class Pinhole:
-    """A camera `height` mm over the arena's point `foot`, tilted by (rad) about x and y, with a lens."""
+    """A camera `height` mm above the point `foot` (arena px), tilted (rad) about x and y, with lens distortion."""
 
     def __init__(self, foot=(760.0, 430.0), height=2400.0, tilt=(0.05, -0.04), focal=950.0, k1=-0.25, k2=0.07):
         self.eye = np.array([*foot, -height / MM])
@@ -19,7 +19,7 @@ class Pinhole:
         self.centre = np.array([644.0, 355.0])
 
     def sees(self, places, height=0.0):
-        """Camera px of arena px that far, in mm, above the mat."""
+        """Arena px at a height (mm) above the mat to camera px."""
         points = np.column_stack([places, np.full(len(places), -height / MM)])
         rays = (points - self.eye) @ self.turn.T
         flat = rays[:, :2] / rays[:, 2:]
@@ -27,7 +27,7 @@ class Pinhole:
         return self.centre + self.focal * flat * (1 + self.k1 * r2 + self.k2 * r2 * r2)
 
     def photo(self, canvas, noise=2.0, seed=1):
-        """What it sees of a canvas (1080, 1920) projected on the mat."""
+        """The picture of a canvas (1080, 1920) projected on the mat."""
         x, y = np.meshgrid(np.arange(0.0, SIZE[0] + 8, 8), np.arange(0.0, SIZE[1] + 8, 8))  # the rest is interpolated
         bent = (np.stack([x, y], axis=-1).reshape(-1, 2) - self.centre) / self.focal
         flat = bent.copy()
@@ -44,12 +44,12 @@ class Pinhole:
 
 
 def speckled(picture, noise=2.0, seed=1):
-    """A picture with the noise of a sensor."""
+    """Add sensor noise to a picture."""
     return np.clip(picture + np.random.default_rng(seed).normal(0.0, noise, picture.shape), 0, 255).astype(np.uint8)
 
 
 def square(pose, edge):
-    """The corners of a marker in ArUco's order, its top ahead of the robot: (4, 2)."""
+    """The corners of a marker in ArUco's order, its top ahead of the robot, (4, 2)."""
     x, y, heading = pose
     ahead, right = np.array([cos(heading), sin(heading)]), np.array([-sin(heading), cos(heading)])
     middle, half = np.array([x, y]), edge / 2.0
@@ -57,7 +57,7 @@ def square(pose, edge):
 
 
 def lids(corners_of, size=SIZE, ground=40.0):
-    """A picture of white lids with markers whose corners (camera px) are given as (number, corners) pairs."""
+    """A picture of lids with markers, given as pairs (number, corners in camera px)."""
     picture = np.full((size[1], size[0]), ground, np.float32)
     for number, corners in corners_of:
         left, top = np.floor(corners.min(axis=0)).astype(int) - 40
@@ -70,7 +70,7 @@ def lids(corners_of, size=SIZE, ground=40.0):
 
 
 def lid(number, corners, size, ground):
-    """One marker on its lid, at twice the size and shrunk, a little blurred."""
+    """One marker on its lid, rendered at twice the size, scaled down and slightly blurred."""
     words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
     tile = np.full((160, 160), 225, np.uint8)
     tile[20:140, 20:140] = np.clip(cv2.aruco.generateImageMarker(words, number, 120), 25, 225)

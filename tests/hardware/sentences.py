@@ -1,4 +1,4 @@
-"""The English sentences of messages and errors of the hardware, as terminal and log have them."""
+"""English texts of hardware messages and errors, as in terminal and log."""
 
 import re
 from collections.abc import Iterator
@@ -12,13 +12,13 @@ from pigaming_app.ui.i18n import english
 
 
 def sentence(trouble: Any) -> str:
-    """The sentence of an OperatorMessage or an OperatorError."""
+    """The text of an OperatorMessage or OperatorError."""
     return english().explained(trouble.message if isinstance(trouble, OperatorError) else trouble)
 
 
 @contextmanager
 def refused(kind: type[OperatorError], match: str) -> Iterator["pytest.ExceptionInfo[OperatorError]"]:
-    """What is inside must raise this error with a sentence in which `match` is found."""
+    """The block must raise this error with a text that matches the pattern `match`."""
     with pytest.raises(kind) as caught:
         yield caught
     assert re.search(match, sentence(caught.value)), sentence(caught.value)

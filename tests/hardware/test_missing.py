@@ -1,4 +1,4 @@
-"""The arcade plays on a computer without opencv and pyserial; every part of it can at least be imported there."""
+"""Every module can be imported without OpenCV and pyserial."""
 
 import subprocess
 import sys

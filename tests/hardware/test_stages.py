@@ -1,4 +1,4 @@
-"""The stages of the robot loop import each other one way only; their root holds nothing but shared words."""
+"""The stages of the robot loop import each other in one direction; the root has only the shared types."""
 
 from graphlib import TopologicalSorter
 

@@ -1,4 +1,4 @@
-"""A serial line made of two lists and a clock that is told the time, and robots' answers, for tests of the link."""
+"""A fake serial port, a settable clock and a fake XBee, for tests of the link."""
 
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import FrameDecoder, PacketDecoder
@@ -16,13 +16,13 @@ class Time:
 
 
 class Wire:
-    """A port: what was written to it with its times, and what it will give to read. It can be cut."""
+    """A fake serial port: `written` with times, `coming` to be read; `cut` makes it fail."""
 
     def __init__(self, time):
         self.time = time
         self.written = []  # (s, bytes)
         self.coming = b""
-        self.cut = None  # an error that everything raises from now on
+        self.cut = None  # an error that all methods raise
         self.is_closed = False
 
     @property
@@ -50,7 +50,7 @@ class Wire:
 
 
 class Radio(Wire):
-    """A wire with an XBee at its end: it answers every broadcast, unless it is told to be quiet."""
+    """A port with an XBee that answers every broadcast."""
 
     def __init__(self, time, escaped=True, ap=None):
         super().__init__(time)
@@ -62,8 +62,8 @@ class Radio(Wire):
 
     def write(self, data):
         super().write(data)
-        for one in self._frames.feed(data):
-            match packets.decode(one):
+        for frame in self._frames.feed(data):
+            match packets.decode(frame):
                 case packets.TransmitRequest(number, packets.BROADCAST, packet):
                     self.drives += [(self.time(), drive_from(found)) for found in PacketDecoder().feed(packet)]
                     self.say(packets.TransmitStatus(number, self.status))
@@ -76,7 +76,7 @@ class Radio(Wire):
 
 
 def run(link, time, seconds, each=lambda: None):
-    """Pump the link every 10 ms of simulated time, after doing `each`."""
+    """Call `each` and pump the link every 10 ms of simulated time."""
     begun = time.now
     for tick in range(round(seconds * 100)):
         time.now = begun + tick / 100

@@ -1,4 +1,4 @@
-"""The job `bench robots`, in small: a match of every game, and the figures that it prints."""
+"""The job `bench robots` on a small scale: a match of every game, and its figures."""
 
 import json
 

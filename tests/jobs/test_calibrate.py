@@ -1,4 +1,4 @@
-"""The job `calibrate`: it proves itself without a window, and says in one line what it cannot do."""
+"""The job `calibrate`: unattended calibration, the marker sheet, and refusals in one line."""
 
 import json
 import os
@@ -16,35 +16,35 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def calibrate(home, *arguments):
-    """What a run of the job says, and its exit code."""
+    """Run the job; returns its output and exit code."""
     environment = {**os.environ, "PIGAMING_HOME": str(home)}
     code = "import sys; from pigaming_app.cli import main; sys.exit(main(sys.argv[1:]))"
     command = [sys.executable, "-W", "error", "-c", code, "calibrate", *map(str, arguments)]
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
 
 
-def test_on_the_emulated_arena_the_wizard_finds_what_is_true(tmp_path):
+def test_on_the_emulated_arena_the_wizard_matches_ground_truth(tmp_path):
     ran = calibrate(tmp_path, "--emulate", 5, "--json")
     assert (ran.returncode, ran.stderr) == (0, "")
-    told = json.loads(ran.stdout)
-    assert told["saved"]
-    assert Path(told["file"]).parent == tmp_path / "config"
-    assert told["calibration_mean_mm"] <= 1.5
-    assert told["calibration_max_mm"] <= 3.0
-    assert told["true_mean_mm"] <= 1.5
-    assert told["true_max_mm"] <= 3.0
-    assert told["lids_max_mm"] <= 4.0
+    result = json.loads(ran.stdout)
+    assert result["saved"]
+    assert Path(result["file"]).parent == tmp_path / "config"
+    assert result["calibration_mean_mm"] <= 1.5
+    assert result["calibration_max_mm"] <= 3.0
+    assert result["true_mean_mm"] <= 1.5
+    assert result["true_max_mm"] <= 3.0
+    assert result["lids_max_mm"] <= 4.0
 
 
 @pytest.mark.long
-def test_a_folder_that_cannot_be_written_is_said_and_is_no_success(tmp_path):
+def test_a_folder_that_cannot_be_written_is_reported_as_a_failure(tmp_path):
     (tmp_path / "config").write_text("a file in the way")
     ran = calibrate(tmp_path, "--emulate", "--json")
     assert ran.returncode == 1
     assert "Traceback" not in ran.stderr
-    told = json.loads(ran.stdout)
-    assert not told["saved"]
-    assert told["file"] in told["trouble"]
+    result = json.loads(ran.stdout)
+    assert not result["saved"]
+    assert result["file"] in result["trouble"]
 
 
 def test_the_sheet_is_written_where_it_was_asked_for(tmp_path):

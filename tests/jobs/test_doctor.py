@@ -1,4 +1,4 @@
-"""The doctor names what is missing and what to do, never raises, and waits for no driver."""
+"""The doctor reports missing parts with advice, never raises, and does not wait for hanging drivers."""
 
 import json
 import subprocess
@@ -26,9 +26,9 @@ def _probed(monkeypatch, home):
 
 
 def answer(monkeypatch, *lines):
-    """Let the probe say this."""
-    said = "".join(json.dumps(line) + "\n" for line in lines).encode()
-    monkeypatch.setattr(doctor.subprocess, "run", lambda *_, **__: SimpleNamespace(stdout=said))
+    """Make the probe print this."""
+    output = "".join(json.dumps(line) + "\n" for line in lines).encode()
+    monkeypatch.setattr(doctor.subprocess, "run", lambda *_, **__: SimpleNamespace(stdout=output))
 
 
 def line(what):
@@ -127,9 +127,9 @@ def test_a_broken_arena_is_named(monkeypatch):
         raise arena.ArenaError(f"{name}.toml: walls[0].ax: not a number")
 
     monkeypatch.setattr(arena, "load", broken)
-    said = [one for one in doctor.report() if one.what == "arena"]
-    assert said
-    assert "walls[0].ax" in said[0].found
+    lines = [one for one in doctor.report() if one.what == "arena"]
+    assert lines
+    assert "walls[0].ax" in lines[0].found
 
 
 def test_what_was_carried_over_from_an_older_version_is_named_with_its_backup(home):

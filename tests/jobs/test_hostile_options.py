@@ -1,4 +1,4 @@
-"""The command line with values that nobody means: each is used, or refused in one line with exit code 2."""
+"""Hostile option values: each is accepted, or refused in one line with exit code 2."""
 
 import contextlib
 import io
@@ -64,7 +64,7 @@ OPTIONS = {
     ),
     ("doctor", "--nonsense"): ("",),
 }  # fmt: skip
-SLOW = {  # values that rightly make a job play on, measure, or open a window for a long time
+SLOW = {  # valid values that make a job run for a long time
     "--minutes": ("0.5", "1.5", "+1", "1_0"),
     "--matches": ("1e5", "1_0", "9" * 20),
     "--speed": ("0.5", "1.5", "1_0"),
@@ -83,7 +83,7 @@ def cases():
 
 
 def furnish(here):
-    """Put odd files into a folder."""
+    """Create odd files in a folder."""
     (here / "FOLDER").mkdir()
     (here / "FILE").write_text("text")
     (here / "BINARY.toml").write_bytes(bytes(range(256)))
@@ -94,10 +94,10 @@ def furnish(here):
 
 
 def fault(arguments):
-    """What is wrong with how a command line was answered, or None."""
+    """The fault in the answer to a command line, or None."""
     out, err = io.StringIO(), io.StringIO()
     pygame.display.quit()
-    os.environ["SDL_VIDEODRIVER"] = "nonexistent"  # no window, so that nothing waits for anybody
+    os.environ["SDL_VIDEODRIVER"] = "nonexistent"  # no window, so that nothing waits for input
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         try:
             code = cli.main(arguments)
@@ -112,7 +112,7 @@ def fault(arguments):
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """A folder to be in, with files that are odd."""
+    """Change to a folder with odd files."""
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
@@ -164,9 +164,9 @@ def test_a_full_disk_after_the_match_costs_the_files_and_not_the_result(here, ca
     before, _ = content(here), capsys.readouterr()
     with room_for(500):
         assert cli.main([*job, "--seed", "2"]) == 2
-    said = capsys.readouterr()
-    assert json.loads(said.out)["game"] == "pitanks"
-    assert said.err.splitlines() == ["PiGaming: a.replay was not saved: File too large."]
+    output = capsys.readouterr()
+    assert json.loads(output.out)["game"] == "pitanks"
+    assert output.err.splitlines() == ["PiGaming: a.replay was not saved: File too large."]
     assert content(here) == before
 
 
@@ -243,7 +243,7 @@ def test_what_a_killed_recording_left_is_swept_by_the_next_one(here):
 
 
 def everything(part, parts):
-    """Answer all cases (every `parts`-th), and print the faults: python -m tests.jobs.test_hostile_options."""
+    """Run all cases (every `parts`-th) and print the faults: python -m tests.jobs.test_hostile_options."""
     chosen = list(cases())[part::parts]
     signal.signal(signal.SIGALRM, lambda *_: (_ for _ in ()).throw(TimeoutError("hangs")))
     wrong = 0

@@ -1,4 +1,4 @@
-"""What the job `league` prints: tables that fit a terminal and agree with each other, or one JSON object."""
+"""The job `league` prints tables that fit a terminal and agree with each other, or one JSON object."""
 
 import json
 import re
@@ -23,7 +23,7 @@ def home(tmp_path, monkeypatch):
 
 
 def made_up(brains: list[str], matches: int) -> League:
-    """A league in which who is named first wins every match of the pair."""
+    """A league in which the first AI of each pair wins all its matches."""
 
     def duel(left: str, right: str) -> Duel:
         return Duel("pitanks", left, right, matches, matches, 0, 0, wilson(matches, matches), 3.0, -3.0, 1.0, 1.0)

@@ -20,14 +20,14 @@ def home(tmp_path, monkeypatch):
     monkeypatch.setattr(robots, "LISTEN", 0.3)
 
 
-def told(capsys, *arguments):
-    """The one object that a job prints."""
+def output(capsys, *arguments):
+    """The JSON object that a job prints."""
     assert main([*arguments, "--json"]) == 0
     return json.loads(capsys.readouterr().out)
 
 
 def test_without_hardware_everything_that_is_missing_is_said(capsys):
-    found = told(capsys, "robots", "--port", "/dev/nowhere")
+    found = output(capsys, "robots", "--port", "/dev/nowhere")
     assert "/dev/nowhere" in found["radio"]
     assert found["eyes"]
     assert [one["heard"] for one in found["robots"]] == [False] * 4
@@ -38,23 +38,23 @@ def test_without_hardware_everything_that_is_missing_is_said(capsys):
 @pytest.mark.parametrize("wish", ["--pair", "--latency"])
 def test_robots_that_nobody_sees_are_not_moved(capsys, wish):
     assert main(["robots", wish]) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert "calibrat" in said or "opencv" in said.lower()
+    text = capsys.readouterr().err
+    assert text.count("\n") == 1
+    assert "calibrat" in text or "opencv" in text.lower()
 
 
 @pytest.mark.parametrize("job", [["robots"], ["fidelity", "record", "run.jsonl"]])
 def test_without_opencv_there_is_no_emulated_arena_and_one_sentence(capsys, monkeypatch, job):
     monkeypatch.setitem(sys.modules, "cv2", None)
     assert main([*job, "--emulate"]) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert "opencv" in said.lower()
+    text = capsys.readouterr().err
+    assert text.count("\n") == 1
+    assert "opencv" in text.lower()
 
 
 def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
     pytest.importorskip("cv2")
-    found = told(capsys, "robots", "--emulate", "--pair")
+    found = output(capsys, "robots", "--emulate", "--pair")
     assert found["radio"] is None
     for one in found["robots"]:
         assert one["heard"]
@@ -65,15 +65,15 @@ def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
     ]
 
 
-def test_who_is_who_is_remembered(home):
+def test_the_pairing_is_remembered(home):
     save_radios([0, 2, 1, 3])
-    settings, said = Settings.load(folders().config)
+    settings, text = Settings.load(folders().config)
     assert settings.radios == [1, 3, 2, 4]
-    assert said == []
+    assert text == []
 
 
 class Session:
-    """A session whose robots stand on a mat without light or air."""
+    """A session with the robots of a simulated mat."""
 
     def __init__(self, *_):
         self.mat = Mat()
@@ -87,17 +87,17 @@ class Session:
 def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(fidelity, "new_session", Session)
     run, out = tmp_path / "run.jsonl", tmp_path / "robots.toml"
-    assert told(capsys, "fidelity", "record", str(run), "--seconds", "24")["robots"] == [1, 2, 3, 4]
-    found = told(capsys, "fidelity", "identify", str(run), "--out", str(out))
+    assert output(capsys, "fidelity", "record", str(run), "--seconds", "24")["robots"] == [1, 2, 3, 4]
+    found = output(capsys, "fidelity", "identify", str(run), "--out", str(out))
     for one in found["robots"].values():
         assert one["after_mm"][0] < 0.1 * one["before_mm"][0]
     for train in parse(out.read_text(), "robots.toml"):
         assert train.left.speed == pytest.approx(TRUE.left.speed, rel=0.01)
-    again = told(capsys, "fidelity", "replay", str(run), "--robots", str(out))
+    again = output(capsys, "fidelity", "replay", str(run), "--robots", str(out))
     assert all(one["5"] < 40.0 for one in again["robots"].values())
 
 
-def test_a_run_kept_earlier_stays_where_nobody_can_dance(tmp_path, capsys, monkeypatch):
+def test_an_earlier_run_stays_where_no_robot_can_drive(tmp_path, capsys, monkeypatch):
     class Nobody(Session):
         def __init__(self, *_):
             super().__init__()
@@ -111,7 +111,7 @@ def test_a_run_kept_earlier_stays_where_nobody_can_dance(tmp_path, capsys, monke
     assert run.read_text() == "kept"
 
 
-def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_path, capsys):
+def test_drivetrains_of_emulated_robots_are_kept_apart_from_real_ones(tmp_path, capsys):
     run = tmp_path / "run.jsonl"
     head = {"kind": "head", "format": "pigaming-run-1", "mm": 1.3, "emulated": True}
     sent = {"kind": "sent", "time": 0.0, "seq": 1, "wheels": [[0.3, 0.2], None, None, None]}
@@ -121,7 +121,7 @@ def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_pa
         at = [0, 800.0 + 155.0 * sin(turn), 450.0 - 155.0 * cos(turn), turn]
         seen.append({"kind": "seen", "captured": 0.5 + 0.05 * i, "time": 0.6 + 0.05 * i, "fixes": [at]})
     run.write_text("".join(json.dumps(line) + "\n" for line in [head, sent, *seen]))
-    found = told(capsys, "fidelity", "identify", str(run))
+    found = output(capsys, "fidelity", "identify", str(run))
     assert found["out"].endswith("robots-emulated.toml")
     assert found["robots"]["1"]["after_mm"][2] < 20.0
 
@@ -143,17 +143,17 @@ def test_what_the_emulated_arena_taught_is_not_kept_among_the_real_robots(tmp_pa
 )
 def test_what_cannot_be_done_is_one_line(arguments, capsys):
     assert main(arguments) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert said.startswith("PiGaming: ")
+    text = capsys.readouterr().err
+    assert text.count("\n") == 1
+    assert text.startswith("PiGaming: ")
 
 
-def test_simulated_robots_drive_like_measured_ones_where_that_is_wished(tmp_path, capsys):
+def test_simulated_robots_drive_like_measured_ones_on_request(tmp_path, capsys):
     slow = Drivetrain(Wheel(60.0, 0.0), Wheel(60.0, 0.0), 62.0, 0.2, 0.1)
     file = tmp_path / "robots.toml"
     file.write_text(to_toml([slow] * 4))
     race = ["play", "race", "--seats", "hard,hard", "--headless", "--speed", "max", "--minutes", "0.4"]
-    ideal, measured = told(capsys, *race), told(capsys, *race, "--robots", str(file))
+    ideal, measured = output(capsys, *race), output(capsys, *race, "--robots", str(file))
     assert max(row["laps"] for row in ideal["rows"]) >= 1
     assert max(row["laps"] for row in measured["rows"]) == 0
 
@@ -166,5 +166,5 @@ def test_robots_that_cannot_be_read_are_one_line(tmp_path, capsys, text, more):
     if text is not None:
         file.write_text(text)
     assert main(["play", "--headless", "--robots", str(file), *more]) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
+    text = capsys.readouterr().err
+    assert text.count("\n") == 1

@@ -1,4 +1,4 @@
-"""The job `test`: which tools and tests its options choose, and how it ends."""
+"""The job `test`: selection of tools and tests by its options, and its exit code."""
 
 import subprocess
 
@@ -33,7 +33,7 @@ class Process:
 
 @pytest.fixture
 def started(monkeypatch):
-    """The words of every process that is started; one whose name is in `failing` fails."""
+    """The arguments of every started process; a process named in `failing` fails."""
     seen = []
 
     def start(words, output=None):

@@ -1,4 +1,4 @@
-"""The job `train`: it trains, goes on from a file, and refuses in one line what it cannot do."""
+"""The job `train`: training, resuming from a file, and refusals in one line."""
 
 import csv
 import json
@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def read(path):
-    """A trained table, checked."""
+    """Load a trained table."""
     return tables.decode(path.read_bytes(), path.name)
 
 
@@ -31,21 +31,21 @@ def train(out, *more):
     return main(["train", "qlearning", "--plain", "--minutes", "0.1", "--matches", "4", "--out", str(out), *more])
 
 
-def test_the_job_trains_and_tells(tmp_path, capsys):
+def test_the_job_trains_and_prints_its_result(tmp_path, capsys):
     out, log = tmp_path / "a.npz", tmp_path / "a.csv"
     assert train(out, "--reward", "2", "--seed", "5", "--csv", str(log), "--json") == 0
-    said = capsys.readouterr()
-    told = json.loads(said.out)
-    assert (told["matches"], told["experiences"], told["finished"]) == (4, 480, True)
-    assert told["wins"] + told["ties"] + told["losses"] == told["measured"]
-    assert "4/4 matches" in said.err
-    assert "480 experiences" in said.err
-    assert "FSM" in said.err
+    output = capsys.readouterr()
+    result = json.loads(output.out)
+    assert (result["matches"], result["experiences"], result["finished"]) == (4, 480, True)
+    assert result["wins"] + result["ties"] + result["losses"] == result["measured"]
+    assert "4/4 matches" in output.err
+    assert "480 experiences" in output.err
+    assert "FSM" in output.err
     rows = list(csv.DictReader(log.read_text().splitlines()))
     assert [row["matches"] for row in rows] == ["0", "1", "2", "3", "4"]
-    course = Training(RECIPES[2], 5, fast=False, minutes=0.1)
-    course.run(1200)
-    assert digest(read(out).rows[0]) == digest(course._tables[0])
+    learner = Training(RECIPES[2], 5, fast=False, minutes=0.1)
+    learner.run(1200)
+    assert digest(read(out).rows[0]) == digest(learner._tables[0])
 
 
 def test_the_job_goes_on_from_a_file(tmp_path, capsys):
@@ -66,16 +66,16 @@ def test_the_job_goes_on_from_a_table_of_another_engine_with_a_warning(tmp_path,
     assert not read(out).other_engine
 
 
-def test_what_cannot_be_gone_on_with_is_said_in_one_line(tmp_path, capsys):
+def test_a_file_that_cannot_be_resumed_is_refused_in_one_line(tmp_path, capsys):
     out = tmp_path / "a.npz"
     assert train(out, "--resume") == 2
     assert train(out, "--matches", "1") == 0
     capsys.readouterr()
     for word, more in (("reward", ["--reward", "2"]), ("seed", ["--seed", "9"]), ("reward", ["--set", "gamma=0.5"])):
         assert train(out, "--resume", *more) == 2
-        said = capsys.readouterr()
-        assert (said.out, said.err.count("\n")) == ("", 1)
-        assert f"another {word}" in said.err
+        output = capsys.readouterr()
+        assert (output.out, output.err.count("\n")) == ("", 1)
+        assert f"another {word}" in output.err
 
 
 @pytest.mark.parametrize(
@@ -98,9 +98,9 @@ def test_what_cannot_be_gone_on_with_is_said_in_one_line(tmp_path, capsys):
 )
 def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, capsys, more, word):
     assert train(tmp_path / "a.npz", *more) == 2
-    said = capsys.readouterr()
-    assert (said.out, said.err.count("\n")) == ("", 1)
-    assert word in said.err
+    output = capsys.readouterr()
+    assert (output.out, output.err.count("\n")) == ("", 1)
+    assert word in output.err
     assert not (tmp_path / "a.npz").exists()
 
 
@@ -145,9 +145,9 @@ def test_ctrl_c_keeps_what_has_been_learned(tmp_path):
     assert b"Ctrl-C" in running.stderr.readline()
     sleep(0.5)
     running.send_signal(signal.SIGINT)
-    said, _ = running.communicate(timeout=60)
+    output, _ = running.communicate(timeout=60)
     assert running.returncode == 130
-    assert b"continue with --resume" in said
+    assert b"continue with --resume" in output
     trained = read(out)
     assert trained.matches > 0
     assert int(trained.rows["experiences"][0]) == 120 * trained.matches

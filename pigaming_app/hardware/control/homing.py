@@ -144,8 +144,8 @@ class Homing:
         x, y, heading = pose
         while len(path) > 1 and distance((x, y), path[0]) < CORNER:
             path.pop(0)
-        left = distance((x, y), path[-1]) if len(path) == 1 else 1e9
-        if left < (AT if robot in self._arrived else AT - 4.0):
+        remaining = distance((x, y), path[-1]) if len(path) == 1 else 1e9
+        if remaining < (AT if robot in self._arrived else AT - 4.0):
             if distance(path[-1], goal[:2]) > AT:
                 del self._paths[robot]  # it has made room; plan from here to its goal
                 return REST
@@ -156,11 +156,11 @@ class Homing:
         direction = _slide(self.world, (x, y), (dx, dy))
         held = direction != (dx, dy)
         bearing = turn_to(atan2(direction[1], direction[0]) - heading)
-        back = left < 2.0 * RADIUS and abs(bearing) > 0.5 * pi
+        back = remaining < 2.0 * RADIUS and abs(bearing) > 0.5 * pi
         bearing = turn_to(bearing + pi) if back else bearing
         if abs(bearing) > 0.9:
             return 0.0, _on_the_spot(bearing, push)
-        speed = SLOWEST * push if held else min(FASTEST, max(SLOWEST * push, 2.0 * left)) * cos(1.5 * bearing)
+        speed = SLOWEST * push if held else min(FASTEST, max(SLOWEST * push, 2.0 * remaining)) * cos(1.5 * bearing)
         return (-speed if back else speed), 2.5 * bearing
 
     def _adapt_push(self, robot: int, pose: Pose, twist: Twist) -> None:

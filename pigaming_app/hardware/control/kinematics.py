@@ -25,9 +25,9 @@ class Kinematics:
         self.wear = IDEAL
         self._carry = [0.0, 0.0]
 
-    def wheels(self, asked: Twist) -> WheelCommand:
+    def wheels(self, desired: Twist) -> WheelCommand:
         """The wheel command for a twist (px/s, rad/s), rounded to the levels of the radio protocol."""
-        linear, half = asked[0], 0.5 * self.drivetrain.base * asked[1] / _plausible(self.wear.turning)
+        linear, half = desired[0], 0.5 * self.drivetrain.base * desired[1] / _plausible(self.wear.turning)
         left, right = (
             self._commanded(linear + half, self.wear.left),
             self._commanded(linear - half, self.wear.right),

@@ -165,7 +165,7 @@ class RealPlant:
         return bool(simulated) or seen.age < FORGOTTEN
 
     def _wheels(
-        self, robot: int, asked: Twist, held: Response, ahead: Sequence[Pose], solid: Sequence[int]
+        self, robot: int, desired: Twist, held: Response, ahead: Sequence[Pose], solid: Sequence[int]
     ) -> WheelCommand | None:
         """The command of one robot: None, rest, or the twist clipped by walls and safety."""
         if robot not in self.real or not self.world.robots[robot].present or held == Response.OFF:
@@ -175,11 +175,11 @@ class RealPlant:
             self._speeds[robot] = 0.0
             return kinematics.stand()
         if held == Response.HALF:
-            asked = (0.5 * asked[0], 0.5 * asked[1])
+            desired = (0.5 * desired[0], 0.5 * desired[1])
         x, y, _ = ahead[robot]
         others = [(ahead[i][0], ahead[i][1]) for i in solid if i != robot]
-        asked = limit_acceleration(asked[0], self._speeds[robot]), asked[1]
-        allowed = clip_twist(ahead[robot], asked, speed_limits(self.world, x, y, others), kinematics.drivetrain.lag)
+        desired = limit_acceleration(desired[0], self._speeds[robot]), desired[1]
+        allowed = clip_twist(ahead[robot], desired, speed_limits(self.world, x, y, others), kinematics.drivetrain.lag)
         self._speeds[robot] = allowed[0]
         return kinematics.wheels(allowed)
 
@@ -192,11 +192,11 @@ class RealPlant:
         self.motion[robot] = (linear + (goal[0] - linear) * share, angular + (goal[1] - angular) * share)
 
 
-def limit_acceleration(asked: float, before: float) -> float:
+def limit_acceleration(desired: float, before: float) -> float:
     """A speed (px/s) limited to MAX_ACCELERATION over a tick; deceleration is not limited."""
-    start = before if before * asked > 0.0 else 0.0
+    start = before if before * desired > 0.0 else 0.0
     limit = abs(start) + MAX_ACCELERATION * DT
-    return max(-limit, min(limit, asked))
+    return max(-limit, min(limit, desired))
 
 
 def _recorded(robot: Any) -> Sighting:

@@ -64,13 +64,13 @@ def speed_limits(world: Any, x: float, y: float, others: Sequence[tuple[float, f
     return limits
 
 
-def clip_twist(pose: Pose, asked: Twist, limits: Sequence[SpeedLimit], lag: float = LAG) -> Twist:
+def clip_twist(pose: Pose, desired: Twist, limits: Sequence[SpeedLimit], lag: float = LAG) -> Twist:
     """Clip the linear speed of a twist to the limits; the turn rate is unchanged.
 
     Headings are checked over the turn within one lag of the motors, so that a robot that swings its nose into a wall
     has slowed down by then.
     """
-    linear, angular = asked
+    linear, angular = desired
     sign = 1.0 if linear > 0.0 else -1.0
     ways = []
     for share in (0.0, 0.5, 1.0):

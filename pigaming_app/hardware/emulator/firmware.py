@@ -21,7 +21,7 @@ class Firmware:
     def __init__(self, robot: EmulatedRobot, address: int) -> None:
         self.robot, self.address = robot, address
         self.mute = False  # True if its reports get lost
-        self.heard = -1e9  # s, end of the last valid packet
+        self.last_packet = -1e9  # s, end of the last valid packet
         self.packets = self.rejected = 0
         self._packet = bytearray()
         self._seq = 0
@@ -34,7 +34,7 @@ class Firmware:
         """True if both motors are off."""
         return not (self.robot.left or self.robot.right)
 
-    def hear(self, data: bytes, now: float) -> None:
+    def receive(self, data: bytes, now: float) -> None:
         """Receive bytes from the radio at `now` (s)."""
         if not self.robot.alive:
             return
@@ -53,10 +53,10 @@ class Firmware:
         """Apply the deadman; returns the report due now, or b""."""
         robot = self.robot
         if not robot.alive:
-            self.heard = -1e9
+            self.last_packet = -1e9
             return b""
         self._empty = robot.battery < STOP or (self._empty and robot.battery < WARN)
-        if now - self.heard >= DEADMAN or self._empty:
+        if now - self.last_packet >= DEADMAN or self._empty:
             robot.left = robot.right = 0.0
         due = int((now - self._phase - SLOT * (self.address - 1)) // REPORT_EVERY)
         if due <= self._reported:
@@ -69,7 +69,7 @@ class Firmware:
             self.rejected += 1
             return
         self.packets += 1
-        self.heard, self._seq = now, packet[1]
+        self.last_packet, self._seq = now, packet[1]
         if self._seq % 10 == 0:
             self._phase, self._reported = now, -1
         left, right = packet[1 + 2 * self.address], packet[2 + 2 * self.address]
@@ -79,7 +79,7 @@ class Firmware:
 
     def _report(self, now: float) -> bytes:
         battery = self.robot.battery
-        flags = STOPPED if now - self.heard >= DEADMAN else 0
+        flags = STOPPED if now - self.last_packet >= DEADMAN else 0
         flags |= (LOW if battery < WARN else 0) | (EMPTY if self._empty else 0)
         millivolts = round(1000 * battery)
         report = bytes([REPORT, self.address, self._seq, flags, millivolts & 0x7F, millivolts >> 7 & 0x7F])

@@ -92,7 +92,7 @@ class EmulatedRadio:
                 return len(data)
             for value in data:
                 self._out_free += byte
-                frame = self._receiver.hear(value)
+                frame = self._receiver.feed(value)
                 if frame is not None:
                     self._take(frame, self._out_free)
         return len(data)
@@ -106,7 +106,7 @@ class EmulatedRadio:
         with self._lock:
             while self._events and self._events[0][0] <= now:
                 at, _, robot, data = heappop(self._events)
-                self.firmwares[robot].hear(data, at)
+                self.firmwares[robot].receive(data, at)
             for robot, firmware in enumerate(self.firmwares):
                 report = firmware.tick(now)
                 if report:

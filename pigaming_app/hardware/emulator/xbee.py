@@ -30,7 +30,7 @@ class FrameReceiver:
         self._bytes: bytearray | None = None
         self._next_escaped = False
 
-    def hear(self, byte: int) -> bytes | None:
+    def feed(self, byte: int) -> bytes | None:
         """Parse a byte; the data of a frame that ends with it, or None."""
         if byte == START and (self.escaped or self._bytes is None):
             self._bytes, self._next_escaped = bytearray(), False

@@ -83,7 +83,7 @@ def compiled_ticks(game: str, seed: int) -> float:
 
 
 def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
-    """Play in a process of its own from the time `start_at`: begin and end (s since the epoch), ticks played."""
+    """Play in a separate process from `start_at` on; returns begin, end (s since the epoch) and ticks played."""
     matches = batch(game, 1000 * seed + 1, 2 * MATCHES, True)
     matches.play(0)
     while time() < start_at:

@@ -1,4 +1,4 @@
-"""Resident memory of the arcade in its usual states, each measured in a process of its own without a window.
+"""Resident memory of the arcade in its usual states, each measured in a separate process without a window.
 
 A match is reached over the title and the lobby, as in use. Time is simulated: a minute takes seconds.
 """

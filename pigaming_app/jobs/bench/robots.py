@@ -89,7 +89,7 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
 
 
 def reached(figures: dict[str, float]) -> dict[str, bool]:
-    """Whether each figure meets its target."""
+    """True for each figure that meets its target."""
     return {
         key: value >= TARGETS[key] if key == "frames_complete" else value <= TARGETS[key]
         for key, value in figures.items()

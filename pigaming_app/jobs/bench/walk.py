@@ -1,4 +1,4 @@
-"""The longest frame of every screen, measured by scenes/walk in a process of its own."""
+"""The longest frame of every screen, measured by scenes/walk in a separate process."""
 
 import json
 import os

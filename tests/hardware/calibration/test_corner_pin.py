@@ -1,4 +1,4 @@
-"""The corner pin puts the picture's corners where they are wanted, and refuses corners into which nothing fits."""
+"""The corner pin maps the picture's corners to their targets, and refuses corners that no picture fits."""
 
 import numpy as np
 import pytest
@@ -48,8 +48,8 @@ def test_the_mouse_points_at_what_is_seen_under_it() -> None:
     "corners",
     [
         (0, 0, 1920, 0, 0, 1080, 1920, 1080),  # crossed
-        (1920, 0, 0, 0, 0, 1080, 1920, 1080),  # seen from behind
-        (0, 0, 960, 540, 1920, 1080, 0, 1080),  # on a line
+        (1920, 0, 0, 0, 0, 1080, 1920, 1080),  # mirrored
+        (0, 0, 960, 540, 1920, 1080, 0, 1080),  # collinear
         (0, 0, 100, 0, 100, 50, 0, 50),  # tiny
         (0, 0, float("nan"), 0, 1920, 1080, 0, 1080),
         (0, 0, 1920, 0),

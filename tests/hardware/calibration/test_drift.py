@@ -1,4 +1,4 @@
-"""Whether the camera was moved: told by the four markers in the margins."""
+"""The drift monitor detects a moved camera by the four markers in the margins."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ GROUND = nominal(SIZE)
 
 
 def projected(shift=(0.0, 0.0), without=()):
-    """The corner markers as a camera sees them that was moved by so many px."""
+    """A picture of the corner markers by a camera that moved by some px."""
     canvas = np.zeros((1080, 1920), np.uint8)
     for number, (left, top, tile) in zip(CORNER_IDS, corner_markers(), strict=True):
         if number not in without:
@@ -39,14 +39,14 @@ def test_the_corner_markers_lie_in_the_margins():
         assert left + tile.shape[1] <= 160 or left >= 1760
 
 
-def test_nothing_moved_is_no_drift():
+def test_without_motion_there_is_no_drift():
     drift = watched([projected()] * 10)
     assert drift.mm < 1.0
     assert drift.mm <= WARN
 
 
 def test_a_camera_that_was_nudged_is_noticed_after_ten_pictures():
-    """4 camera px are 6 arena px, 7.9 mm: worth a warning; 9 px are 17.8 mm: nobody can play so."""
+    """4 camera px are 6 arena px, 7.9 mm: worth a warning; 9 px are 17.8 mm: unplayable."""
     assert watched([projected((4.0, 0.0))] * 9).mm == 0.0
     nudged = watched([projected((4.0, 0.0))] * 10)
     assert nudged.mm == pytest.approx(4.0 * 1.5 * GROUND.mm, abs=0.8)
@@ -73,6 +73,6 @@ def test_a_knock_is_noticed_within_half_a_second():
     assert watched([projected()] * 30 + [projected((3.0, 8.0))] * 15, every=1 / 30).mm > PAUSE
 
 
-def test_what_was_knocked_and_put_back_is_well_again():
+def test_a_camera_that_is_put_back_has_no_drift():
     drift = watched([projected()] * 10 + [projected((20.0, 8.0))] * 20 + [projected()] * 20)
     assert drift.mm < 1.0

@@ -1,4 +1,4 @@
-"""Where things on the mat are, and calibrations that must not be believed."""
+"""The ground plane maps between camera and arena, and refuses invalid calibrations."""
 
 from dataclasses import replace
 from math import hypot, pi
@@ -17,7 +17,7 @@ BENT = Lens(SIZE, -0.45, 0.2, (970.0, 530.0))
 
 
 def edge_on(ground, robot, x, y, height, edge=50.0):
-    """The mark of an upright marker, `edge` mm wide, `height` mm above a place."""
+    """The detection of an upright marker, `edge` mm wide, `height` mm above a place."""
     half = 0.5 * edge / ground.mm
     corners = np.array([(x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)])
     return DetectedMarker(robot, ground.seen_at(corners, height))

@@ -1,4 +1,4 @@
-"""The page of markers: that it is to scale can be read in the file."""
+"""The marker sheet is to scale, by the coordinates in the file."""
 
 import re
 
@@ -15,12 +15,12 @@ MM = 72.0 / 25.4  # PDF points
 
 
 def filled(page):
-    """The black boxes of a page, points: (left, bottom, wide, high)."""
+    """The black boxes of a page in points: (left, bottom, width, height)."""
     return [tuple(map(float, found)) for found in re.findall(rb"([\d.]+) ([\d.]+) ([\d.]+) ([\d.]+) re f", page)]
 
 
 def painted(boxes, scale=2.0):
-    """The boxes as a picture of A4, `scale` px to a point."""
+    """The boxes rasterized on an A4 page, `scale` px per point."""
     picture = np.full((round(842 * scale), round(595 * scale)), 255, np.uint8)
     for left, bottom, wide, high in boxes:
         top = 841.89 - bottom - high

@@ -1,4 +1,4 @@
-"""From a photo of a board to a calibration, and when there is none."""
+"""The solver calibrates from photos of a board, and refuses unusable ones."""
 
 import numpy as np
 import pytest
@@ -18,12 +18,12 @@ WIDTH_MM = 1600.0 * MM
 
 
 def perfect(board, camera=CAMERA):
-    """What a camera without noise sees of a board."""
+    """Corners of a board without noise, camera px."""
     return {number: camera.sees(corners) for number, corners in board.corners.items()}
 
 
 def true_error_mm(ground, height=0.0):
-    """The largest error of a calibration over the arena, against the camera that took the photos."""
+    """The largest error of a calibration over the arena against ground truth, mm."""
     x, y = np.meshgrid(np.linspace(0, 1600, 9), np.linspace(0, 900, 7))
     places = np.column_stack([x.ravel(), y.ravel()])
     return np.sqrt(((ground.at_height(CAMERA.sees(places, height), height) - places) ** 2).sum(axis=1)).max() * MM
@@ -74,12 +74,12 @@ def test_lens_and_plane_are_recovered_exactly_where_there_is_no_noise():
     ground = solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1")
     assert true_error_mm(ground) < 0.01
     assert ground.lens.centre == pytest.approx(tuple(CAMERA.centre), abs=0.2)
-    # the lens is described in widths of the picture, the truth in focal lengths
+    # the package normalizes by the picture's width, the ground truth by the focal length
     assert ground.lens.k1 == pytest.approx(CAMERA.k1 * (SIZE[0] / CAMERA.focal) ** 2, rel=0.01)
 
 
 def test_without_the_lens_a_calibration_would_be_refused():
-    """A homography alone, the best there is, leaves errors of centimetres behind (HARDWARE.md)."""
+    """The best homography alone leaves errors of centimetres."""
     seen = perfect(BOARD)
     places, points = np.concatenate(list(BOARD.corners.values())), np.concatenate(list(seen.values()))
     flat = np.column_stack([points, np.ones(len(points))]) @ homography(points, places).T
@@ -94,7 +94,7 @@ def test_a_few_wrong_markers_do_no_harm():
 
 
 def test_a_board_in_the_wrong_place_is_found_out():
-    """The second board was still the first: the verification must not pass."""
+    """The first board projected in place of the second must fail the verification."""
     ground = solve(perfect(BOARD), BOARD, SIZE, WIDTH_MM, "1")
     residuals = verify(ground, perfect(BOARD), HELD_OUT)
     assert not residuals.accepted
@@ -148,7 +148,7 @@ def test_the_place_of_the_camera_is_found_however_it_looks_down(tilt):
 
 
 def test_a_height_that_does_not_fit_how_the_mat_looks_is_refused():
-    """Straight from above a wrong height only looks like another lens; from aside it does not."""
+    """From straight above, a wrong height is equivalent to another focal length; from the side it is not."""
     camera = Pinhole(tilt=(0.3, -0.3), height=3000.0)
     with refused(CalibrationError, "does not match a camera 900 mm"):
         height_by_ruler(solve(perfect(BOARD, camera), BOARD, SIZE, WIDTH_MM, "1"), 900.0)
@@ -184,6 +184,6 @@ def test_a_robot_beside_the_outlines_is_refused():
 
 
 def test_least_squares_finds_a_valley_that_is_bent():
-    """Rosenbrock's, H. H. Rosenbrock 1960: the least is at (1, 1)."""
+    """Rosenbrock's function (H. H. Rosenbrock, 1960) has its minimum at (1, 1)."""
     found = least_squares(lambda p: np.array([10.0 * (p[1] - p[0] ** 2), 1.0 - p[0]]), np.array([-1.2, 1.0]), 200).at
     assert found == pytest.approx([1.0, 1.0], abs=1e-6)

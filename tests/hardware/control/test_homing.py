@@ -1,4 +1,4 @@
-"""Robots find to their places, whoever stands in the way."""
+"""Homing brings robots to their places round walls and other robots."""
 
 from math import hypot, pi
 
@@ -12,11 +12,11 @@ from tests.floor import floor
 from tests.hardware.mat import STARTS, Mat
 
 YARD = [(wall.ax, wall.ay, wall.bx, wall.by) for wall in load("pitanks", "courtyard").walls]
-GANG = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # two walls 110 px apart: half more than a robot
+GATE = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # walls with a gap of 110 px, 1.5 robot diameters
 
 
 def gathered(mat, goals, walls=(), seconds=60.0):
-    """Let robots take these places; how long it took, in s, or None."""
+    """Home robots to these places; returns the time needed, s, or None."""
     world = floor(walls, [(robot.x, robot.y, robot.heading) for robot in mat.robots])
     plant = RealPlant(world, mat.rig)
     plant.summon(goals)
@@ -53,14 +53,14 @@ def test_four_robots_change_places_all_round():
 def test_two_robots_pass_a_gate_one_after_the_other():
     mat = Mat([(300.0, 300.0, 0.0), (300.0, 600.0, 0.0), *STARTS[1:3]])
     goals = {0: (900.0, 300.0, 0.0), 1: (900.0, 600.0, 0.0)}
-    assert gathered(mat, goals, GANG) is not None
+    assert gathered(mat, goals, GATE) is not None
     assert all(at(mat, robot, goal) for robot, goal in goals.items())
 
 
 def test_a_robot_that_stands_in_a_wall_gets_out_first():
     mat = Mat([(590.0, 300.0, 0.5), *STARTS[1:]])
     goals = {0: (300.0, 300.0, 0.0)}
-    assert gathered(mat, goals, GANG) is not None
+    assert gathered(mat, goals, GATE) is not None
     assert at(mat, 0, goals[0])
 
 
@@ -98,8 +98,8 @@ def test_a_robot_in_its_place_stays_when_it_is_nudged_and_comes_back_when_it_is_
     assert mat.robots[0].x == pytest.approx(STARTS[0][0], abs=20.0)
 
 
-def test_a_way_keeps_clear_of_walls_and_ends_at_the_goal():
-    world = floor(GANG)
+def test_a_path_keeps_clear_of_walls_and_ends_at_the_goal():
+    world = floor(GATE)
     path = find_path(inflated_floor(world, 4.0), (300.0, 200.0), (900.0, 200.0))
     assert path[-1] == (900.0, 200.0)
     assert any(distance(point, (600.0, 450.0)) < 60.0 for point in path)

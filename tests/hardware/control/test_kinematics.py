@@ -1,4 +1,4 @@
-"""From what a game asks for to what the wheels are told."""
+"""Kinematics: twist to wheel commands and back."""
 
 import pytest
 
@@ -8,34 +8,34 @@ from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.sim.drivetrain import NOMINAL
 
 WORN = WheelCorrection(0.93, 1.05, 1.02, 0.01, 8.0)
-ASKED = [(260.0, 0.0), (-150.0, 1.0), (0.0, 2.5), (200.0, -1.5)]
+DESIRED = [(260.0, 0.0), (-150.0, 1.0), (0.0, 2.5), (200.0, -1.5)]
 
 
-@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("desired", DESIRED)
 @pytest.mark.parametrize("drivetrain", [NOMINAL, UNMEASURED])
-def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(asked, drivetrain):
+def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(desired, drivetrain):
     kinematics = Kinematics(drivetrain)
-    ran = [kinematics.expected_twist(kinematics.wheels(asked)) for _ in range(200)]
-    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(asked[0], abs=1.0)
-    assert sum(angular for _, angular in ran) / 200 == pytest.approx(asked[1], abs=0.02)
+    ran = [kinematics.expected_twist(kinematics.wheels(desired)) for _ in range(200)]
+    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(desired[0], abs=1.0)
+    assert sum(angular for _, angular in ran) / 200 == pytest.approx(desired[1], abs=0.02)
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_what_is_learnt_of_the_wheels_is_made_up_for(asked):
+@pytest.mark.parametrize("desired", DESIRED)
+def test_what_is_learnt_of_the_wheels_is_made_up_for(desired):
     kinematics = Kinematics(UNMEASURED)
     kinematics.wear = WORN
-    ran = [kinematics.expected_twist(kinematics.wheels(asked)) for _ in range(200)]
-    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(asked[0], abs=1.0)
-    assert sum(angular for _, angular in ran) / 200 == pytest.approx(asked[1], abs=0.02)
-    told = [kinematics.wheels(asked) for _ in range(200)]
-    if asked == (260.0, 0.0):
-        assert sum(one.left for one in told) > sum(one.right for one in told)
+    ran = [kinematics.expected_twist(kinematics.wheels(desired)) for _ in range(200)]
+    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(desired[0], abs=1.0)
+    assert sum(angular for _, angular in ran) / 200 == pytest.approx(desired[1], abs=0.02)
+    commands = [kinematics.wheels(desired) for _ in range(200)]
+    if desired == (260.0, 0.0):
+        assert sum(wheels.left for wheels in commands) > sum(wheels.right for wheels in commands)
 
 
 def test_every_share_is_on_a_level_and_rest_is_rest():
     kinematics = Kinematics(UNMEASURED)
-    for asked in ASKED:
-        for share in kinematics.wheels(asked):
+    for desired in DESIRED:
+        for share in kinematics.wheels(desired):
             assert share * LEVELS == pytest.approx(round(share * LEVELS))
     assert kinematics.wheels((0.0, 0.0)) == (0.0, 0.0)
     assert kinematics.stand() == (0.0, 0.0)

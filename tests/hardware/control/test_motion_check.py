@@ -1,4 +1,4 @@
-"""Robots that do not do as they are told, and those that do, though weak, uneven or late."""
+"""The motion check detects robots that contradict their commands, and tolerates weak, uneven or late ones."""
 
 from dataclasses import replace
 from math import pi
@@ -16,7 +16,7 @@ from tests.hardware.mat import TRUE, Mat
 
 MM = 1.32  # of a px
 ASIDE = ((1500.0, 100.0, 3.0), (100.0, 100.0, 0.0))
-BESIDE = RADIUS + 5.0  # px from the edge: where virtual walls let a robot come to rest
+BESIDE = RADIUS + 5.0  # px from the edge, where virtual walls stop a robot
 WIRED = {
     "reversed": lambda left, right: WheelCommand(-left, -right),
     "swapped": lambda left, right: WheelCommand(right, left),
@@ -26,7 +26,7 @@ WIRED = {
 
 
 class Wired:
-    """A mat whose first robot makes something else of its commands, or wears the lid of the second."""
+    """A mat whose first robot is wired wrongly, or wears the lid of the second."""
 
     def __init__(self, poses, fault):
         self.mat = Mat(poses)
@@ -36,21 +36,21 @@ class Wired:
             self._rewire(self.mat.robots[0], WIRED[fault])
         world = floor([], [(robot.x, robot.y, robot.heading) for robot in self.mat.robots])
         self.plant = RealPlant(world, self.mat.rig)
-        self.out = -1e9  # mm by which the edge of a robot has been out of the arena
+        self.out = -1e9  # mm, maximum overhang of a robot beyond the arena
         self.named = None  # s
 
     def _rewire(self, robot, wiring):
         roll = robot.roll
 
         def rewired():
-            told, robot.told = robot.told, robot.told and wiring(*robot.told)
+            command, robot.command = robot.command, robot.command and wiring(*robot.command)
             roll()
-            robot.told = told
+            robot.command = command
 
         robot.roll = rewired
 
     def drive(self, ask, seconds):
-        """As in a match, and in the pause that a fault makes."""
+        """Drive as in a match, and watch while a fault pauses it."""
         mat, plant = self.mat, self.plant
         for tick in range(round(seconds / 0.02)):
             for robot, seen in zip(plant.world.robots, plant.sense(), strict=True):
@@ -69,12 +69,12 @@ class Wired:
 
 
 def ahead(speed, turn=0.0):
-    """Stand, then drive with all robots alike."""
+    """Stand, then drive all robots alike."""
     return lambda time: [(speed, turn) if time > 0.5 else (0.0, 0.0)] * 4
 
 
 def mashed(speed, seed):
-    """Sticks thrown about, each for up to a second."""
+    """Random sticks, each held for up to a second."""
     random, held = Random(seed), {}
 
     def ask(time):
@@ -87,17 +87,17 @@ def mashed(speed, seed):
     return ask
 
 
-@pytest.mark.parametrize(("speed", "most"), [(260.0, 60.0), (325.0, 60.0), (422.5, 110.0)])
+@pytest.mark.parametrize(("speed", "limit"), [(260.0, 60.0), (325.0, 60.0), (422.5, 110.0)])
 @pytest.mark.parametrize("fault", ["lids", "reversed", "swapped", "one reversed"])
 @pytest.mark.parametrize("heading", one_in(2, [0.0, pi, 2.5, 0.6]))
-def test_no_robot_gets_far_out_of_the_arena(fault, speed, most, heading):
+def test_no_robot_gets_far_out_of_the_arena(fault, speed, limit, heading):
     for gap in (0.0, 60.0, 240.0):
         poses = [(BESIDE + gap, 450.0, heading), (900.0, 450.0, 0.4), *ASIDE]
-        assert Wired(poses, fault).drive(ahead(speed), 2.0).out < most
+        assert Wired(poses, fault).drive(ahead(speed), 2.0).out < limit
 
 
 @pytest.mark.parametrize("fault", ["lids", "reversed", "swapped", "one reversed", "held"])
-def test_whoever_mashes_the_stick_it_is_noticed(fault):
+def test_a_fault_is_noticed_under_random_sticks(fault):
     poses = [(400.0, 450.0, 1.0), (1100.0, 450.0, 2.0), *ASIDE]
     for seed in range(3):
         run = Wired(poses, fault).drive(mashed(325.0, seed), 5.0)
@@ -108,7 +108,7 @@ def test_whoever_mashes_the_stick_it_is_noticed(fault):
 def test_a_robot_that_drives_the_wrong_way_is_stopped_after_half_a_second():
     run = Wired([(800.0, 450.0, 0.0), (800.0, 750.0, 0.0), *ASIDE], "reversed").drive(ahead(200.0), 2.0)
     assert 0.9 < run.named < 1.3
-    assert run.mat.robots[0].told in (None, WheelCommand(0.0, 0.0))
+    assert run.mat.robots[0].command in (None, WheelCommand(0.0, 0.0))
 
 
 @pytest.mark.parametrize(("left", "right"), [(0.7, 0.7), (1.3, 1.3), (0.75, 1.25), (1.2, 0.8)])

@@ -1,4 +1,4 @@
-"""Real robots as a plant, on a mat without light or air: walls, safety, places, and mixed company."""
+"""Real robots as a plant on a simulated mat: walls, safety, homing, and mixed matches."""
 
 from math import hypot, pi
 from random import Random
@@ -18,7 +18,7 @@ ALL = range(4)
 
 
 def on_floor(mat, walls=(), real=ALL, kind=RealPlant):
-    """A plant over a world in which every robot is present and stands where the mat has it."""
+    """A plant over a world with every robot present, at its pose on the mat."""
     world = floor(walls, [(robot.x, robot.y, robot.heading) for robot in mat.robots])
     return kind(world, mat.rig, real)
 
@@ -33,9 +33,9 @@ def drive(plant, mat, twists, seconds):
 
 
 def stands(mat, robot=None):
-    """Whether the wheels of a robot, or of all, are told to stand or are off."""
+    """True if the wheels of a robot, or of all, are commanded to stand or off."""
     robots = mat.robots if robot is None else [mat.robots[robot]]
-    return all(one.told is None or tuple(one.told) == (0.0, 0.0) for one in robots)
+    return all(robot.command is None or tuple(robot.command) == (0.0, 0.0) for robot in robots)
 
 
 AHEAD = [(200.0, 0.0)] * 4
@@ -126,12 +126,12 @@ def test_an_unseen_robot_coasts_then_drives_at_half_speed_then_stops():
     mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
     plant = on_floor(mat)
     drive(plant, mat, AHEAD, 0.6)
-    full = mat.robots[0].told.left
+    full = mat.robots[0].command.left
     mat.robots[0].hidden = True
     drive(plant, mat, AHEAD, 0.1)
-    assert mat.robots[0].told.left == pytest.approx(full, abs=0.02)
+    assert mat.robots[0].command.left == pytest.approx(full, abs=0.02)
     drive(plant, mat, AHEAD, 0.1)
-    assert mat.robots[0].told.left == pytest.approx(0.5 * full, abs=0.04)
+    assert mat.robots[0].command.left == pytest.approx(0.5 * full, abs=0.04)
     drive(plant, mat, AHEAD, 0.12)
     assert stands(mat, 0)
 
@@ -143,7 +143,7 @@ def test_a_silent_robot_is_switched_off_after_a_second():
     drive(plant, mat, [(0.0, 2.0)] * 4, 0.9)
     assert not stands(mat, 2)
     drive(plant, mat, [(0.0, 2.0)] * 4, 0.2)
-    assert mat.robots[2].told is None
+    assert mat.robots[2].command is None
 
 
 def test_outside_only_the_way_in_is_open():
@@ -162,13 +162,13 @@ def test_robots_that_are_not_in_the_match_are_off_and_in_the_way():
     plant = on_floor(mat)
     plant.world.robots[1].present = 0
     drive(plant, mat, AHEAD, 4.0)
-    assert mat.robots[1].told is None
+    assert mat.robots[1].command is None
     assert mat.robots[1].x == 800.0
     assert mat.robots[0].x < 800.0 - 2.0 * RADIUS
 
 
 def places(arena, mat):
-    """How long, in s, it takes the robots to take their places in an arena; a minute at most."""
+    """The time in which the robots take their places in an arena, s; at most a minute."""
     one, two, three, four = (Seat("idle", i) for i in range(4))
     setup = Setup("pitanks", arena, (one, two, three, four), 1.0, 1, "plain")
     match = Match(setup, lambda world: RealPlant(world, mat.rig))
@@ -249,7 +249,7 @@ def test_a_robot_is_swapped_for_a_simulated_one_and_back_in_the_middle_of_a_matc
     x = plant.world.robots[0].x
     plant.swap(0, False)
     drive(plant, mat, [(200.0, 0.0), *[(0.0, 0.0)] * 3], 1.0)
-    assert mat.robots[0].told is None
+    assert mat.robots[0].command is None
     assert plant.world.robots[0].x == pytest.approx(x + 200.0, abs=30.0)
     assert mat.robots[0].x < x + 40.0
     plant.swap(0, True)
@@ -284,8 +284,8 @@ def test_twenty_seconds_of_mashing_by_four_robots_among_walls_enter_nothing():
     chance = Random(4)
     deepest = 0.0
     for _ in range(50):
-        asked = [(chance.choice((-422.0, 0.0, 422.0, 422.0)), chance.choice((-3.0, 0.0, 3.0))) for _ in ALL]
-        drive(plant, mat, asked, 0.4)
+        desired = [(chance.choice((-422.0, 0.0, 422.0, 422.0)), chance.choice((-3.0, 0.0, 3.0))) for _ in ALL]
+        drive(plant, mat, desired, 0.4)
         for robot in mat.robots:
             deepest = max(deepest, RADIUS - robot.x, robot.x - 1600.0 + RADIUS, RADIUS - robot.y, robot.y - 864.0)
             if 200.0 < robot.y < 700.0:

@@ -1,4 +1,4 @@
-"""Camera, tracker and link put together: what they are told, what they say, and that their threads end."""
+"""The rig combines camera, tracker and link, and its threads end."""
 
 import threading
 import time
@@ -13,7 +13,7 @@ from tests.hardware.mat import Mat
 
 
 class Eye:
-    """Hands out the pictures of a list, one at a time."""
+    """A camera that returns the pictures of a list, one at a time."""
 
     def __init__(self, *pictures):
         self.pictures = list(pictures)
@@ -26,19 +26,19 @@ class Eye:
 
 
 class Tracker(Mat):
-    """Counts the pictures that it is shown."""
+    """A tracker that counts its pictures."""
 
     def __init__(self):
         super().__init__()
         self.shown = []
-        self.told = []
+        self.twists = []
 
     def see(self, frame):
         self.shown.append(frame.number)
         return []
 
     def sent(self, time, twists):
-        self.told.append(twists)
+        self.twists.append(twists)
 
 
 def picture(number, shade):
@@ -53,14 +53,14 @@ def test_a_driver_that_repeats_a_picture_shows_nothing_new():
     assert tracker.shown == [1, 3]
 
 
-def test_the_tracker_is_told_what_the_wheels_come_to_and_nothing_of_robots_that_are_off():
+def test_the_tracker_receives_nominal_twists_and_none_for_robots_that_are_off():
     tracker = Tracker()
     rig = Rig(Eye(), tracker, tracker, tracker.clock)
     wheels = rig.kinematics[0].wheels((200.0, 0.5))
     rig.tell([wheels, WheelCommand(0.0, 0.0), None, None])
-    (told,) = tracker.told
-    assert told[0] == pytest.approx(rig.kinematics[0].nominal_twist(wheels))
-    assert told[1:] == [(0.0, 0.0), None, None]
+    (twists,) = tracker.twists
+    assert twists[0] == pytest.approx(rig.kinematics[0].nominal_twist(wheels))
+    assert twists[1:] == [(0.0, 0.0), None, None]
 
 
 def test_what_the_tracker_learns_of_wheels_is_used_to_steer(monkeypatch):
@@ -83,9 +83,7 @@ def test_a_robot_that_was_never_seen_is_unseen_and_one_that_is_just_late_is_not(
     assert signs[1].unseen > 1.0
     mat.blind = True
     mat.pass_time(0.1)
-    assert (
-        mat.rig.signs({0: 0.0}, mat.rig.snapshot())[0].unseen == 0.0
-    )  # there was no newer picture that could have shown it
+    assert mat.rig.signs({0: 0.0}, mat.rig.snapshot())[0].unseen == 0.0  # no newer picture could have contained it
     assert mat.rig.signs({0: 0.0}, mat.rig.snapshot())[0].picture == pytest.approx(0.12)
 
 
@@ -96,7 +94,7 @@ def test_threads_look_and_talk_and_end_when_it_is_closed():
     deadline = time.monotonic() + 5.0
     while len(tracker.shown) < 20 and time.monotonic() < deadline:
         time.sleep(0.01)
-    rig.pump()  # does nothing beside a thread
+    rig.pump()  # no effect while a thread runs
     rig.close()
     rig.close()
     assert tracker.shown == list(range(20))

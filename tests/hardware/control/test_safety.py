@@ -1,4 +1,4 @@
-"""The table of faults, line by line, as HARDWARE.md has it."""
+"""The table of faults, row by row."""
 
 import pytest
 
@@ -9,7 +9,7 @@ GOOD = Health(picture=0.09, battery=5.0)
 
 
 def judged(sign, others=GOOD, now=1.0):
-    """What holds for robot 0 and for the others when only robot 0 shows this sign; the names of the faults."""
+    """Responses for robot 0 and the others if only robot 0 has this condition, and the names of the faults."""
     safety = Safety()
     held = safety.judge([sign, others, others, None], now)
     assert held[3] == Response.WARN
@@ -123,8 +123,8 @@ def test_every_fault_has_a_plain_reason(language):
 def test_a_fault_is_a_plain_sentence():
     safety = Safety()
     safety.judge([GOOD, GOOD._replace(battery=3.9)], 1.0)
-    told = [Words("en")(f"faults.{fault.name}", robot=fault.robot + 1) for fault in safety.faults]
-    assert told == [
+    texts = [Words("en")(f"faults.{fault.name}", robot=fault.robot + 1) for fault in safety.faults]
+    assert texts == [
         "The battery of robot 2 is empty: the motors stay off below 4.4 V. Please change it.",
         "The battery of robot 2 will soon be empty.",
     ]

@@ -1,4 +1,4 @@
-"""Virtual walls: what a real robot may do near them, and that it never ends up in one."""
+"""Virtual walls clip the speed of real robots, which never enter a wall."""
 
 from math import cos, exp, inf, pi, radians, sin
 from random import Random
@@ -12,12 +12,12 @@ from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.floor import floor
 
-ACROSS = (800.0, 0.0, 800.0, 900.0)  # a wall down the middle, 30 px thick
+ACROSS = (800.0, 0.0, 800.0, 900.0)  # a vertical wall at the centre, 30 px thick
 
 
-def driven(world, pose, asked, others=()):
-    """The speed that is left, px/s."""
-    return clip_twist(pose, asked, speed_limits(world, pose[0], pose[1], others))[0]
+def driven(world, pose, desired, others=()):
+    """The clipped speed, px/s."""
+    return clip_twist(pose, desired, speed_limits(world, pose[0], pose[1], others))[0]
 
 
 def test_straight_at_a_wall_the_speed_is_the_gap_times_gamma():
@@ -90,21 +90,21 @@ def test_coasting_goes_on_by_speed_times_lag():
 
 @pytest.mark.parametrize("lag", [0.03, 0.08, 0.15])
 def test_a_minute_of_mashing_enters_no_wall_however_lazy_the_motors(lag):
-    """The whole loop with a perfect pose: random sticks, held for random times, against walls of every direction."""
+    """The closed loop with a perfect pose: random sticks, held for random times, against walls of every direction."""
     world = floor(
         [ACROSS, (300.0, 300.0, 500.0, 500.0), (1200.0, 700.0, 1400.0, 650.0), (1100.0, 200.0, 1100.0, 200.0)]
     )
     chance = Random(round(1000 * lag))
     x, y, heading, linear, angular = 200.0, 200.0, 0.0, 0.0, 0.0
-    asked, until, deepest, follow = (0.0, 0.0), 0, inf, 1.0 - exp(-0.02 / lag)
+    desired, until, deepest, follow = (0.0, 0.0), 0, inf, 1.0 - exp(-0.02 / lag)
     travelled = 0.0
     for tick in range(3000):
         if tick >= until:
-            asked, until = (chance.choice((-420.0, 0.0, 420.0, 420.0)), chance.choice((-3.0, 0.0, 3.0))), tick + 20
+            desired, until = (chance.choice((-420.0, 0.0, 420.0, 420.0)), chance.choice((-3.0, 0.0, 3.0))), tick + 20
         rest = stopping_pose((x, y, heading), (linear, angular), lag)
-        told = clip_twist(rest, asked, speed_limits(world, rest[0], rest[1]), lag)
-        linear += (told[0] - linear) * follow
-        angular += (told[1] - angular) * follow
+        twist = clip_twist(rest, desired, speed_limits(world, rest[0], rest[1]), lag)
+        linear += (twist[0] - linear) * follow
+        angular += (twist[1] - angular) * follow
         heading += 0.02 * angular
         x, y = x + 0.02 * linear * cos(heading), y + 0.02 * linear * sin(heading)
         travelled += 0.02 * abs(linear)

@@ -1,4 +1,4 @@
-"""The emulated arena drives, shows and hears as the real one would, and the same way every time."""
+"""The emulated arena behaves like a real one, reproducibly."""
 
 from math import cos, hypot, pi, sin
 from random import Random
@@ -33,7 +33,7 @@ def driven(left, right, seconds, body=IDEAL):
 
 
 def found(image):
-    """Markers by number: (4, 2) px, by OpenCV's own words."""
+    """Markers by number, (4, 2) px, by OpenCV's detector."""
     settings = cv2.aruco.DetectorParameters()
     settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
@@ -171,14 +171,14 @@ def test_it_shares_no_code_with_what_it_proves():
 
 
 def kept_pictures(arena):
-    """How many different projected pictures the arena still holds."""
-    queued = [image for _, image in arena._pending] + [one.scene.image for one in arena.camera._in_transit]
+    """The number of distinct projected pictures that the arena holds."""
+    queued = [image for _, image in arena._pending] + [exposure.scene.image for exposure in arena.camera._in_transit]
     return len({id(image) for image in queued})
 
 
 def test_an_arena_that_nobody_looks_at_keeps_a_handful_of_pictures():
     arena = EmulatedArena(pace=FrameTiming(60.0, 0.06))
-    for _ in range(600):  # 10 s at 60 pictures a second, the camera closed
+    for _ in range(600):  # 10 s at 60 pictures/s, the camera closed
         arena.project(np.zeros((1, 1), np.uint8))
         arena.advance(1 / 60)
     assert kept_pictures(arena) < 20
@@ -196,7 +196,7 @@ def test_what_robots_report_to_nobody_does_not_pile_up():
 
 def test_however_fast_pictures_come_the_newest_is_shown():
     arena = EmulatedArena(refresh=1000)
-    for shade in range(200):  # 1000 pictures a second
+    for shade in range(200):  # 1000 pictures/s
         arena.project(np.full((1080, 1920), shade, np.uint8))
         arena.advance(2 * STEP if shade % 4 == 3 else 0.0)
     arena.advance(0.05)

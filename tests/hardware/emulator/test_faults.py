@@ -1,4 +1,4 @@
-"""Every fault of the emulated arena does what its name says, and ends."""
+"""Every fault of the emulated arena has its effect, and ends."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ def test_no_picture_arrives(name):
     arena = EmulatedArena(1, refresh=30)
     newest(arena)
     arena.faults.switch(name, True)
-    newest(arena)  # what was under way
+    newest(arena)  # pictures in transit
     assert newest(arena) is None
 
 

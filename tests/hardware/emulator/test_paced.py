@@ -1,4 +1,4 @@
-"""The emulated arena for people waits for those who look and drive."""
+"""The paced arena waits for the reader of its pictures."""
 
 import time
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from pigaming_app.hardware.emulator.robots import STEP
 pytest.importorskip("cv2")
 
 
-def soon(true: Callable[[], bool]) -> bool:
+def eventually(true: Callable[[], bool]) -> bool:
     end = time.monotonic() + 10.0
     while not true() and time.monotonic() < end:
         time.sleep(0.01)
@@ -25,11 +25,11 @@ def test_time_passes_up_to_what_is_allowed_and_no_further():
     passing.limit = 0.2
     passing.start()
     try:
-        assert soon(lambda: arena.clock() > 0.2 - 2 * STEP)
+        assert eventually(lambda: arena.clock() > 0.2 - 2 * STEP)
         time.sleep(0.2)
         assert arena.clock() <= 0.2 + STEP
         passing.limit = 0.4
-        assert soon(lambda: arena.clock() > 0.3)
+        assert eventually(lambda: arena.clock() > 0.3)
     finally:
         passing.close()
     ended = arena.clock()
@@ -43,11 +43,11 @@ def test_time_waits_until_its_pictures_are_taken():
     passing.watched = True
     passing.start()
     try:
-        assert soon(lambda: arena.camera.overdue > OVERDUE)
+        assert eventually(lambda: arena.camera.overdue > OVERDUE)
         waited = arena.clock()
         time.sleep(0.2)
         assert arena.clock() - waited <= 2 * STEP
         assert arena.camera.newest() is not None
-        assert soon(lambda: arena.camera.newest() is None and arena.clock() > waited + 0.05)
+        assert eventually(lambda: arena.camera.newest() is None and arena.clock() > waited + 0.05)
     finally:
         passing.close()

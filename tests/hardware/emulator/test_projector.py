@@ -1,4 +1,4 @@
-"""What the window shows falls on the emulated mat, whatever shape the window has."""
+"""The projector shows the window on the emulated mat, for windows of any shape."""
 
 import numpy as np
 import pytest

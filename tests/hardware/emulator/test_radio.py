@@ -1,4 +1,4 @@
-"""The emulated radio obeys HARDWARE.md's bytes, takes its time, and loses what it is told to lose."""
+"""The emulated radio follows the packet protocol, with delays and losses as configured."""
 
 import pytest
 
@@ -14,7 +14,7 @@ GOLDEN_ESCAPED = bytes.fromhex("7E 00 09 01 01 00 01 00 50 07 7D 31 7D 5E 16")
 
 
 def drive(seq, *speeds, enable=0b1111):
-    """A drive packet by hand."""
+    """A drive packet, assembled by hand."""
     packet = bytes([0xD0, seq, enable, *speeds])
     return packet + bytes([check(packet)])
 
@@ -26,25 +26,25 @@ def broadcast(packet, escaped=True, number=1):
 FORWARD = drive(0, *[83] * 8)
 
 
-def heard(arena, escaped=True):
-    """Every frame that has come from the radio."""
-    ear = FrameReceiver(escaped)
-    return [frame for frame in (ear.hear(byte) for byte in arena.radio.read(10000)) if frame]
+def received(arena, escaped=True):
+    """All frames received from the radio."""
+    receiver = FrameReceiver(escaped)
+    return [frame for frame in (receiver.feed(byte) for byte in arena.radio.read(10000)) if frame]
 
 
 def test_the_golden_frames_are_understood_and_made():
     for frame, escaped in ((GOLDEN, False), (GOLDEN_ESCAPED, True)):
-        ear = FrameReceiver(escaped)
-        data = [ear.hear(byte) for byte in frame][-1]
+        receiver = FrameReceiver(escaped)
+        data = [receiver.feed(byte) for byte in frame][-1]
         assert data == bytes.fromhex("01 01 00 01 00 50 07 11 7E")
         assert framed(data, escaped) == frame
 
 
 def test_a_wrong_checksum_is_refused_and_the_next_frame_heard():
-    ear = FrameReceiver(True)
+    receiver = FrameReceiver(True)
     broken = GOLDEN_ESCAPED[:-1] + b"\x17"
-    assert [frame for frame in map(ear.hear, broken + GOLDEN_ESCAPED) if frame]
-    assert ear.broken == 1
+    assert [frame for frame in map(receiver.feed, broken + GOLDEN_ESCAPED) if frame]
+    assert receiver.broken == 1
 
 
 @pytest.mark.parametrize("mode", [TRANSPARENT, API, 2])
@@ -84,7 +84,7 @@ def test_a_packet_with_a_wrong_check_moves_nothing():
 def test_telemetry_comes_five_times_a_second_from_each():
     arena = EmulatedArena(1)
     arena.advance(1.0)
-    reports = [frame for frame in heard(arena) if frame[0] == 0x81]
+    reports = [frame for frame in received(arena) if frame[0] == 0x81]
     assert [sum(frame[2] == address for frame in reports) for address in (1, 2, 3, 4)] == [5] * 4
     battery = reports[0][9] | reports[0][10] << 7
     assert 5000 <= battery <= 5300
@@ -97,7 +97,7 @@ def test_status_of_what_was_sent_and_settings_that_were_asked_for():
     arena.radio.write(broadcast(FORWARD, number=10))
     arena.radio.write(framed(b"\x08\x05AP", True))
     arena.advance(0.05)
-    answers = heard(arena)
+    answers = received(arena)
     assert bytes([0x89, 9, 1]) in answers, "no robot acknowledged it"
     assert bytes([0x89, 10, 0]) in answers, "a broadcast is never acknowledged"
     assert b"\x88\x05AP\x00\x02" in answers

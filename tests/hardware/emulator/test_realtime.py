@@ -1,4 +1,4 @@
-"""In real time, behind a pseudo-terminal: whoever drives may be killed, and the robots stop."""
+"""The emulated arena in real time behind a pseudo-terminal: robots stop when the driving process is killed."""
 
 import os
 import signal
@@ -34,7 +34,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 def until(true, seconds=20.0):
-    """Wait for it, with patience for a busy machine."""
+    """Wait for a condition, with a timeout for busy machines."""
     end = time.monotonic() + seconds
     while not true():
         assert time.monotonic() < end, "it did not happen"
@@ -53,7 +53,7 @@ def test_robots_stop_when_the_program_that_drives_them_is_killed():
             driver.wait()
         until(lambda: all(firmware.stopped for firmware in arena.firmwares))
         for firmware, ran in zip(arena.firmwares, arena.ran, strict=True):
-            assert ran - firmware.heard <= DEADMAN + STEP
+            assert ran - firmware.last_packet <= DEADMAN + STEP
 
 
 def test_nothing_is_left_running():
