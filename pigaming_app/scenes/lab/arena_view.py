@@ -1,7 +1,7 @@
-"""The match from which the robot learns, half as large as it is played: walls, robots, shots, and where they were.
+"""The training match at reduced scale: walls, robots, shots and trails.
 
-It is shown as often as the training tells how it stands; between two such moments the robots glide, and where they have
-jumped (the training runs faster than eyes can follow) their shadows stay for a moment.
+It is updated at the rate at which the training publishes states. Robots are interpolated between two states; where they
+jump, because training runs faster than real time, they leave fading shadows.
 """
 
 import math
@@ -23,23 +23,23 @@ from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, faded, put, step
 from pigaming_app.ui.draw.surface_cache import cached
 
-JUMP = 150.0  # px of the arena between two moments: too far to have been driven before one's eyes
-SHADOWS = 4  # moments for which a jump is seen
-DOTS, DOT_EVERY = 14, 0.05  # of a trail; seconds
-LONGEST = 0.12  # seconds that a glide may take
-WAVE = 0.45  # seconds
-Pose = tuple[float, float, float]  # px of the arena, rad
-Wall = tuple[float, float, float, float, float, int, int]  # both ends, half its width (px), health when whole, and now
+JUMP = 150.0  # arena px between two states: too far for visible driving
+SHADOWS = 4  # states for which a jump stays visible
+DOTS, DOT_EVERY = 14, 0.05  # number of trail dots; s between them
+LONGEST = 0.12  # s, maximum interpolation interval
+WAVE = 0.45  # s, shock wave
+Pose = tuple[float, float, float]  # arena px, arena px, rad
+Wall = tuple[float, float, float, float, float, int, int]  # both ends, half the width (px), initial and current health
 
 
 class ArenaView:
-    """The picture of a running match. `ground`: the page on which it lies, whole."""
+    """Live view of a training match. `ground`: the background of the whole page."""
 
     def __init__(self, ground: pygame.Surface) -> None:
         self.bare = ground.subsurface(MATCH).copy()
         self.floor = self.bare.copy()
         self.walls: list[Wall] = []
-        self.painted: list[Wall] = []  # the walls on the floor
+        self.painted: list[Wall] = []  # walls baked into the floor
         self.before: list[Pose] = []
         self.now: list[Pose] = []
         self.seats: list[int] = []
@@ -47,12 +47,12 @@ class ArenaView:
         self.taken: list[int] = []
         self.shadows: deque[list[Pose]] = deque(maxlen=SHADOWS)
         self.trails: deque[list[Pose]] = deque(maxlen=DOTS)
-        self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, seconds old
+        self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, age in s
         self.age, self.glide, self.dotted = 0.0, LONGEST, 0.0
         self.jobs = PrewarmQueue()
 
     def show(self, state: Any) -> None:
-        """How the match stands now."""
+        """Take over a new match state."""
         if not self.seats:
             self.jobs = PrewarmQueue(jobs(state))
         walls = (state.walls[i] for i in range(state.wall_count))
@@ -77,11 +77,10 @@ class ArenaView:
         ]
 
     def warm(self, milliseconds: float) -> None:
-        """Make sprites ahead for so long, while there are any to make."""
+        """Prewarm sprites for at most this many milliseconds."""
         self.jobs.work(milliseconds)
 
     def update(self, seconds: float) -> None:
-        """Let it glide on."""
         self.age += seconds
         self.waves = [(x, y, seat, age + seconds) for x, y, seat, age in self.waves if age + seconds < WAVE]
         self.dotted += seconds
@@ -90,7 +89,7 @@ class ArenaView:
             self.trails.append(self.blended())
 
     def blended(self) -> list[Pose]:
-        """Where the robots are between the last two moments."""
+        """Robot poses interpolated between the last two states."""
         share = min(1.0, self.age / self.glide)
         out = []
         for old, new in zip(self.before, self.now, strict=True):
@@ -99,7 +98,6 @@ class ArenaView:
         return out
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint it where the page has room for it."""
         self._paint_walls()
         screen.blit(self.floor, MATCH)
         under: Batch = []
@@ -131,7 +129,7 @@ class ArenaView:
         return any(abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP for old, new in pairs)
 
     def _hits(self, state: Any) -> None:
-        """A wave where a robot was hit since the moment before."""
+        """Start a shock wave where a robot was hit since the last state."""
         taken = [one.taken for one in state.tanks]
         for seat, (before, after) in enumerate(zip(self.taken, taken, strict=False)):
             if after == before + 1:
@@ -140,7 +138,7 @@ class ArenaView:
         self.taken = taken
 
     def _paint_walls(self) -> None:
-        """Paint the walls again when one has been hit, or when another match has begun."""
+        """Repaint the walls if any changed."""
         if self.walls == self.painted:
             return
         batch: Batch = []
@@ -152,7 +150,7 @@ class ArenaView:
 
 
 def jobs(state: Any) -> Iterator[Job]:
-    """Sprites that will be wanted: walls as they break, robots and shots in every direction."""
+    """Prewarm jobs: wall damage states, robots and shots in every heading."""
     for health in range(max(one.whole for one in state.walls), -1, -1):
         for i in range(state.wall_count):
             one = state.walls[i]
@@ -169,12 +167,12 @@ def jobs(state: Any) -> Iterator[Job]:
 
 
 def _at(x: float, y: float) -> tuple[float, float]:
-    """A place of the arena on the canvas."""
+    """Arena to canvas coordinates, px."""
     return ARENA.x + SCALE * x, ARENA.y + SCALE * y
 
 
 def little(sprite: Sprite) -> Sprite:
-    """A sprite of the arena at the size of this picture."""
+    """Scale an arena sprite down to this view."""
     w, h = sprite.image.get_size()
     size = max(1, round(w * SCALE)), max(1, round(h * SCALE))
     return Sprite(pygame.transform.smoothscale(sprite.image, size), round(sprite.dx * SCALE), round(sprite.dy * SCALE))
@@ -182,13 +180,13 @@ def little(sprite: Sprite) -> Sprite:
 
 @cached
 def little_tank(player: int, turn: int) -> Sprite:
-    """A robot at heading `turn` of HEADINGS."""
+    """Robot at heading `turn` of HEADINGS."""
     return little(tank(player, turn))
 
 
 @cached
 def shadow(player: int, turn: int, level: int) -> Sprite:
-    """Where a robot was, at heading `turn` of a quarter of HEADINGS, `level` of SHADOWS bright."""
+    """Shadow of a robot at heading `turn` of HEADINGS / 4, brightness `level` of SHADOWS."""
     sprite = little_tank(player, 4 * turn)
     flat = pygame.Surface(sprite.image.get_size())
     flat.blit(sprite.image, (0, 0), special_flags=PRE)
@@ -197,25 +195,25 @@ def shadow(player: int, turn: int, level: int) -> Sprite:
 
 @cached
 def little_bullet(player: int, turn: int) -> Sprite:
-    """A shot, flying at heading `turn` of TURNS."""
+    """Shot at heading `turn` of TURNS."""
     return little(effects.bullet(player, turn * HEADINGS // effects.TURNS))
 
 
 @cached
 def little_wave(player: int, stage: int) -> Sprite:
-    """The shock of a hit, `stage` of WAVE_STEPS."""
+    """Shock wave of a hit, `stage` of WAVE_STEPS."""
     return little(effects.wave(PLAYERS[player], stage))
 
 
 @cached
 def dot(player: int, level: int) -> Sprite:
-    """A dot of a trail, `level` of TREAD_LEVELS bright."""
+    """Trail dot, brightness `level` of TREAD_LEVELS."""
     ink = GlowCanvas(28, 28).disc(14, 14, 5, dim(PLAYERS[player], 0.08 + 0.07 * level))
     return Sprite(ink.lit(0.5), -14, -14)
 
 
 class _Wall:
-    """A wall as `wall_sprite` wants it."""
+    """Wall in the form `wall_sprite` needs."""
 
     def __init__(self, ax: float, ay: float, bx: float, by: float, half: float, whole: int) -> None:
         self.ax, self.ay, self.bx, self.by, self.half, self.whole = ax, ay, bx, by, half, whole
@@ -223,5 +221,4 @@ class _Wall:
 
 @cached
 def little_wall(ax: float, ay: float, bx: float, by: float, half: float, whole: int, health: int) -> Sprite:
-    """A wall with so much health."""
     return little(wall_sprite(_Wall(ax, ay, bx, by, half, whole), health))

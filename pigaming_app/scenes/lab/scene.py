@@ -1,6 +1,6 @@
-"""The Lab. Any device steers it: directions move the focus, fire chooses; a knob in hand is turned by directions.
+"""The Lab scene. Any device controls it: directions move the focus, FIRE selects; a held knob is turned by directions.
 
-The training goes on while the page is shown, rests while people play against the robot, and goes on after that.
+Training runs while the page is shown and pauses during a challenge match.
 """
 
 import math
@@ -25,29 +25,29 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
-FIRST = replace(RECIPES[1], behind_always=1)  # each knob counts at every decision, so that turning it is seen soon
-IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
-DEAF = 0.35  # seconds in which the press that led here counts for nothing
-LAST = 20.0  # seconds before that in which it asks
-SAID = 4.0  # seconds for which a sentence stays
-PATIENT = 2.0  # seconds of compiling after which a word about it is due
-LEAST = 2.0  # Q that makes at least a whole petal
+FIRST = replace(RECIPES[1], behind_always=1)  # each knob affects every decision, so that a change shows quickly
+IDLE = 300.0  # s without input before the return to the title, which resets the table for the next visitors
+DEAF = 0.35  # s during which input is ignored after entering
+LAST = 20.0  # s before the end of IDLE at which a confirmation prompt appears
+SAID = 4.0  # s, display time of a message
+PATIENT = 2.0  # s of compiling before a notice is shown
+LEAST = 2.0  # Q value that fills at least one petal
 TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
 class Lab:
-    """A robot that learns, from an empty table on. `fast`: compiled; left out: if numba is there."""
+    """A robot that learns from an empty table. `fast`: compiled; None: if numba is available."""
 
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         self.context = context
         self.trainer = Trainer(FIRST, new_seed(), fast, context.compiler)
-        self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
-        self.cheered: Progress | None = None  # in which that was over
+        self.lagged: Progress | None = None  # the training that has been behind the hand-made robot
+        self.cheered: Progress | None = None  # the training whose overtaking was celebrated
         self.name = ""  # under which it was saved or opened
         self.shown = LabState()
         self.page: LabPage | None = None
-        self.seen = -1  # number of the picture that the page has
-        self.held = ""  # the knob in hand
+        self.seen = -1  # number of the last frame shown
+        self.held = ""  # knob being adjusted
         self.age = self.said = self.compiling = 0.0
         self.sentence, self.wrong = "", False
         self.focus = Focus([FocusSpot("speed", SPEED), FocusSpot("play", PLAY)]
@@ -67,14 +67,13 @@ class Lab:
     # ---- what happens to it
 
     def entered(self) -> None:
-        """Begin, or go on."""
         self.age, self.held = 0.0, ""
         self.context.sounds.music(True)
         if self.page and self.page.language != self.context.words.language:
             self.page = None
 
     def on(self, event: InputEvent) -> Turn:
-        """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
+        """Adjust the held knob, or select, play, change speed, open the menu, leave."""
         event = (self.turning if self.held else self.prompts).as_button(event)
         if self.held and event.button not in (Button.X, Button.Y):
             return self._turn(event)
@@ -98,7 +97,7 @@ class Lab:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the training go on and the page follow it."""
+        """Feed the trainer and update the page."""
         self.age += seconds
         self.said -= seconds
         self.focus.update(seconds)
@@ -112,7 +111,6 @@ class Lab:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         if self.page is None:
             self.page, self.seen = LabPage(self.context), -1
         self.page.draw(screen, self.shown)
@@ -129,18 +127,18 @@ class Lab:
             warming(words("lab.warming")).draw(screen)
 
     def left(self) -> None:
-        """Taken off the stack: the training rests."""
+        """Pause the training when the scene is removed."""
         self.trainer.close()
 
     # ---- what the pages above it may do
 
     def say(self, sentence: str, wrong: bool = False) -> None:
-        """Show a sentence for a while."""
+        """Show a message for a few seconds."""
         self.sentence, self.wrong, self.said = sentence, wrong, SAID
         self.context.sounds.play("error" if wrong else "accept")
 
     def play(self, device: Device) -> Turn:
-        """A match against what the robot is now."""
+        """A challenge match against the robot as trained so far."""
         from pigaming_app.scenes.lab.challenge import Challenge
 
         self.context.sounds.play("accept")
@@ -150,12 +148,12 @@ class Lab:
         return Push(Challenge(self.context, robot.kind, driver, self.trainer.training.arena))
 
     def begin(self) -> None:
-        """Everything from an empty table."""
+        """Restart from an empty table."""
         self.trainer.begin(new_seed())
         self.name, self.seen = "", -1
 
     def leave(self, turn: Turn) -> Turn:
-        """The training rests."""
+        """Pause the training and return `turn`."""
         self.trainer.close()
         return turn
 
@@ -177,7 +175,7 @@ class Lab:
         return None
 
     def _turn(self, event: InputEvent) -> Turn:
-        """A press while a knob is in hand."""
+        """Handle input while a knob is held."""
         if event.button in TURNS:
             self._set(self.held, self._value(self.held) + TURNS[event.button])
         elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.CLICK):
@@ -199,14 +197,14 @@ class Lab:
         return max(-MOST, min(MOST, int(getattr(self.trainer.recipe, knob))))
 
     def _set(self, knob: str, value: int) -> None:
-        """Turn a knob as far as it goes."""
+        """Set a knob, clamped to its range."""
         value = max(-MOST, min(MOST, value))
         if value != self._value(knob):
             self.trainer.recipe = turned(self.trainer.recipe, knob, value)
             self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
-        """Tell the page what is so."""
+        """Update the page state."""
         trainer, shown, moment = self.trainer, self.shown, self.trainer.moment
         if self.page and moment.number != self.seen:
             self.seen = moment.number
@@ -223,7 +221,7 @@ class Lab:
         shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
 
     def _cheer(self, progress: Progress) -> None:
-        """The moment in which it wins more often than the hand-made robot, once in a training."""
+        """Celebrate once per training that it overtook the hand-made robot."""
         share = self.page.curve.share if self.page else None
         if share is not None and share < HANDMADE:
             self.lagged = progress
@@ -234,7 +232,7 @@ class Lab:
 
 
 def level(share: float) -> int:
-    """How long a petal is whose worth is this share of the best one's, -1..1; by its root, so that little is seen."""
+    """Petal length for a value relative to the largest, -1..1; square root, so that small values stay visible."""
     return round(math.copysign(LEVELS * math.sqrt(abs(share)), share))
 
 

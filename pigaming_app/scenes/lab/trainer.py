@@ -1,8 +1,8 @@
-"""The training behind the Lab's page: it goes on while pictures are painted, and never makes one wait.
+"""Background training for the Lab; it never delays a frame.
 
-Compiled, it runs in a thread of its own that holds no lock of the interpreter. Without numba, and while numba still
-compiles (in another process), the page gives it some milliseconds of every frame. The thread ends by itself soon after
-nobody feeds it any more, whatever became of the page.
+With numba it runs in its own thread, which releases the GIL. Without numba, or while numba compiles (in another
+process), the page grants it a few milliseconds per frame. The thread ends shortly after `feed` is no longer called, even
+if the page failed.
 """
 
 import gc
@@ -21,30 +21,30 @@ from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui import memory as heap
 
-FASTEST = 2  # the place of "as fast as it can" among the speeds
-FACTORS = (1, 10)  # of real time
-CHUNK = 1500  # ticks in one go when it is as fast as it can; compiled, less than a millisecond
-MOST = 4  # frames' worth of ticks that are made up for; what is more is dropped
-HUNGRY = 0.7  # seconds after which a thread that nobody feeds ends
-SLICE = 0.007  # seconds of a frame for plain training and its exams; a picture takes 2 of the 16 ms
-TRAINING = 0.4  # of a slice, where it is as fast as it can
-SWITCH = 0.001  # seconds for which a thread may keep the interpreter from the others
+FASTEST = 2  # index of full speed
+FACTORS = (1, 10)  # times real time
+CHUNK = 1500  # ticks per batch at full speed; under 1 ms compiled
+MOST = 4  # frames of ticks to catch up at most; the rest is dropped
+HUNGRY = 0.7  # s without `feed` after which the thread ends
+SLICE = 0.007  # s per frame for interpreted training and evaluation; rendering takes 2 of the 16 ms
+TRAINING = 0.4  # share of a slice for training at full speed
+SWITCH = 0.001  # s, thread switch interval
 
 log = logging.getLogger("pigaming")
 
 
 class Trainer:
-    """A robot that learns. `recipe` and `speed` may be set at any time; `moment` is how it stands, for the page."""
+    """Runs one training. `recipe` and `speed` may be set at any time; `moment` is the published state."""
 
     def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None, compiler: Compiler | None = None) -> None:
-        """`fast`: compiled as soon as `compiler` is done; left out: if numba is there."""
+        """`fast`: compiled as soon as `compiler` is done; None: if numba is available."""
         self._compiler = compiler or Compiler()
         self.recipe, self.speed = recipe, 0
         self.may_compile = can_compile() if fast is None else fast
         self.training = Training(recipe, seed, fast=False)
         self.progress = Progress(self.training)
         self.compiling = False
-        self._lock = threading.Lock()  # whoever holds it may touch the training
+        self._lock = threading.Lock()  # guards the training
         self._thread: threading.Thread | None = None
         self._fed = 0.0
         self._open = False
@@ -52,7 +52,7 @@ class Trainer:
 
     @property
     def moment(self) -> TrainingState:
-        """How it stands."""
+        """The latest snapshot."""
         return self.progress.moment
 
     @property
@@ -60,7 +60,7 @@ class Trainer:
         return self.training.fast
 
     def feed(self, seconds: float) -> None:
-        """Called in every frame, `seconds` after the last one: let it go on."""
+        """Called every frame, `seconds` after the last call: keep the training running."""
         self._fed, self._open = monotonic(), True
         if self.may_compile and (self._thread is None or not self._thread.is_alive()):
             self._thread = threading.Thread(target=self._work, name="lab")
@@ -73,37 +73,37 @@ class Trainer:
                 self._lock.release()
 
     def close(self) -> None:
-        """Rest until it is fed again; the thread ends within a moment."""
+        """Pause until the next `feed`; the thread ends shortly after."""
         self._open = False
 
     def join(self, seconds: float = 1.0) -> bool:
-        """Wait until its thread has ended; true if it has."""
+        """Wait for the thread to end; True if it has."""
         if self._thread:
             self._thread.join(seconds)
         return self._thread is None or not self._thread.is_alive()
 
     def checkpoint(self, name: str) -> Checkpoint:
-        """What it has learned so far, as a brain."""
+        """The current policy as a named checkpoint."""
         with self._lock:
             return self.training.checkpoint(name)
 
     def checkpoints(self) -> dict[int, Checkpoint]:
-        """What it knew after 0, 10, 50 and 200 matches, as far as it has come."""
+        """Checkpoints after 0, 10, 50 and 200 matches, as far as reached."""
         with self._lock:
             return dict(self.progress.checkpoints)
 
     def hold(self, work: Callable[[Training], None]) -> None:
-        """Do something with the training while it stands still; what `work` raises is raised."""
+        """Run `work` on the training under the lock. Exceptions of `work` propagate."""
         with self._lock:
             work(self.training)
 
     def begin(self, seed: int) -> None:
-        """Forget everything and begin anew."""
+        """Restart from an empty table."""
         with self._lock:
             self._train(Training(self.recipe, seed, fast=self.training.fast))
 
     def take(self, training: Training) -> None:
-        """Go on with this training instead."""
+        """Continue with another training."""
         with self._lock:
             self.recipe = training.recipe
             self._train(training)
@@ -119,7 +119,7 @@ class Trainer:
         return self._open and monotonic() - self._fed < HUNGRY
 
     def _due(self, seconds: float) -> int:
-        """The ticks to play now that so much real time has passed, at one of the slow speeds."""
+        """Ticks due after `seconds` of real time at one of the slower speeds."""
         factor = FACTORS[self.speed]
         self._owed = min(self._owed + seconds * HZ * factor, MOST * factor)
         ticks = int(self._owed)
@@ -127,7 +127,7 @@ class Trainer:
         return ticks
 
     def _slice(self, seconds: float) -> None:
-        """A frame's share of plain training."""
+        """One frame's slice of interpreted training."""
         end = perf_counter() + SLICE
         self._follow_recipe()
         if self.speed < FASTEST:
@@ -146,7 +146,7 @@ class Trainer:
             self.training.recipe = self.recipe
 
     def _work(self) -> None:
-        """The thread: get ready, then train until nobody wants it any more."""
+        """Thread body: compile, then train until no longer fed."""
         before = sys.getswitchinterval()
         sys.setswitchinterval(SWITCH)
         try:
@@ -160,7 +160,7 @@ class Trainer:
             sys.setswitchinterval(before)
 
     def _get_ready(self) -> bool:
-        """Wait for the compiler, then load what it made and take the training over; false: nobody waits any more."""
+        """Wait for the compiler, load its output and take over the training; False if no longer fed."""
         self.compiling = True
         try:
             self._compiler.start()
@@ -170,16 +170,16 @@ class Trainer:
                 sleep(0.05)
             if code:
                 raise RuntimeError(f"compiling ended with exit code {code}")
-            with heap.uncollected():  # looking through numba takes up to 100 ms, in whichever frame it happens
+            with heap.uncollected():  # a collection over numba's objects takes up to 100 ms and would stall a frame
                 compile_all()
-                gc.freeze()  # it stays loaded
+                gc.freeze()  # they stay loaded
             self._hand_over(fast=True)
             return True
         finally:
             self.compiling = False
 
     def _hand_over(self, fast: bool) -> None:
-        """Go on with the same table in the other body."""
+        """Continue with the same table, compiled or interpreted."""
         with self._lock:
             old = self.training
             if old.fast != fast:

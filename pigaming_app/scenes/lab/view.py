@@ -1,4 +1,4 @@
-"""What the Lab shows. The still part is painted once; what moves is added piece by piece."""
+"""Rendering of the Lab page: a static background painted once, with dynamic widgets on top."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -64,47 +64,46 @@ from pigaming_app.ui.widgets.labels import black_out, blit_sprite
 
 SPEEDS = ("1×", "10×", "max")
 SPEED_SIGNS = ("play", "faster", "fastest")
-WARM = 1.5  # ms of a frame
-STEPS = 2  # petals that change in one frame
+WARM = 1.5  # ms per frame for prewarming
+STEPS = 2  # petals changed per frame
 UP = round(HEADINGS * 3 / 4)
 
 
 @dataclass
 class LabState:
-    """What is so, as the page needs to know it."""
+    """State shown on the page."""
 
     matches: int = 0
     measures: Sequence[Measure] = ()
-    levels: list[int] = field(default_factory=lambda: [0] * PETALS)  # how good it is in each direction
+    levels: list[int] = field(default_factory=lambda: [0] * PETALS)  # petal length of each direction
     signs: Sequence[str] = ("unknown",) * PETALS
-    knowing: float = 0.0  # 0: it only guesses, 1: it does what it knows
-    values: Mapping[str, int] = field(default_factory=dict)  # of the knobs
-    speed: int = 0  # place in SPEEDS
+    knowing: float = 0.0  # 0: only explores, 1: only exploits
+    values: Mapping[str, int] = field(default_factory=dict)  # knob values
+    speed: int = 0  # index into SPEEDS
     focus: str = ""
-    held: str = ""  # the knob that is being turned
+    held: str = ""  # knob being adjusted
 
 
 class LabPage:
-    """The page; `draw` is told what is so."""
+    """The Lab page, without focus and button prompts."""
 
     def __init__(self, context: Context) -> None:
         self.words, self.language = context.words, context.words.language
         self.ground = ground(context.words.language)
         self.arena = ArenaView(self.ground)
         self.curve = LearningCurve(self.ground)
-        self.levels = [0] * PETALS  # on their way
+        self.levels = [0] * PETALS  # animated towards the target
 
     def watch(self, state: Any) -> None:
-        """How the match stands now."""
+        """Take over a new match state."""
         self.arena.show(state)
 
     def update(self, seconds: float) -> None:
-        """Let robots glide, and make a little of what will be shown."""
+        """Animate the robots and prewarm sprites."""
         self.arena.update(seconds)
         self.arena.warm(WARM)
 
     def draw(self, screen: pygame.Surface, now: LabState) -> None:
-        """Paint everything but the focus and the hints."""
         screen.blit(self.ground, (0, 0))
         self.arena.draw(screen)
         blit_sprite(screen, tag(self.words("lab.match", number=now.matches + 1)), ARENA.left + 12, ARENA.bottom - 66)
@@ -121,7 +120,7 @@ class LabPage:
     # ---- inside
 
     def _plan(self, screen: pygame.Surface, now: LabState) -> None:
-        """The rose and the bar below it."""
+        """Draw the rose and the bar below it."""
         changes = [k for k in range(PETALS) if self.levels[k] != now.levels[k]]
         for k in changes[:STEPS]:
             self.levels[k] += 1 if now.levels[k] > self.levels[k] else -1
@@ -135,7 +134,7 @@ class LabPage:
 @cached
 @resumable
 def ground(language: str) -> Steps[pygame.Surface]:
-    """Everything of the page that never changes."""
+    """The static background."""
     words, canvas = Words(language), LayeredCanvas()
     out = black_out(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
     yield
@@ -172,7 +171,7 @@ def _named(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
 
 
 def _saying(canvas: LayeredCanvas, said: str, x: float) -> None:
-    """What the Lab is about, in two lines beside its title, where there is room."""
+    """Subtitle in two lines beside the title, if it fits."""
     lines = wrap_balanced(said, 2)
     if all(text_width(line, BODY, "body") <= MATCH.right - x for line in lines):
         for i, line in enumerate(lines):
@@ -180,7 +179,7 @@ def _saying(canvas: LayeredCanvas, said: str, x: float) -> None:
 
 
 def _legend(canvas: LayeredCanvas, words: Words) -> None:
-    """What the rose means."""
+    """Legend of the rose."""
     y, room = PLAN.top, PLAN.right - WORDS_X - 28
     title = words("lab.plan")
     canvas.text(title, fit_size(title, 60, room), WORDS_X, y + 56, ICE)
@@ -200,7 +199,7 @@ def _legend(canvas: LayeredCanvas, words: Words) -> None:
 
 
 def bar_ends(words: Words) -> tuple[float, float]:
-    """Where the bar from guessing to knowing begins and ends, px."""
+    """Left and right end of the bar from guessing to knowing, px."""
     left = PLAN.left + 36 + text_width(words("lab.guessing"), BODY, "body") + 32
     return left, PLAN.right - 36 - text_width(words("lab.knowing"), BODY, "body") - 32
 
@@ -217,7 +216,7 @@ def _bar(canvas: LayeredCanvas, words: Words) -> None:
 
 
 def _play(canvas: LayeredCanvas, said: str) -> None:
-    """The button that leads into a match against it."""
+    """Button that starts a challenge match."""
     canvas.glow.line(outline(PLAY), GREEN, THIN, True)
     icon(canvas.glow, "pad", PLAY.left + 58, PLAY.centery, 34, GREEN, THIN)
     canvas.body(said, PLAY.left + 112, PLAY.centery, ICE, "l", fit_size(said, BODY + 2, PLAY.w - 136, "body"))
@@ -225,7 +224,7 @@ def _play(canvas: LayeredCanvas, said: str) -> None:
 
 @cached
 def speed(most: str, chosen: int) -> LitImage:
-    """The three speeds, one of them lit; upper left at (0, 0)."""
+    """The three speeds, the selected one lit; top left at (0, 0)."""
     layer = Layer(0, 0, SPEED.w, SPEED.h)
     layer.glow.line(cut_box(0, 0, SPEED.w, SPEED.h, 16), BLUE, THIN, True)
     for i, (said, name) in enumerate(zip((*SPEEDS[:-1], most), SPEED_SIGNS, strict=True)):
@@ -246,13 +245,13 @@ def speed_part(i: int) -> tuple[int, int]:
 
 
 def speed_at(x: float) -> int:
-    """The speed at x px from the left edge of the button."""
+    """Index of the speed at `x` px from the left edge of the button."""
     return next(i for i in (2, 1, 0) if x >= speed_part(i)[0] or i == 0)
 
 
 @cached
 def knob_name(said: str, focus: bool) -> LitImage:
-    """What a knob turns, in two lines at most below it; round the middle of the knob."""
+    """Label of a knob in at most two lines below it, relative to the knob's centre."""
     color: Color = FOCUS if focus else ICE
     lines = wrap_balanced(said, 2)
     layer = Layer(-104, 60, 208, 90)
@@ -264,7 +263,7 @@ def knob_name(said: str, focus: bool) -> LitImage:
 
 @cached
 def warming(said: str) -> LitImage:
-    """What is being waited for, beside a clock: above the middle of the plot, where no curve comes so early."""
+    """Notice beside a clock above the centre of the plot, which early curves do not reach."""
     layer = Layer(PLOT.x, PLOT.y - 10, PLOT.w, 92)
     icon(layer.canvas.crisp, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
     for i, line in enumerate(wrap_balanced(said, 2)):
@@ -275,7 +274,7 @@ def warming(said: str) -> LitImage:
 
 @cached
 def tag(said: str) -> Sprite:
-    """A word on a black plate, from its upper left corner."""
+    """Text on a black plate, relative to its top left."""
     w = round(text_width(said, BODY, "body")) + 40
     ink = GlowCanvas(w + 48, 102).to(24, 24)
     ink.solid(cut_box(0, 0, w, 54, 12)).line(cut_box(0, 0, w, 54, 12), STEEL, 3, True)
@@ -285,11 +284,11 @@ def tag(said: str) -> Sprite:
 
 @cached
 def bar_knob() -> LitImage:
-    """Where on the bar it is, round (0, 0)."""
+    """Position marker on the bar, centred on (0, 0)."""
     ink = GlowCanvas(80, 80).disc(40, 40, 17, WHITE)
     return LitImage(ink.lit(0.5), (-40, -40))
 
 
 def outline(box: pygame.Rect, c: float = 16) -> Points:
-    """The house shape of a box."""
+    """Box outline with cut corners."""
     return cut_box(box.x, box.y, box.w, box.h, c)

@@ -1,4 +1,4 @@
-"""Rows in which something is chosen, and the small things round them, for the page before a match."""
+"""Rows and small widgets of the match setup page."""
 
 from pigaming_app.ui.draw import (
     BODY,
@@ -21,14 +21,14 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_lines, fit_size
 
 W = span(8, 4)[1]
-PAD = 32  # px between a row's edge and what is in it
-CHIP, APART, CLOSE = 112, 16, 8  # px: a chip at most, between a few chips, between many
-FEW = 4  # chips that have all the room they want
+PAD = 32  # px, inner padding of a row
+CHIP, APART, CLOSE = 112, 16, 8  # px: maximum chip width, gap for few chips, gap for many
+FEW = 4  # chips that fit at full width
 
 
 @cached
 def row(name: str, value: str, aside: str = "", line: str = "") -> LitImage:
-    """What is chosen, a fact beside it, the value between arrows, and a sentence about it; upper left at (0, 0)."""
+    """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
     high = 236 if line else 140
     layer = _named(name, high)
     layer.canvas.body(aside, W - PAD, 38, MIST, "r")
@@ -45,7 +45,7 @@ def row(name: str, value: str, aside: str = "", line: str = "") -> LitImage:
 
 @cached
 def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
-    """All values side by side, the chosen one lit; upper left at (0, 0)."""
+    """All values side by side, the selected one lit; top left at (0, 0)."""
     layer = _named(name, 140)
     wide, pitch = chip_size(len(values))
     for i, said in enumerate(values):
@@ -56,14 +56,14 @@ def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
 
 
 def chip_size(count: int) -> tuple[int, int]:
-    """How wide each of so many chips is, and how far it is from one to the next, px."""
+    """Width of each of `count` chips and the gap between them, px."""
     apart = APART if count <= FEW else CLOSE
     wide = min(CHIP, (W - 2 * PAD + apart) // count - apart)
     return wide, wide + apart
 
 
 def chip_at(count: int, x: float) -> int | None:
-    """Which of so many chips lies x px from the left edge of its row."""
+    """Index of the chip at `x` px from the left edge of the row, if any."""
     wide, pitch = chip_size(count)
     i, rest = divmod(x - PAD, pitch)
     return int(i) if 0 <= i < count and rest < wide else None
@@ -71,7 +71,7 @@ def chip_at(count: int, x: float) -> int | None:
 
 @cached
 def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
-    """The best so far: what, how much and whose, a line for each; upper left at (0, 0)."""
+    """Best scores, one line each: feat, value, initials; top left at (0, 0)."""
     layer = Layer(0, 0, W, records_high(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
         y = 38 + 56 * i
@@ -83,13 +83,13 @@ def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
 
 
 def records_high(lines: int) -> int:
-    """How much room they take, px."""
+    """Height of the best scores, px."""
     return 20 + 56 * lines
 
 
 @cached
 def begin(said: str) -> LitImage:
-    """The button that begins; upper left at (0, 0)."""
+    """The start button; top left at (0, 0)."""
     layer = Layer(0, 0, W, 96)
     layer.glow.line(cut_box(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)
     size = fit_size(said, SUB, W - 200)
@@ -101,7 +101,7 @@ def begin(said: str) -> LitImage:
 
 @cached
 def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
-    """Who plays: badges and the icons of what drives them, ending at x = 0."""
+    """Badges and driver icons of the players, right-aligned at x = 0."""
     pitch = 168
     layer = Layer(-pitch * len(seats), -40, pitch * len(seats), 80)
     for k, (seat, sign) in enumerate(seats):
@@ -113,7 +113,7 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
 
 @cached
 def mark(seat: int) -> LitImage:
-    """Who begins here; round (0, 0)."""
+    """Start position marker of a seat, centred on (0, 0)."""
     layer = Layer(-24, -24, 48, 48)
     badge(layer.glow, seat, 0, 0, 17)
     return layer.done()
@@ -121,7 +121,7 @@ def mark(seat: int) -> LitImage:
 
 @cached
 def focus_outline(high: int) -> LitImage:
-    """What a row in focus gets on top of its outline; upper left at (0, 0)."""
+    """Additional highlight of the focused row, drawn over its outline; top left at (0, 0)."""
     layer = Layer(0, 0, W, high)
     layer.glow.line(cut_box(0, 0, W, high, 16), dim(FOCUS, 0.55), THIN, True)
     return layer.done()

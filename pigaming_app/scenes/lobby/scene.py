@@ -1,8 +1,8 @@
-"""The lobby: press fire to join, again to be ready. AIs fill the seats that are wished for, teams are one press away.
+"""The lobby: FIRE joins, FIRE again means ready. AIs fill empty seats on request; teams are one press away.
 
-When all people are ready and at least two robots are there, the choice of the arena follows after a moment in which
-anybody may still join. Every seated device acts for its own seat, a free one can only join (see `access`); the mouse
-acts on what it points at.
+When all people are ready and at least two robots take part, match setup opens after a short countdown, during which
+others can still join. A seated device controls its own seat, a free one can only join (see `access`); the mouse acts on
+the element under the pointer.
 """
 
 from collections.abc import Sequence
@@ -28,15 +28,15 @@ from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 
-IDLE = 60.0  # seconds without a press until the title
-ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
-SAID = 4.0  # seconds for which a message stays
-AHEAD = 3.0  # ms of a frame for pieces that will be needed
-POINTED = 4.0  # seconds after the mouse moved in which its focus shows
+IDLE = 60.0  # s without input before the return to the title
+ALL, ALONE = 1.2, 2.4  # s, countdown once all are ready; longer for one person with an AI
+SAID = 4.0  # s, display time of a message
+AHEAD = 3.0  # ms per frame for prewarming
+POINTED = 4.0  # s for which the mouse focus stays visible after a movement
 
 
 class Lobby:
-    """Who plays a game. `drivers`: who sits there already, for each seat a device, the strength of an AI, or None."""
+    """The lobby of a game. `drivers`: initial driver of each seat, a device, an AI strength or None."""
 
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
@@ -55,7 +55,7 @@ class Lobby:
         self.rehearsal: MatchRunner | None = None
 
     def entered(self) -> None:
-        """Shown, or come back to from the choice of the arena: everyone says again that they are ready."""
+        """Reset on first display and on return from match setup: everyone has to confirm again."""
         self.context.sounds.music(True)
         self.now.starting = None
         self.seats.unready()
@@ -65,7 +65,7 @@ class Lobby:
                 self._unplugged(device)
 
     def on(self, event: InputEvent) -> Turn:
-        """Join, be ready, leave, call AIs, choose teams, begin."""
+        """Handle joining, readiness, leaving, AIs, teams and start."""
         meant = self.page.prompts.as_button(event)
         admitted = self.access.admit(meant)
         if admitted is None:
@@ -99,7 +99,7 @@ class Lobby:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the robots turn; go on when everybody is ready; leave when nobody is there."""
+        """Animate; go on when everyone is ready, leave when abandoned."""
         self.now.pass_by(seconds)
         self.focus.update(seconds)
         if self.access.update(seconds):
@@ -113,13 +113,12 @@ class Lobby:
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         self.page.draw(screen)
         if self.now.pointed > 0.0:
             self.focus.draw(screen)
 
     def _make_ahead(self) -> None:
-        """While people think: first what this page will need, then the sprites of the match."""
+        """Prewarm while people choose: first this page, then the sprites of the match."""
         if not self.ahead.work(AHEAD):
             return
         now = last_choice(self.context, self.game)
@@ -133,7 +132,7 @@ class Lobby:
     # ---- what presses do
 
     def _knock(self, event: InputEvent) -> None:
-        """A free device while others are seated: it joins, or hears which of its buttons does that."""
+        """Handle a free device while others are seated: join, or show which of its buttons joins."""
         if event.button in (Button.FIRE, Button.START):
             self._fire(event.device)
         elif event.button in (Button.BACK, Button.X, Button.Y):
@@ -144,7 +143,7 @@ class Lobby:
             self.now.said = SAID
 
     def _fire(self, device: Device) -> None:
-        if device.kind == "mouse":  # somebody clicked on the hint
+        if device.kind == "mouse":  # click on the hint
             for waiting in self.seats.waiting:
                 self.seats.places[waiting].ready = True
             return
@@ -161,7 +160,7 @@ class Lobby:
             self.context.sounds.play("join", seat)
 
     def _begin(self, device: Device) -> Turn:
-        """START: everybody counts as ready. In an empty lobby it joins."""
+        """START: everyone counts as ready. In an empty lobby the device joins instead."""
         if not self.seats.robots and device.kind != "mouse":
             self._fire(device)
             return None
@@ -177,7 +176,7 @@ class Lobby:
         return Push(MatchSetupPage(self.context, self.game, self.seats, game_choice))
 
     def _back(self, device: Device) -> Turn:
-        """Not ready after all; then out of the seat; then back to the title."""
+        """BACK: revoke readiness, then leave the seat, then return to the title."""
         self.context.sounds.play("back")
         seat = self.seats.of(device)
         if seat is None:
@@ -196,7 +195,7 @@ class Lobby:
             self.context.sounds.play("back")
 
     def _ais(self) -> None:
-        """One more AI; when all seats are taken, none."""
+        """Add one AI; remove all if every seat is taken."""
         seat = self.seats.add()
         if seat is None:
             self.seats.clear()
@@ -206,8 +205,9 @@ class Lobby:
             self.context.sounds.play("join", seat)
 
     def _steer(self, device: Device, act: Button) -> None:
-        """Left and right choose one's own team where there are teams, up and down one's own robot where there is a mat;
-        every other direction the strength of the AIs."""
+        """Left and right select the device's own team if teams are on, up and down its robot if a mat is present; the
+        remaining directions set the strength of the AIs.
+        """
         seat = self.seats.of(device)
         if self.seats.mat and seat is not None and act in (Button.UP, Button.DOWN):
             self._swap(seat)
@@ -219,12 +219,12 @@ class Lobby:
             self.context.sounds.play("move")
 
     def _remember(self) -> None:
-        """The next lobby, of any game, begins with AIs of this strength; one that only one game has is not kept."""
+        """Save the AI strength as the default of the next lobby, unless only this game offers it."""
         if self.seats.strength in STRENGTHS:
             self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:
-        """A real robot for a simulated one, or the other way round; the next lobby begins like this."""
+        """Toggle between the real and the simulated robot of a seat, and save it as the default."""
         if reason := unfit(self.context.settings):
             self._say(self.context.words.sentence(reason), "error")
             return
@@ -270,7 +270,7 @@ class Lobby:
             self.context.sounds.play("ready", seat)
 
     def _watch(self) -> None:
-        """Begin the last moment when all are ready, and give it up when somebody is not."""
+        """Start the countdown when all are ready, cancel it otherwise."""
         self.focus.place(spots(self.seats))
         alone = len(self.seats.like(HUMAN)) == 1
         if not self.seats.like(HUMAN) or self.seats.waiting:
@@ -290,5 +290,5 @@ class Lobby:
 
 
 def game_choice(context: Context, setup: Setup, devices: Sequence[Device | None]) -> GameChoice:
-    """The choice of another game after a match; it leads to a lobby."""
+    """The game selection after a match, with a lobby factory."""
     return GameChoice(context, setup, devices, Lobby)

@@ -1,4 +1,4 @@
-"""What the lobby shows: four cards, what is being waited for, and which button does what."""
+"""Rendering of the lobby: four cards, the current message and the button prompts."""
 
 import math
 from collections.abc import Callable
@@ -22,24 +22,23 @@ from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_actio
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar
 
 TOP, MESSAGE_Y, LINE_Y = 216, 884, 932
-ROLL_IN = 0.35  # seconds in which a robot comes onto its turntable
+ROLL_IN = 0.35  # s, a robot's drive onto its turntable
 
 
 @dataclass
 class LobbyState:
-    """What moves on the page, in seconds."""
+    """Animation state of the page, in s."""
 
     clock: float = 0.0
-    since: list[float] = field(default_factory=lambda: [9.0] * PLACES)  # for each seat, since it was taken
-    starting: float | None = None  # until the choice of the arena
-    whole: float = 1.0  # how long that was in the beginning
-    message: str = ""  # what has just happened
-    label: str = ""  # of the button in it
-    said: float = 0.0  # how long that will still be shown
-    pointed: float = 0.0  # how long the focus of the mouse will still be shown
+    since: list[float] = field(default_factory=lambda: [9.0] * PLACES)  # time since each seat was taken
+    starting: float | None = None  # remaining countdown
+    whole: float = 1.0  # full countdown
+    message: str = ""  # last event
+    label: str = ""  # button in the message
+    said: float = 0.0  # remaining display time of the message
+    pointed: float = 0.0  # remaining display time of the mouse focus
 
     def pass_by(self, seconds: float) -> None:
-        """Let time pass."""
         self.clock += seconds
         self.said -= seconds
         self.pointed -= seconds
@@ -47,7 +46,7 @@ class LobbyState:
 
 
 class LobbyPage:
-    """The page of these seats; `now` is what moves on it."""
+    """The lobby page of `seats`. `now`: animation state; `fact`: text beside the title."""
 
     def __init__(
         self, context: Context, seats: Seats, now: LobbyState, fact: Callable[[], str], access: Access
@@ -55,7 +54,6 @@ class LobbyPage:
         self.context, self.seats, self.now, self.fact, self.access = context, seats, now, fact, access
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page; `fact` tells what stands beside its title."""
         screen.blit(backdrop(), (0, 0))
         heading(self.context.words("lobby.title"), self.fact()).draw(screen)
         black_out(screen, *map(card_rect, range(PLACES)))
@@ -66,7 +64,7 @@ class LobbyPage:
 
     @property
     def prompts(self) -> ButtonPrompts:
-        """The hints that are true for the device used last, if it may act."""
+        """Prompts for the device used last, if it may act."""
         seat = self.seats.of(self.access.voice)
         full = not self.seats.like(EMPTY)
         hints = [
@@ -80,7 +78,7 @@ class LobbyPage:
 
     @property
     def invited(self) -> tuple[str, ...]:
-        """The button of each device that could join, each once: of the pads, then of the keyboard's clusters."""
+        """Distinct labels of the buttons with which free devices can join: pads first, then keyboard clusters."""
         controls, words = self.context.controls, self.context.words
         free = [device for device in controls.players() if self.seats.of(device) is None]
         return tuple(dict.fromkeys(words.printed(controls.label(device, Button.FIRE)) for device in free))
@@ -156,7 +154,7 @@ class LobbyPage:
 
 
 def spots(seats: Seats) -> list[FocusSpot]:
-    """What the mouse can hit: arrows and teams on the cards, then the cards."""
+    """Mouse targets: arrows and teams on the cards, then the cards."""
     found = []
     for seat, place in enumerate(seats.places):
         x, y = card_rect(seat).topleft
@@ -172,20 +170,19 @@ def spots(seats: Seats) -> list[FocusSpot]:
 
 
 def problem(seats: Seats, words: Words) -> str:
-    """Why a match cannot begin, or nothing."""
+    """The reason why a match cannot start, or ""."""
     if seats.robots < 2:
         return words("lobby.more")
     return words("lobby.teams_need") if seats.one_team else ""
 
 
 def card_rect(seat: int) -> pygame.Rect:
-    """Where a seat's card is."""
     x, w = span(3 * seat, 3)
     return pygame.Rect(x, TOP, w, H)
 
 
 def glance(seconds: float, seat: int) -> float:
-    """Where the robot of a waiting seat looks, rad off straight ahead: it turns quickly and rests."""
+    """Viewing angle of a waiting robot, rad off straight ahead: quick turns with pauses."""
     angles = (0.0, -0.42, 0.3, 0.0, 0.46, -0.2)
     at = seconds / 1.4 + 0.37 * seat
     i, into = int(at), at % 1.0

@@ -1,4 +1,4 @@
-"""Pictures for what can be wrong with real robots: camera, radio, battery, the all-stop, and a robot itself."""
+"""Icons for faults of real robots: camera, radio, battery, stop button, robot."""
 
 import math
 from collections.abc import Callable
@@ -9,7 +9,7 @@ Draw = Callable[[GlowCanvas, float, float, float, Color], None]
 
 
 def sign(ink: GlowCanvas, name: str, x: float, y: float, r: float, color: Color) -> None:
-    """The picture of what a fault is about, `r` px to each side of (x, y)."""
+    """Icon of a fault category, `r` px to each side of (x, y)."""
     SIGNS.get(name, _robot)(ink, x, y, r, color)
 
 

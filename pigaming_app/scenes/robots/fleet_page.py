@@ -1,4 +1,4 @@
-"""The page of the robots: which camera and radio, who is there and how well, who is who, and how late it all is."""
+"""Fleet page: camera and radio selection, robot status, pairing and latency."""
 
 import logging
 from dataclasses import replace
@@ -32,20 +32,20 @@ BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "stock")
 EMULATED = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
-WEAK, LOW = 0.7, 4.4  # share of reports, V
-IDLE = 600.0  # seconds without a press until the title
-SAID = 8.0  # seconds for which a sentence stays
-ANEW = 0.8  # seconds after a change until everything is opened anew
-EVERY = 0.4  # seconds between two readings
+WEAK, LOW = 0.7, 4.4  # share of reports, V: below these a robot is marked
+IDLE = 600.0  # s without input before the return to the title
+SAID = 8.0  # s, display time of a message
+ANEW = 0.8  # s after a change until all devices are reopened
+EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
-ROBOTS_H = 486  # px of the frame round the robots
-LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: the sentence about a row
+ROBOTS_H = 486  # px, height of the robots' frame
+LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
 log = logging.getLogger("pigaming")
 
 
 class FleetPage:
-    """The page, where robots may be used."""
+    """Fleet page, shown where robots are available."""
 
     def __init__(self, context: Context) -> None:
         assert context.session is not None
@@ -59,7 +59,7 @@ class FleetPage:
         self.focus = Focus(dials.spots(self.names), "pair")
         self.anew, self.age = 0.0, EVERY
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
-        self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
+        self.lines: list[tuple[str, Color, str, Color]] = []  # per robot: radio and vision status
         hints = [
             (Button.RIGHT, "calibrate.hint_change"),
             (Button.FIRE, "robots.hint_ok"),
@@ -68,15 +68,15 @@ class FleetPage:
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
-        """Look and listen."""
+        """Open camera and radio."""
         self.check.begin()
 
     def left(self) -> None:
-        """Stop the robots; let go of camera and radio."""
+        """Stop the robots; release camera and radio."""
         self.check.end()
 
     def on(self, event: InputEvent) -> Turn:
-        """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
+        """Up and down select, left and right change, FIRE runs; while robots move, any input stops them."""
         event = self.navigation.prompts.as_button(self._on_sheet(event))
         if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
             self.check.stop()
@@ -92,7 +92,7 @@ class FleetPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Read what there is to read."""
+        """Refresh the readings."""
         words = self.context.words
         turn = self.navigation.update(seconds)
         self.age += seconds
@@ -116,7 +116,7 @@ class FleetPage:
         return turn
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page in blocks that keep off the discs, and these."""
+        """Draw the page in blocks that avoid the discs, then the discs."""
         words = self.context.words
         if self.flood.whole:
             self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
@@ -133,11 +133,11 @@ class FleetPage:
 
     @property
     def discs(self) -> MarkerDiscs | None:
-        """The light that robots need, once there is a rig."""
+        """Discs for the robots' markers, once a rig is open."""
         return MarkerDiscs(self.check.rig) if self.check.rig is not None else None
 
     def _blocks(self) -> list[pygame.Rect]:
-        """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""
+        """Blocks of the page: rows, robots, description, prompts and faults."""
         low = self.focus.spots[-1].rect.bottom
         ends = places(self.navigation.prompts.said, self.navigation.prompts.room)
         left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
@@ -150,15 +150,15 @@ class FleetPage:
         return [*found, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else found
 
     def _sentence(self) -> str:
-        """What is wrong, or was just found."""
+        """Fault, or result of the last action."""
         return self._trouble() or self.navigation.sentence
 
     def _on_sheet(self, event: InputEvent) -> InputEvent:
-        """A press of the mouse where the block is drawn that it hits."""
+        """Map a mouse event from the canvas to the sheet."""
         return replace(event, at=self.aside.back(event.at)) if event.at else event
 
     def _draw_blocks(self, screen: pygame.Surface) -> None:
-        """Everything below the heading."""
+        """Draw everything below the heading on the sheet."""
         words = self.context.words
         screen.fill("black")
         dials.draw(screen, self.context.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
@@ -180,19 +180,19 @@ class FleetPage:
     # ---- what is read
 
     def _line(self) -> str:
-        """A sentence about the row in focus, or why its value is refused for matches."""
+        """Description of the focused row, or the reason why matches reject its value."""
         reason = unfit(self.context.settings) if self.focus.name == "radio" else None
         return self.context.words.sentence(reason) if reason else self.context.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
-        """What the camera does."""
+        """Camera status."""
         words, check = self.context.words, self.check
         if check.rig is None:
             return words.sentence(check.refusal) if check.refusal else words("fleet.no_camera")
         return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
 
     def _trouble(self) -> str | None:
-        """What camera or radio say is wrong."""
+        """Fault message of camera or radio."""
         told = self.check.session.trouble
         return self.context.words.sentence(told) if told else None
 
@@ -219,7 +219,7 @@ class FleetPage:
         return SettingValue("arrows", tuple(values.values()), list(values).index(now))
 
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
-        """What can be chosen, by what is kept, and what is now."""
+        """Options of a row, by stored value, and the current value."""
         words, settings = self.context.words, self.context.settings
         if name == "camera":
             known: dict[object, str] = {one.number: f"{one.number}: {one.name}" for one in cameras()}
@@ -233,7 +233,7 @@ class FleetPage:
         return {one: words(f"fleet.{one}") for one in RADIOS}, settings.radio
 
     def _change(self, name: str, by: int, around: bool) -> None:
-        """The next value of a row, or the one before it."""
+        """Step a row's value by `by`."""
         settings = self.context.settings
         if name in EMULATED:
             return
@@ -253,7 +253,7 @@ class FleetPage:
             self.navigation.say(self.context.words("app.unsaved"))
 
     def _do(self, name: str) -> None:
-        """Begin what the row is for, or take its next value."""
+        """Run a row's action, or step its value."""
         if name not in EMULATED:
             self._change(name, 1, True)
             return
@@ -263,7 +263,7 @@ class FleetPage:
             self.navigation.say(self.context.words("fleet.nobody"))
 
     def _found(self) -> None:
-        """Say what came of the pairing."""
+        """Report the result of the pairing."""
         words, told = self.context.words, worst(self.check.findings)
         if told is None:
             self.navigation.say(words("fleet.paired"))
