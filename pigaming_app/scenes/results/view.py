@@ -261,7 +261,7 @@ class ResultsPage:
         return ends(wanted, *FIGURES, APART_X)
 
     def _records(self) -> LitImage | None:
-        """Best scores of both tables in the space of a missing row, if both exist."""
+        """Best scores of both tables in the space of a missing row; None if both are empty."""
         scores, setup, words = self.context.scores, self.setup, self.context.words
         tables = [(board, scores.best(board.table, board.days)) for board in high_score_tables(contest(setup))]
         if not any(rows for _, rows in tables):

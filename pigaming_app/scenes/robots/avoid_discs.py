@@ -59,7 +59,7 @@ class BlockLayout:
             screen.blit(block, one.at, special_flags=ADD)
 
     def back(self, at: Point) -> Point:
-        """Canvas to sheet coordinates; a point outside all blocks maps to a point off the canvas."""
+        """Canvas to sheet coordinates; a point outside all blocks maps to (-1, -1)."""
         for one in self.placed:
             if one.box.collidepoint(at):
                 return tuple(one.home.topleft[i] + (at[i] - one.at[i]) / one.scale for i in (0, 1))  # type: ignore[return-value]

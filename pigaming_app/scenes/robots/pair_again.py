@@ -41,7 +41,7 @@ class PairAgain:
         """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE restarts a finished pairing; before that FIRE, and at any time BACK, START and STOP, stop the robots."""
+        """FIRE repeats a finished pairing and aborts a running one; BACK, START and STOP abort at any time."""
         event = (self.after if self.sentence else self.stop).as_button(event)
         if event.button is Button.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0

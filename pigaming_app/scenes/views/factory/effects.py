@@ -1,4 +1,4 @@
-"""What an event of Robot Factory looks and sounds like."""
+"""Particles and sounds for the events of Robot Factory."""
 
 from collections.abc import Iterable
 
@@ -20,21 +20,21 @@ from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
 from pigaming_app.scenes.views.view import Heard, ViewOptions
 from pigaming_app.ui.draw import ALARM
 
-POP = 0.12  # seconds in which a crate that was moved snaps to its size
+POP = 0.12  # s, pop animation of a moved crate
 
 
 class CratePops:
-    """Crates that have just been lifted or set down are a little larger for a moment."""
+    """Pop animation: a crate is slightly enlarged after being lifted or set down."""
 
     def __init__(self) -> None:
         self.since: dict[int, float] = {}
 
     def begin(self, pallet: int, now: float) -> None:
-        """This one has just been moved."""
+        """Start the animation of a pallet."""
         self.since[pallet] = now
 
     def tenths(self, pallet: int, now: float) -> int:
-        """How large it is, in tenths."""
+        """Current size in tenths."""
         share = (now - self.since.get(pallet, -9.0)) / POP
         return 10 if share >= 1.0 else 13 - round(3 * share)
 
@@ -42,7 +42,7 @@ class CratePops:
 def react(
     events: Iterable[FactoryEvent], state: Factory, particles: Particles, popping: CratePops, options: ViewOptions
 ) -> list[Heard]:
-    """Put what happened into the air; answers what is heard of it."""
+    """Add particles for the events; returns their sounds."""
     heard: list[Heard] = []
     for one in events:
         x, y = LEFT + one.x, TOP + one.y

@@ -1,4 +1,4 @@
-"""What happened in a tick of Robot Factory, found by comparing a match with what it was before; nothing is written."""
+"""Event detection for Robot Factory, by comparing a match with its previous tick; read-only."""
 
 from typing import Any, NamedTuple
 
@@ -9,7 +9,7 @@ STARTED, DONE, FROZEN, THAWED, RENEWED = "machine_start", "machine_done", "freez
 
 
 class FactoryEvent(NamedTuple):
-    """One thing that happened at (x, y), px; `player`: who did it, or None; `what`: pallet or machine, -1: neither."""
+    """An event at (x, y), px; `player`: the robot that caused it, or None; `what`: pallet or machine, -1: neither."""
 
     kind: str
     player: int | None
@@ -19,13 +19,13 @@ class FactoryEvent(NamedTuple):
 
 
 class FactoryEventDetector:
-    """Remembers one match from tick to tick."""
+    """Keeps the previous tick of one match."""
 
     def __init__(self, state: Factory) -> None:
         self._remember(state)
 
     def look(self, state: Factory) -> list[FactoryEvent]:
-        """What has happened since the last look."""
+        """Events since the last call."""
         found = [*self._robots(state), *self._pallets(state)]
         self._remember(state)
         return found
@@ -72,7 +72,7 @@ class FactoryEventDetector:
 
 
 def spot(state: Factory, p: int) -> tuple[float, float]:
-    """Where a pallet is, in arena px: its slot, its machine, or the robot or worker that carries it."""
+    """Position of a pallet in arena px: its slot, its machine, or the robot or worker carrying it."""
     one = state.pallets[p]
     owner: Any = {IN_SLOT: state.slots, ON_ROBOT: state.robots, IN_MACHINE: state.machines}.get(
         one.place, state.workers

@@ -1,4 +1,4 @@
-"""A match of Robot Factory on the screen: robots with their forks, crates, machines at work, and people."""
+"""View of Robot Factory: robots with forks, crates, running machines, people."""
 
 import math
 from functools import partial
@@ -38,10 +38,10 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
-SHOWN_REFUSED = 14  # ticks for which a cross says that there is nothing to do
-HANDS = 40.0  # px from a worker to what it carries
-BEFORE = 124.0  # px from a real robot, in its wide disc, to what it carries
-BESIDE = 102.0  # px from a robot to the number that counts down
+SHOWN_REFUSED = 14  # ticks for which a cross marks a refused action
+HANDS = 40.0  # px from a worker to its load
+BEFORE = 124.0  # px from a real robot, in its wide disc, to its load
+BESIDE = 102.0  # px from a robot to its countdown
 
 
 class FactoryView(MatchView):
@@ -60,14 +60,12 @@ class FactoryView(MatchView):
         self.ahead(jobs(self.seats))
 
     def watch(self, state: Factory) -> list[Heard]:
-        """See what the last tick did; answers what is to be heard."""
         self.follow(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.look(state)
         return react(self.detector.look(state), state, self.particles, self.popping, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
-        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.particles.advance(seconds)
         for team in self.hud.show(state):
             if self.options.flashes != "off":
@@ -99,7 +97,7 @@ class FactoryView(MatchView):
                 put(light, crates.progress(HALF if machine.kind == A else DONE, part), x, y)
 
     def _crates(self, over: Batch, state: Factory) -> None:
-        """Those that lie in slots; whoever carries one draws it."""
+        """Draw the crates in slots; carried ones are drawn with their carrier."""
         for p in range(PALLETS):
             one = state.pallets[p]
             if one.exists and one.place == IN_SLOT:
@@ -145,7 +143,7 @@ class FactoryView(MatchView):
             put(top, crates.digit(-(-load.frozen // HZ)), x, y + (BESIDE if y < TOP + BESIDE else -BESIDE))
 
     def _counts(self, light: Batch, state: Factory) -> None:
-        """What waits outside, what has driven off, and when a new pallet comes."""
+        """Draw the numbers of waiting and delivered pallets, and the time until the next one."""
         for team in range(TEAMS):
             entry = state.slots[team * 2 * SHELVES]
             left = entry.x < 800

@@ -1,4 +1,4 @@
-"""The ground of PiTanks: frame, grid, the places on which robots begin, and walls, drawn again when they break."""
+"""Background of PiTanks: frame, grid, start positions, and walls, which are redrawn when damaged."""
 
 import math
 from functools import partial
@@ -18,7 +18,7 @@ Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
 
 
 class WalledBackground(Background):
-    """The ground of a match with walls that break."""
+    """Background with destructible walls."""
 
     def __init__(self, state: Any, starts: Starts) -> None:
         super().__init__(partial(bare, starts))
@@ -26,7 +26,7 @@ class WalledBackground(Background):
         self.sprites: list[Sprite | None] = [None] * state.wall_count
 
     def show_walls(self, state: Any) -> None:
-        """Bake walls whose health has changed."""
+        """Bake the walls whose health has changed."""
         for i in range(state.wall_count):
             one = state.walls[i]
             if self.sprites[i] is None or one.health != self.health[i]:
@@ -47,7 +47,7 @@ class WalledBackground(Background):
 
 
 def wall_sprite(one: Any, health: int) -> Sprite:
-    """A wall of a match with so much health."""
+    """Wall sprite for a given health."""
     length = math.dist((one.ax, one.ay), (one.bx, one.by)) + 2 * one.half - 4
     angle = math.atan2(one.by - one.ay, one.bx - one.ax)
     return wall(length, 2 * one.half - 4, angle, health, int(one.ax * 7 + one.ay * 13 + one.bx), max(1, one.whole))
@@ -61,7 +61,7 @@ def _box(one: Any, sprite: Sprite) -> pygame.Rect:
 @cached
 @resumable
 def bare(starts: Starts) -> Steps[pygame.Surface]:
-    """Grid, frame and the shapes on which robots begin."""
+    """Grid, frame and start position markers."""
     canvas = LayeredCanvas()
     glow, crisp = canvas.glow, canvas.crisp
     _grid(canvas)

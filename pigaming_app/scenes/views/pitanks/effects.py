@@ -1,4 +1,4 @@
-"""What an event of PiTanks looks and sounds like."""
+"""Particles and sounds for the events of PiTanks."""
 
 from collections.abc import Iterable
 
@@ -10,7 +10,7 @@ from pigaming_app.scenes.views.view import Heard, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
 
-BESIDE = 46.0  # px from a robot to where its scores rise
+BESIDE = 46.0  # px from a robot to its score popup
 
 
 SOUNDS = {
@@ -28,7 +28,7 @@ SOUNDS = {
 
 
 def react(events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions) -> list[Heard]:
-    """Put what happened into the air; answers what is heard of it."""
+    """Add particles for the events; returns their sounds."""
     heard: list[Heard] = []
     for one in events:
         _show(one, state, particles, options)
@@ -73,7 +73,7 @@ def _blast(x: float, y: float, color: tuple[int, int, int], particles: Particles
 
 
 def _break(one: PiTanksEvent, state: PiTanks, particles: Particles) -> None:
-    """Splinters of a wall: a few where a cell goes out, many where it falls."""
+    """Splinters of a wall: a few for a lost cell, many for a collapse."""
     wall = state.walls[one.number]
     ends = LEFT + wall.ax, TOP + wall.ay, LEFT + wall.bx, TOP + wall.by
     particles.debris(*ends, 5 if one.kind == "cracked" else 26)
@@ -85,5 +85,5 @@ def _break(one: PiTanksEvent, state: PiTanks, particles: Particles) -> None:
 
 
 def _inside(x: float) -> float:
-    """Where two scores have room beside each other."""
+    """Clamp x so that two score popups fit side by side."""
     return min(max(x, LEFT + 60 + BESIDE), LEFT + WIDTH - 60 - BESIDE)

@@ -1,6 +1,6 @@
-"""What happened in a tick of PiTanks, found by comparing a match with what it was before. Nothing here writes to it.
+"""Event detection for PiTanks, by comparing a match with its previous tick; read-only.
 
-The engine sends no messages: it is a record of numbers, also inside a compiled rollout. Whoever looks, remembers.
+The engine emits no events: its state consists of numbers only, so that it can run inside a compiled rollout.
 """
 
 import math
@@ -9,25 +9,25 @@ from typing import NamedTuple
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
 from pigaming_app.sim.robot import RADIUS
 
-NEAR = RADIUS + 20.0  # px between a robot and a bullet that it stopped
+NEAR = RADIUS + 20.0  # px, maximum distance between a bullet and the robot that stopped it
 
 
 class PiTanksEvent(NamedTuple):
-    """One thing that happened at (x, y), px; `angle`: which way it points, rad.
+    """An event at (x, y), px; `angle`: its direction, rad.
 
     kind        player   number
-    fire        who      -
-    stopped     whose    -       a bullet ended on a wall, or on a robot that could not be hit
-    bounced     whose    -
-    cracked     -        which wall
-    crumbled    -        which wall
-    hit         victim   how often
+    fire        shooter  -
+    stopped     owner    -       a bullet ended on a wall or an invulnerable robot
+    bounced     owner    -
+    cracked     -        wall
+    crumbled    -        wall
+    hit         victim   count
     shielded    victim   -
-    scored      who      how many
-    pickup      who      which power
-    power_end   who      which power
-    mine_laid   whose    -
-    mine_blown  whose    -
+    scored      scorer   points
+    pickup      robot    power
+    power_end   robot    power
+    mine_laid   owner    -
+    mine_blown  owner    -
     """
 
     kind: str
@@ -47,13 +47,13 @@ class _Shot(NamedTuple):
 
 
 class PiTanksEventDetector:
-    """Remembers one match from tick to tick."""
+    """Keeps the previous tick of one match."""
 
     def __init__(self, state: PiTanks) -> None:
         self._remember(state)
 
     def look(self, state: PiTanks) -> list[PiTanksEvent]:
-        """What has happened since the last look."""
+        """Events since the last call."""
         found = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
         self._remember(state)
         return found
@@ -100,7 +100,7 @@ class PiTanksEventDetector:
         return found
 
     def _stopped_by(self, state: PiTanks, bullet: Bullet, owner: int) -> int | None:
-        """The robot on which a bullet ended. Robots have moved on since: where they were counts."""
+        """The robot that stopped a bullet, by the positions of the previous tick, since robots have moved on."""
         for k, (x, y) in enumerate(self.places):
             robot = state.robots[k]
             if (

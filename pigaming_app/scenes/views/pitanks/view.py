@@ -1,4 +1,4 @@
-"""A match of PiTanks on the screen: walls, robots, bullets, what lies on the floor, and what happens to them."""
+"""View of PiTanks: walls, robots, bullets, items on the floor, and effects."""
 
 import math
 
@@ -22,9 +22,9 @@ from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
-FLASH = 0.06  # seconds
-ENDING = 2 * HZ  # ticks before its end at which a shield begins to blink
-MUZZLE = 70.0  # px from a robot to the middle of its muzzle flash
+FLASH = 0.06  # s
+ENDING = 2 * HZ  # remaining ticks from which a shield blinks
+MUZZLE = 70.0  # px from a robot to the centre of its muzzle flash
 
 
 class PiTanksView(MatchView):
@@ -47,7 +47,6 @@ class PiTanksView(MatchView):
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 
     def watch(self, state: PiTanks) -> list[Heard]:
-        """See what the last tick did; answers what is to be heard: (sound, player or None, x in arena px)."""
         self.follow(state)
         for i, bullet in enumerate(state.bullets):
             was = self.detector.shots[i]
@@ -61,7 +60,6 @@ class PiTanksView(MatchView):
         return react(events, state, self.particles, self.options)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
-        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.particles.advance(seconds)
         self.walls.show_walls(state)
         for slot in self.hud.show(state):
@@ -106,7 +104,9 @@ class PiTanksView(MatchView):
             put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))
 
     def _powers(self, light: Batch, state: PiTanks, seat: int, x: float, y: float) -> None:
-        """A ring for what ends first; the HUD says what it is. A shield is seen, and blinks before it ends."""
+        """Draw a timer ring for the power that ends first (the HUD names it). A shield is drawn itself, and blinks at
+        the end.
+        """
         powers = state.tanks[seat].powers
         ends = min((left for left in powers if left), default=0)
         if ends:

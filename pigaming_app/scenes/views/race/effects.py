@@ -1,4 +1,4 @@
-"""What an event of a race looks and sounds like, and the words and times that rise over robots."""
+"""Particles, sounds, and rising words and times for the events of a race."""
 
 import math
 from collections.abc import Sequence
@@ -30,13 +30,13 @@ SOUNDS = {
     "mud": "mud",
 }
 BY_WEIGHT = list(SOUNDS)
-LASTS, RISE = 1.7, 46.0  # s and px of what rises
-OVER = 70.0  # px from a robot to what rises
-HIGH = 76.0  # px from one that rises to another over it
+LASTS, RISE = 1.7, 46.0  # s and px of an announcement
+OVER = 70.0  # px from a robot to its announcement
+HIGH = 76.0  # px between stacked announcements
 
 
 class Announcement(NamedTuple):
-    """Rises over the robot of a seat: a sprite, or a number after a star if it is the best."""
+    """Rises over a seat's robot: a sprite, or a number, with a star if it is a best time."""
 
     born: float
     seat: int
@@ -46,17 +46,17 @@ class Announcement(NamedTuple):
 
 
 class Announcements:
-    """All that rises at the moment; what would lie over another stands above it."""
+    """Current announcements; overlapping ones are stacked."""
 
     def __init__(self) -> None:
         self.notes: list[Announcement] = []
 
     def say(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
-        """Let something rise over a robot."""
+        """Start an announcement over a robot."""
         self.notes.append(Announcement(now, seat, sprite, text, color))
 
     def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
-        """Add what has not gone yet; over those who wear a sign, nothing."""
+        """Draw the live announcements, except over robots in `busy`, which show a sign."""
         self.notes = [note for note in self.notes if now - note.born < LASTS and note.seat not in busy]
         placed: list[tuple[float, float, float]] = []
         for note in self.notes:
@@ -87,7 +87,7 @@ def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
 
 
 def heard(events: Sequence[RaceEvent], state: Race) -> list[Heard]:
-    """What is heard: of every robot only what matters most."""
+    """Sounds of the events: for each robot only the most important one."""
     loudest: dict[int, str] = {}
     for one in events:
         if one.kind in SOUNDS:
@@ -96,13 +96,13 @@ def heard(events: Sequence[RaceEvent], state: Race) -> list[Heard]:
 
 
 class RaceEffects:
-    """Puts what happened into the air."""
+    """Adds the particles and announcements of events."""
 
     def __init__(self, particles: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
         self.particles, self.notes, self.options, self.words = particles, notes, options, words
 
     def show(self, one: RaceEvent, state: Race, golden: Delta | None) -> None:
-        """Show one event; `golden`: what the racer is away from the best lap ever."""
+        """Show one event; `golden`: the racer's difference to the best lap ever."""
         particles, robot, racer = self.particles, state.robots[one.seat], state.racers[one.seat]
         x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[one.seat]
         match one.kind:
@@ -126,7 +126,7 @@ class RaceEffects:
                 self.celebrate(x, y, color)
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
-        """A chequered cloud."""
+        """A cloud of chequered confetti."""
         particles = self.particles
         for tone in (color, WHITE):
             for _ in range(min(22, MOST - len(particles.particles))):
@@ -138,7 +138,7 @@ class RaceEffects:
             particles.glow(x, y, color)
 
     def record(self, x: float, y: float) -> None:
-        """The best lap ever on this track."""
+        """Effects of a new best lap ever on this track."""
         self.particles.burst(x, y, FOCUS, 40, 46, 150)
         if self.options.flashes != "off":
             self.particles.shock(x, y, FOCUS)
@@ -154,7 +154,7 @@ class RaceEffects:
 
 
 def spray(particles: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
-    """Clods that fly up behind wheels."""
+    """Clods thrown up behind the wheels."""
     for _ in range(min(count, MOST - len(particles.particles))):
         frames = race_signs.clods(particles.random.choice(race_signs.CLODS))
         _fly(particles, x, y, 70.0, frames, 0.6, heading, spread)

@@ -1,4 +1,4 @@
-"""The mud round a track: brown contour lines like those of a map, wobbling, with clods between them."""
+"""Mud around a track: wavy brown contour lines with clods between them."""
 
 import random
 
@@ -12,11 +12,11 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 
-GRID = 10  # px between the points at which the distance is measured
-FINE = 2  # px of the arena that one of the picture is
-APART = 34.0  # px from line to line
+GRID = 10  # px, spacing of the distance samples
+FINE = 2  # arena px per picture px
+APART = 34.0  # px between contour lines
 CLODS = 420
-ROWS = 50  # of the picture that are painted in one go
+ROWS = 50  # picture rows per step
 Heights = npt.NDArray[np.float32]
 Numbers = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -25,7 +25,7 @@ Indices = npt.NDArray[np.int64]
 @cached
 @resumable
 def mud(course: Course) -> Steps[pygame.Surface]:
-    """The arena of 1600 x 900, with mud wherever there is no track: to be added to what lies there."""
+    """The 1600 x 900 arena with mud outside the track, as additive light."""
     coarse = yield from _away(course)
     away = _finer(_finer(coarse, 0), 1)
     h, w = away.shape
@@ -43,7 +43,7 @@ def mud(course: Course) -> Steps[pygame.Surface]:
 
 
 def _rows(away: Heights, clods: Heights, top: int) -> npt.NDArray[np.uint8]:
-    """The colours of some rows of the picture, from row `top` on."""
+    """Pixels of a block of picture rows starting at `top`."""
     h, w = away.shape
     ys, xs = np.mgrid[top : top + h, 0:w].astype(np.float32) * FINE
     waves = 9 * np.sin(xs / 61 + 2 * np.sin(ys / 83)) + 9 * np.sin(ys / 47 - 1.7 * np.sin(xs / 71))
@@ -55,7 +55,7 @@ def _rows(away: Heights, clods: Heights, top: int) -> npt.NDArray[np.uint8]:
 
 
 def _away(course: Course) -> Steps[Heights]:
-    """How far outside the track's edge the points of a coarse grid are, px; negative on the track."""
+    """Distance outside the track's edge on a coarse grid, px; negative on the track."""
     centre = np.array([course.xs[: course.count], course.ys[: course.count]]).T
     half = np.array(course.half[: course.count])
     rows = []
@@ -72,7 +72,7 @@ def _away(course: Course) -> Steps[Heights]:
 
 
 def _on_leg(points: Numbers, centre: Numbers, half: Numbers, a: Indices, b: Indices) -> tuple[Numbers, Numbers]:
-    """How far each point is from its leg, from point a to b of the course, and half the width there; px."""
+    """Distance of each point to its leg, from course point a to b, and half the track width there; px."""
     leg, away = centre[b] - centre[a], points - centre[a]
     share = np.clip((leg * away).sum(1) / (leg**2).sum(1), 0.0, 1.0)
     gap = np.linalg.norm(away - share[:, None] * leg, axis=1)
@@ -80,7 +80,7 @@ def _on_leg(points: Numbers, centre: Numbers, half: Numbers, a: Indices, b: Indi
 
 
 def _finer(coarse: Heights, axis: int) -> Heights:
-    """What lies between the points of a grid, along one axis."""
+    """Interpolate a grid along one axis."""
     at = np.arange((coarse.shape[axis] - 1) * GRID // FINE, dtype=np.float32) * FINE / GRID
     first = at.astype(int)
     shape = (-1, 1) if axis == 0 else (1, -1)
@@ -90,7 +90,7 @@ def _finer(coarse: Heights, axis: int) -> Heights:
 
 
 def _clods(h: int, w: int) -> Heights:
-    """Little dots that give the ground its grit."""
+    """Random dots that give the ground a texture."""
     rng, clods = random.Random(3), np.zeros((h, w), np.float32)
     ys, xs = np.mgrid[-4:5, -4:5]
     away = np.sqrt(xs * xs + ys * ys)

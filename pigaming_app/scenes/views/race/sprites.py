@@ -1,4 +1,4 @@
-"""What is put up over robots in a race, and what flies about: signs, plates, the ghost, arrows, clods, confetti."""
+"""Sprites of a race: signs and plates over robots, the ghost, arrows, clods, confetti."""
 
 import math
 import random
@@ -30,8 +30,8 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
-SIGN_AT = 100.0  # px from a robot to the middle of its sign
-LEVELS = 5  # of what flies and fades
+SIGN_AT = 100.0  # px from a robot to the centre of its sign
+LEVELS = 5  # brightness levels of fading particles
 CLODS = (3, 5, 7)  # px
 GHOST_TURNS = 48
 DARK_RED = (36, 6, 8)
@@ -39,7 +39,7 @@ DARK_RED = (36, 6, 8)
 
 @cached
 def wrong_way(below: bool) -> Sprite:
-    """Turn round: a red disc with a bent arrow, pointing at the robot above or `below` it."""
+    """Wrong-way sign: a red disc with a bent arrow pointing at the robot above or `below` it."""
     ink, up = GlowCanvas(184, 184).to(92, 92), -1 if below else 1
     ink.solid(regular_polygon(48, 54)).solid([(-18, 44 * up), (18, 44 * up), (0, 72 * up)])
     ink.fill([(-16, 42 * up), (16, 42 * up), (0, 68 * up)], ALARM)
@@ -49,7 +49,7 @@ def wrong_way(below: bool) -> Sprite:
 
 @cached
 def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
-    """A red sign with the badge of the line to go back to; `words` say that the lap did not count."""
+    """Missed-line sign: the badge of the line to return to; `words`: text of an invalid lap."""
     wide = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
     high = 84 + 46 * len(words)
     half_w, half_h = round(wide / 2) + 30, high // 2 + 50
@@ -68,7 +68,7 @@ def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
 
 @cached
 def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
-    """Finished: the place, over and under it a chequered band."""
+    """Finish sign: the place between chequered bands."""
     color = PLAYERS[seat]
     text = f"{number}{ending}"
     wide = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
@@ -86,7 +86,7 @@ def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
 
 @cached
 def notice(text: str, color: Color, sign: str = "") -> Sprite:
-    """A word that rises over a robot, with a star or a flag before it."""
+    """Rising word over a robot, with a star or a flag before it."""
     lead = 64 if sign else 0
     wide, high = round(text_width(text, LABEL, "hero")) + lead + 80, 120
     ink = GlowCanvas(wide, high)
@@ -102,13 +102,13 @@ def notice(text: str, color: Color, sign: str = "") -> Sprite:
 
 @cached
 def gold_star() -> Sprite:
-    """Before a time that is the best."""
+    """Star before a best time."""
     return trim(GlowCanvas(112, 112).to(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
 
 
 @cached
 def ghost(turn: int) -> Sprite:
-    """The best lap ever, at heading `turn` of GHOST_TURNS: a dashed outline with a star."""
+    """Ghost of the best lap ever at heading `turn` of GHOST_TURNS: a dashed outline with a star."""
     return turned(painted(_ghost, ()), turn, GHOST_TURNS)
 
 
@@ -121,7 +121,7 @@ def _ghost() -> pygame.Surface:
 
 @cached
 def dash(seat: int, turn: int) -> Sprite:
-    """A piece of the way back to a missed line, at heading `turn` of HEADINGS."""
+    """Dash of the path to a missed line, at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (seat,)), turn, HEADINGS)
 
 
@@ -133,7 +133,7 @@ def _dash(seat: int) -> pygame.Surface:
 
 @cached
 def tip(seat: int, turn: int) -> Sprite:
-    """Where that way ends: an arrowhead at heading `turn` of HEADINGS."""
+    """Arrowhead at the end of that path, at heading `turn` of HEADINGS."""
     return turned(painted(_tip, (seat,)), turn, HEADINGS)
 
 
@@ -145,14 +145,14 @@ def _tip(seat: int) -> pygame.Surface:
 
 @cached
 def clods(size: int) -> tuple[Sprite, ...]:
-    """A lump of mud as it fades: the last is the brightest."""
+    """Fading clod of mud: the last frame is the brightest."""
     whole = trim(GlowCanvas(48, 48).to(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole
 
 
 @cached
 def splash(which: int) -> Sprite:
-    """Mud under a robot, one of three shapes."""
+    """Splash of mud under a robot, one of three shapes."""
     rng, ink, color = random.Random(which), GlowCanvas(160, 160).to(80, 80), dim(MUD, 0.62)
     for _ in range(17):
         a, r = rng.random() * math.tau, rng.uniform(38, 56)
@@ -162,7 +162,7 @@ def splash(which: int) -> Sprite:
 
 @cached
 def confetti(color: Color, turn: int) -> tuple[Sprite, ...]:
-    """A square of the chequered flag, turned one of four ways, as it fades: the last is the brightest."""
+    """Fading chequered confetti at one of four angles: the last frame is the brightest."""
     ink = GlowCanvas(56, 56).to(28, 28, turn * math.pi / 8)
     whole = trim(ink.fill([(-6, -6), (6, -6), (6, 6), (-6, 6)], color).lit(0.6), 28, 28)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole

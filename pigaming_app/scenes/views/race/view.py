@@ -1,4 +1,4 @@
-"""A race on the screen: the track, robots, the ghost, mud, and what has to be said to whom."""
+"""View of a race: track, robots, ghost, mud, signs and announcements."""
 
 import math
 from itertools import pairwise
@@ -28,12 +28,12 @@ from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.caption import caption
 
-VOID_LASTS = 3.5  # s for which it is said that a lap did not count
-PLACE_LASTS = 6 * HZ  # ticks for which the place of a robot is shown that has finished
-TROUBLE_LASTS = 6.0  # s for which it is said that a ghost was dropped
-DASH, MARCH = 34.0, 70.0  # px from one dash to the next, px/s
-ENTRY, STOP = 170.0, 52.0  # px before a line: where the way back leads to, and where it ends
-SPRAYED = 60.0  # px/s from which mud flies
+VOID_LASTS = 3.5  # s, display of an invalid lap
+PLACE_LASTS = 6 * HZ  # ticks for which the place of a finished robot is shown
+TROUBLE_LASTS = 6.0  # s, notice of a dropped ghost
+DASH, MARCH = 34.0, 70.0  # px between dashes, px/s of their motion
+ENTRY, STOP = 170.0, 52.0  # px before a line: target of the path to it, and its end
+SPRAYED = 60.0  # px/s, minimum speed for mud spray
 
 
 class RaceView(MatchView):
@@ -56,11 +56,10 @@ class RaceView(MatchView):
         self.ahead(jobs(self.seats, words))
 
     def for_real(self, folder: Path) -> None:
-        """People race here: the ghost of the track drives along, and their best laps are kept."""
+        """Load the track's ghost, and save people's best laps."""
         self.recorder = GhostRecorder(folder, self.arena, self.players)
 
     def watch(self, state: Race) -> list[Heard]:
-        """See what the last tick did; answers what is to be heard."""
         self.follow(state)
         self.cards.follow(state)
         events = self.detector.look(state)
@@ -80,7 +79,6 @@ class RaceView(MatchView):
         return heard(events, state)
 
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:
-        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.particles.advance(seconds)
         self.cards.show(state, self.detector.order)
         under: Batch = []
@@ -103,7 +101,7 @@ class RaceView(MatchView):
     # ---- inside
 
     def _note(self, one: RaceEvent, state: Race) -> None:
-        """What cards and signs remember of an event."""
+        """Update cards and signs after an event."""
         if one.kind in ("up", "down"):
             self.cards.moved(one.seat, one.kind == "up", state.tick)
             if self.options.flashes != "off":
@@ -129,7 +127,7 @@ class RaceView(MatchView):
             put(light, sprite, LEFT + pose[0], TOP + pose[1])
 
     def _sign(self, top: Batch, state: Race, seat: int, pose: Pose) -> bool:
-        """Put up a robot's sign, above it or, near the upper edge, below; false: it has none."""
+        """Draw a robot's sign above it or, near the upper edge, below; False if it has none."""
         racer = state.racers[seat]
         said = bool(racer.missed) and self.particles.clock - self.voided[seat] < VOID_LASTS
         below = pose[1] - TOP < (260.0 if said else 165.0)
@@ -150,11 +148,13 @@ class RaceView(MatchView):
         return race_signs.wrong_way(below) if racer.wrong > SHOWN_FROM else None
 
     def _placed(self, state: Race, racer: Racer) -> bool:
-        """A place is shown for a while, and again in the end; in between it would hide who still races."""
+        """True while a place is shown: briefly after the finish and again at the end, as it would cover robots still
+        racing.
+        """
         return bool(state.over) or state.tick - racer.finish < PLACE_LASTS
 
     def _way_back(self, over: Batch, seat: int, pose: Pose, line: LineFrame) -> None:
-        """Dashes that march from a robot to the side of a line on which it must be entered."""
+        """Draw moving dashes from a robot to the entry side of a line."""
         x, y, _ = pose
         entry, stop = (LEFT + line.x - ENTRY * line.c, TOP + line.y - ENTRY * line.s), self._stop(line)
         way = [(x, y), entry, stop]
@@ -176,7 +176,7 @@ class RaceView(MatchView):
         return LEFT + line.x - STOP * line.c, TOP + line.y - STOP * line.s
 
     def _trouble(self, screen: pygame.Surface) -> None:
-        """Say for a moment that the ghost had to be dropped."""
+        """Briefly show that the ghost was dropped."""
         if self.recorder and self.recorder.trouble and self.words and self.particles.clock < TROUBLE_LASTS:
             caption(self.words(f"race.ghost_{self.recorder.trouble}"), FOCUS).draw(screen, 960, 1034)
 
