@@ -1,8 +1,8 @@
 """Background training for the Lab; it never delays a frame.
 
 With numba it runs in its own thread, which releases the GIL. Without numba, or while numba compiles (in another
-process), the page grants it a few milliseconds per frame. The thread ends shortly after the last `feed`, even if the page
-failed.
+process), the page grants it a few milliseconds per frame. The thread ends shortly after the last `feed`, even after
+a failure of the page.
 """
 
 import gc

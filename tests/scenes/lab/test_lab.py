@@ -1,4 +1,4 @@
-"""The Lab: a robot learns from nothing, knobs are turned, it is played against, and it goes on learning after that."""
+"""The Lab: training, knobs, challenge matches, and training resumed afterwards."""
 
 from itertools import combinations
 from pathlib import Path
@@ -48,13 +48,13 @@ def lab(arcade: Arcade) -> Lab:
 
 
 def learn(arcade: Arcade, matches: int) -> None:
-    """Let it play some matches, as fast as it can."""
+    """Train for some matches at full speed."""
     training = lab(arcade).trainer.training
     arcade.until(lambda: training.matches >= matches, 600.0)
 
 
 def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It has half a second of every frame."""
+    """Full speed, with half a second per frame for interpreted training."""
     monkeypatch.setattr(trainer, "SLICE", 0.5)
     lab(arcade).trainer.speed = trainer.FASTEST
 
@@ -322,7 +322,7 @@ def test_the_line_through_the_dots_moves_part_of_the_way_to_each() -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_words_stay_in_their_places(language: str, controls: Controls, home: Path) -> None:
+def test_labels_fit_their_boxes(language: str, controls: Controls, home: Path) -> None:
     words = Words(language)
     arcade = Arcade(controls, language)
     there = Lab(arcade.context, fast=False)

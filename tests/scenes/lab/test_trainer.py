@@ -1,4 +1,4 @@
-"""The training beside the frames: it never waits for compiling, goes over to compiled play, and its thread ends."""
+"""Background training: it does not wait for the compiler, switches to compiled play, and its thread ends."""
 
 import os
 import signal
@@ -32,7 +32,7 @@ def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Trainer]:
 
 
 def feed(shop: Trainer, so: Callable[[], bool], most: float = 300.0) -> None:
-    """Frame after frame until something is so."""
+    """Feed the trainer frame by frame until a condition holds."""
     end = time.monotonic() + most
     while not so():
         assert time.monotonic() < end, "it never comes"
@@ -230,7 +230,7 @@ def test_a_process_that_has_compiled_ends_well_while_the_arcade_goes_on() -> Non
 
 
 def runs(pid: int) -> bool:
-    """Whether a process runs; one that has ended and was only not collected yet does not."""
+    """True if a process runs; zombies do not count."""
     try:
         return ") Z" not in Path(f"/proc/{pid}/stat").read_text()
     except OSError:

@@ -1,4 +1,4 @@
-"""The choice before a match: arena, minutes, rules."""
+"""Match setup: arena, minutes, rules."""
 
 import itertools
 import tomllib
@@ -47,7 +47,7 @@ def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
     assert page(arcade).chosen.arena == seen[0]
 
 
-def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
+def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) -> None:
     for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.RIGHT):
         arcade.press(button)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant

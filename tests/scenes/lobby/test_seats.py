@@ -1,4 +1,4 @@
-"""Who sits where: the rules of the lobby, without a lobby."""
+"""Seat rules of the lobby, without the scene."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from pigaming_app.ui.input.events import Device
 ANA, BEN, CARLA, DAVID, EVA = (Device("pad", number) for number in range(5))
 
 
-def test_whoever_comes_first_is_player_1() -> None:
+def test_the_first_to_join_is_player_1() -> None:
     seats = Seats()
     assert [seats.join(device) for device in (BEN, ANA)] == [0, 1]
     assert seats.devices() == [BEN, ANA, None, None]
@@ -44,7 +44,7 @@ def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
     assert not seats.one_team
 
 
-def test_whoever_comes_joins_the_smaller_team() -> None:
+def test_a_new_player_joins_the_smaller_team() -> None:
     seats = Seats(teams=True)
     for device in (ANA, BEN, CARLA):
         seats.join(device)
@@ -109,7 +109,7 @@ def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
-def test_three_never_stand_on_one_side_and_the_ai_is_who_gives_way() -> None:
+def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
     seats = Seats(team_mode=PAIRS)
     for device in (ANA, BEN):
         seats.join(device)

@@ -1,4 +1,4 @@
-"""After a match: who won, who wants another one, whose three letters stand in the table."""
+"""The results: winner, rematch vote, initials."""
 
 from dataclasses import replace
 from datetime import datetime
@@ -26,7 +26,7 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, people=1)
 LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
 RACE = replace(LAP, feat="race")
-LONG = 4.0  # seconds after which everything is there and may be pressed
+LONG = 4.0  # s after which the page is complete and accepts input
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, ...] = (0, 1, 2, 3)) -> Outcome:
-    """A minute that ended so."""
+    """A match of one minute with these scores."""
     sums = {team: sum(scores[seat] for seat in scores if teams[seat] == team) for team in teams}
     seats = sorted(scores, key=lambda seat: (-sums[teams[seat]], teams[seat], -scores[seat]))
     facts = {"hits": 9, "taken": 12, "aim": 0.617}
@@ -92,7 +92,7 @@ def test_every_ending_is_shown(
     assert not edge, "nothing runs over the edge"
 
 
-def test_nobody_who_still_fires_leaves_the_results_unseen(arcade: Arcade) -> None:
+def test_players_still_firing_do_not_skip_the_results(arcade: Arcade) -> None:
     results = opened(arcade, "human human hard off", LOST)
     for _ in range(10):
         for button in (Button.FIRE, Button.BACK, Button.START, Button.X):
@@ -127,7 +127,7 @@ def test_start_waits_for_nobody(arcade: Arcade) -> None:
     assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[1]]
 
 
-def test_somebody_who_has_gone_holds_nobody_up(arcade: Arcade) -> None:
+def test_an_absent_player_does_not_hold_up_the_rematch(arcade: Arcade) -> None:
     opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
     arcade.press(Button.FIRE, KEYS[0])
@@ -162,7 +162,7 @@ def test_other_ways_on(arcade: Arcade) -> None:
     arcade.until(lambda: arcade.stack.top is arcade.title, IDLE + 1.0)
 
 
-def test_the_mouse_clicks_on_what_the_row_says(arcade: Arcade) -> None:
+def test_the_prompts_can_be_clicked(arcade: Arcade) -> None:
     results = opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
     arcade.click(960, 500)
@@ -180,7 +180,7 @@ def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) 
     arcade.wait(1.0)
     for button in (Button.UP, Button.FIRE, Button.DOWN, Button.DOWN, Button.FIRE, Button.BACK, Button.FIRE):
         arcade.press(button, KEYS[1])
-        arcade.press(Button.DOWN, KEYS[3])  # the others cannot interfere
+        arcade.press(Button.DOWN, KEYS[3])  # the other players have no effect
         arcade.press(Button.START, KEYS[2])
         arcade.frame(draw=True)
     arcade.press(Button.DOWN, KEYS[0])
@@ -301,13 +301,13 @@ def test_axes_hold_every_score_and_zero() -> None:
         assert (top - bottom) // step <= 6
 
 
-def test_times_below_a_plot() -> None:
+def test_ticks_of_the_time_axis() -> None:
     assert moments(180.0) == [0, 60, 120, 180]
     assert moments(60.0) == [0, 15, 30, 45, 60]
     assert moments(6.0) == [0, 2, 4, 6]
 
 
-def test_badges_part_and_stay_on_the_page() -> None:
+def test_badges_do_not_overlap_and_stay_on_the_page() -> None:
     assert spread([100, 110, 500], 54, 600) == [100, 154, 500]
     assert spread([590, 110, 595], 54, 600) == [546, 110, 600]
 
@@ -318,7 +318,7 @@ def test_a_team_is_the_sum_of_its_robots() -> None:
 
 
 def race(arcade: Arcade, lap: int, whole: int) -> Results:
-    """A race of three laps on the classic track that player 1 won, with a best lap and in all (ms)."""
+    """A race of three laps on the classic track, won by player 1, with best lap and total time in ms."""
     human, ai = Seat("human", 0), Seat("hard", 1)
     match = Setup("race", "classic", (human, ai, Seat("off", 2), Seat("off", 3)), 10, 3, "standard", 3)
     facts = {"laps": 3, "best": lap / 1000.0, "total": whole / 1000.0}

@@ -1,4 +1,4 @@
-"""Real robots on the emulated arena in made-up time: one arena for all tests of a process."""
+"""Fixtures: real robots on the emulated arena in simulated time, one arena per test process."""
 
 from collections.abc import Iterator
 
@@ -12,7 +12,7 @@ from tests.scenes.arcade import Arcade
 
 @pytest.fixture(scope="session")
 def kept() -> Iterator[EmulatedSession]:
-    """The arena, made and calibrated once."""
+    """The arena, created and calibrated once."""
     pytest.importorskip("cv2")
     mat = EmulatedSession(live=False)
     yield mat
@@ -21,7 +21,7 @@ def kept() -> Iterator[EmulatedSession]:
 
 @pytest.fixture
 def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
-    """The arena as if nothing had happened there: dark, four robots on it, no fault."""
+    """The arena in its initial state: dark, four robots, no fault."""
     arena = kept.arena
     arena.project(np.zeros((1080, 1920), np.uint8))
     for robot, pose in enumerate(((180, 260, 0.4), (1300, 700, 2.9), (1300, 200, 3.9), (300, 700, 5.5))):
@@ -34,7 +34,7 @@ def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
 
 @pytest.fixture
 def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
-    """An arcade beside the arena."""
+    """An arcade connected to the arena."""
     arcade = Arcade(controls)
     arcade.context.session = mat
     return arcade

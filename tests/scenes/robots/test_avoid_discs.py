@@ -1,4 +1,4 @@
-"""The robots' page makes way for robots: wherever four stand, all of it can be read and clicked."""
+"""Layout of the robots' page around four robots: every block stays readable and clickable."""
 
 import math
 import random
@@ -17,7 +17,7 @@ PAGE = [ROWS, ROBOTS, LINE, HINTS, SENTENCE]
 
 
 def standing(chance: random.Random) -> list[Circle]:
-    """Four robots anywhere on the mat, with their arrows and tags."""
+    """Four robots at random positions, with their arrows and tags."""
     found: list[Circle] = []
     for _ in range(4):
         x, y, a = 160 + chance.uniform(45, 1555), 140 + chance.uniform(45, 855), chance.uniform(0.0, math.tau)

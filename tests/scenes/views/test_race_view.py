@@ -1,4 +1,4 @@
-"""A race on the screen: everything is shown and heard when it happens, once, and nothing is written to the race."""
+"""The race view: everything is drawn and heard once when it happens, and the race is not modified."""
 
 import json
 from dataclasses import replace
@@ -51,19 +51,19 @@ def sounds(view, state):
 
 
 def shown(screen, view, state, box, seconds=0.0):
-    """What a part of the picture shows."""
+    """Pixels of a part of the canvas."""
     view.draw(screen, state, 1.0, seconds)
     return pygame.image.tobytes(screen.subsurface(box), "RGB")
 
 
 def over(state, seat, w=220, h=130):
-    """The part of the picture above a robot."""
+    """The area above a robot."""
     robot = state.robots[seat]
     return pygame.Rect(160 + int(robot.x) - w // 2, 140 + int(robot.y) - 40 - h, w, h).clip((0, 0, 1920, 1080))
 
 
 def put(state, seat, x, y):
-    """Stand a robot somewhere."""
+    """Place a robot."""
     robot = state.robots[seat]
     robot.x, robot.y = x, y
     locate(state.course, x, y, state.racers[seat].place)
@@ -254,7 +254,7 @@ def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
     scene = BusyRace(4)
     view, state = seen(scene), scene.state
     assert view.detector.order == [0, 1, 2, 3]
-    for tick in range(3 * SETTLE):  # two side by side
+    for tick in range(3 * SETTLE):  # two robots side by side
         state.tick += 1
         state.racers[0].rank, state.racers[1].rank = (1, 2) if tick // 5 % 2 else (2, 1)
         view.watch(state)
@@ -272,7 +272,7 @@ def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
     scene = BusyRace(2)
     view, state = seen(scene), scene.state
     leader, other = state.racers[:2]
-    for _ in range(300):  # 100 px/s, the other one 250 px behind
+    for _ in range(300):  # 100 px/s, the other robot 250 px behind
         state.tick += 1
         leader.progress, other.progress = 2.0 * state.tick, 2.0 * state.tick - 250.0
         view.watch(state)
@@ -324,7 +324,7 @@ def test_the_figures_of_a_card_stand_apart_and_read_at_three_metres(screen, lang
 
 
 def columns(picture):
-    """From where to where there is bright ink, with at least 6 px of none between."""
+    """Ranges of columns with bright ink, separated by at least 6 dark px."""
     bright = [
         any(max(picture.get_at((x, y))[:3]) > 150 for y in range(picture.get_height()))
         for x in range(picture.get_width())
@@ -378,13 +378,13 @@ CROSSED = (0.0, 3.0, 5.0, 8.0)
 
 
 def a_ghost(seconds: float = 10.0, line: int = 0) -> Ghost:
-    """Round a square, one side from line to line."""
+    """A lap around a square, one side per line."""
     poses = tuple((10.0 * i, 100.0, 0.0) for i in range(int(seconds * 10) + 1))
     return Ghost(line, seconds, CROSSED, poses)
 
 
 def drive_laps(scene, view, seat, laps, first=100):
-    """Let a robot drive laps of so many ticks, a line every quarter."""
+    """Drive laps of a given number of ticks, one line per quarter."""
     state = scene.state
     racer, robot = state.racers[seat], state.robots[seat]
     for number, ticks in enumerate((first, *laps)):
@@ -528,7 +528,7 @@ def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_pat
     view.watch(scene.state)
     assert view.recorder.ghost is None
 
-    players[1] = "normal"  # the shell's list: somebody's pad was lost
+    players[1] = "normal"  # the shell's list: a person's pad was disconnected
     view.players[1] = "normal"
     drive_laps(scene, view, 1, [400])
     view.players[1] = "human"

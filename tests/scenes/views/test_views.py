@@ -1,4 +1,4 @@
-"""A match of PiTanks on the screen: everything is shown, everything is heard once, and nothing is written."""
+"""The PiTanks view: everything is drawn, every sound plays once, and the match is not modified."""
 
 import itertools
 
