@@ -26,7 +26,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 JUMP = 150.0  # arena px between two states: too far for visible driving
 SHADOWS = 4  # states for which a jump stays visible
 DOTS, DOT_EVERY = 14, 0.05  # number of trail dots; s between them
-LONGEST = 0.12  # s, maximum interpolation interval
+MAX_GLIDE = 0.12  # s, maximum interpolation interval
 WAVE = 0.45  # s, shock wave
 Pose = tuple[float, float, float]  # arena px, arena px, rad
 Wall = tuple[float, float, float, float, float, int, int]  # both ends, half the width (px), initial and current health
@@ -48,7 +48,7 @@ class ArenaView:
         self.shadows: deque[list[Pose]] = deque(maxlen=SHADOWS)
         self.trails: deque[list[Pose]] = deque(maxlen=DOTS)
         self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, age in s
-        self.age, self.glide, self.dotted = 0.0, LONGEST, 0.0
+        self.age, self.glide, self.since_dot = 0.0, MAX_GLIDE, 0.0
         self.jobs = PrewarmQueue()
 
     def show(self, state: Any) -> None:
@@ -56,7 +56,7 @@ class ArenaView:
         if not self.seats:
             self.jobs = PrewarmQueue(jobs(state))
         walls = (state.walls[i] for i in range(state.wall_count))
-        self.walls = [(one.ax, one.ay, one.bx, one.by, one.half, one.whole, one.health) for one in walls]
+        self.walls = [(wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, wall.health) for wall in walls]
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
         self.before = self.blended() or poses
@@ -67,7 +67,7 @@ class ArenaView:
             self.before = poses
         elif self.shadows:
             self.shadows.popleft()
-        self.glide = min(LONGEST, max(0.01, 0.8 * self.glide + 0.2 * self.age))
+        self.glide = min(MAX_GLIDE, max(0.01, 0.8 * self.glide + 0.2 * self.age))
         self.age = 0.0
         self._hits(state)
         self.shots = [
@@ -83,9 +83,9 @@ class ArenaView:
     def update(self, seconds: float) -> None:
         self.age += seconds
         self.waves = [(x, y, seat, age + seconds) for x, y, seat, age in self.waves if age + seconds < WAVE]
-        self.dotted += seconds
-        if self.dotted >= DOT_EVERY and self.now:
-            self.dotted = 0.0
+        self.since_dot += seconds
+        if self.since_dot >= DOT_EVERY and self.now:
+            self.since_dot = 0.0
             self.trails.append(self.blended())
 
     def blended(self) -> list[Pose]:
@@ -130,7 +130,7 @@ class ArenaView:
 
     def _hits(self, state: Any) -> None:
         """Start a shock wave where a robot was hit since the last state."""
-        taken = [one.taken for one in state.tanks]
+        taken = [tank_state.taken for tank_state in state.tanks]
         for seat, (before, after) in enumerate(zip(self.taken, taken, strict=False)):
             if after == before + 1:
                 x, y, _ = self.now[seat]
@@ -151,11 +151,11 @@ class ArenaView:
 
 def jobs(state: Any) -> Iterator[Job]:
     """Prewarm jobs: wall damage states, robots and shots in every heading."""
-    for health in range(max(one.whole for one in state.walls), -1, -1):
+    for health in range(max(wall.whole for wall in state.walls), -1, -1):
         for i in range(state.wall_count):
-            one = state.walls[i]
-            if one.whole != SOLID:
-                yield partial(little_wall, one.ax, one.ay, one.bx, one.by, one.half, one.whole, health)
+            wall = state.walls[i]
+            if wall.whole != SOLID:
+                yield partial(little_wall, wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, health)
     for seat in (0, 1):
         for turn in range(HEADINGS):
             yield partial(little_tank, seat, turn)

@@ -76,8 +76,8 @@ class ChallengeResult:
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
-        mine, its = self.scores
-        self.context.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
+        mine, theirs = self.scores
+        self.context.sounds.play("win" if mine > theirs else "lose" if mine < theirs else "tie", 0)
 
     def on(self, event: InputEvent) -> Turn:
         """FIRE starts a rematch with the device that pressed it; BACK, held, returns to the Lab."""
@@ -112,8 +112,8 @@ class ChallengeResult:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the result over the last frame of the match."""
         if self.picture is None:
-            mine, its = self.scores
-            color = PLAYERS[0] if mine > its else PLAYERS[ROBOT] if its > mine else ICE
+            mine, theirs = self.scores
+            color = PLAYERS[0] if mine > theirs else PLAYERS[ROBOT] if theirs > mine else ICE
             self.picture = overlay(self.fight.inner.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
         self.prompts.draw(screen)
@@ -122,20 +122,20 @@ class ChallengeResult:
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        mine, its = self.scores
+        mine, theirs = self.scores
         name = self.fight.kind.name.upper()
-        if mine == its:
+        if mine == theirs:
             sheet_title(layer, None, words("results.tie"), ICE)
         else:
-            seat = 0 if mine > its else ROBOT
+            seat = 0 if mine > theirs else ROBOT
             sheet_title(
-                layer, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat]
+                layer, seat, words("lab.you_win") if mine > theirs else words("lab.it_wins", name=name), PLAYERS[seat]
             )
         middle = (HEAD + FOOT) / 2
-        for seat, side, score, who in ((0, -1, mine, words("lab.you")), (ROBOT, 1, its, name)):
+        for seat, side, score, player_name in ((0, -1, mine, words("lab.you")), (ROBOT, 1, theirs, name)):
             layer.canvas.text(
                 str(score).replace("-", "−"), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
             )
             badge(layer.glow, seat, 960 + side * 430, middle - 28, 44)
-            layer.canvas.body(who, 960 + side * 430, middle + 66, MIST, "c")
+            layer.canvas.body(player_name, 960 + side * 430, middle + 66, MIST, "c")
         layer.canvas.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")

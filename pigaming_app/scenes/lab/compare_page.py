@@ -57,10 +57,10 @@ class ComparePage:
     def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
         words, trainer = self.context.words, lab.trainer
-        kept = trainer.checkpoints()
-        self.players = [Entrant(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
+        checkpoints = trainer.checkpoints()
+        self.players = [Entrant(words("lab.after", matches=n), checkpoints[n].kind) for n in sorted(checkpoints)]
         now = trainer.moment.matches
-        if now not in kept:
+        if now not in checkpoints:
             self.players.append(Entrant(words("lab.now", matches=now), trainer.checkpoint("now").kind))
         self.players.append(Entrant(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
         for i, player in enumerate(self.players):
@@ -117,16 +117,20 @@ class ComparePage:
     # ---- inside
 
     def _play(self) -> None:
-        one, other = self.pairs[0]
+        first, second = self.pairs[0]
         if self.exam is None:
             fast, arena = self.lab.trainer.fast, self.lab.trainer.training.arena
-            self.exam = Evaluation(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
+            self.exam = Evaluation(first.kind, second.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
         self.exam.play(TICKS)
         if self.exam.over:
             exam, self.exam = self.exam, None
             self.pairs.pop(0)
-            one.won, one.tied, one.lost = one.won + exam.wins, one.tied + exam.ties, one.lost + exam.losses
-            other.won, other.tied, other.lost = other.won + exam.losses, other.tied + exam.ties, other.lost + exam.wins
+            first.won, first.tied, first.lost = first.won + exam.wins, first.tied + exam.ties, first.lost + exam.losses
+            second.won, second.tied, second.lost = (
+                second.won + exam.losses,
+                second.tied + exam.ties,
+                second.lost + exam.wins,
+            )
             if not self.pairs:
                 self.context.sounds.play("win")
 

@@ -7,7 +7,7 @@ from pigaming_app.ui.draw import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 
-MOST = 10
+LIMIT = 10
 RADIUS = 48  # px
 SWEEP = math.radians(135)  # rad, from zero to either end
 TOP = -math.pi / 2
@@ -18,7 +18,7 @@ ARROW = 88  # px from the centre of a held knob to the tip of an arrow
 def dial(value: int, held: bool) -> LitImage:
     """Knob at `value`, centred on (0, 0). `held`: it is being adjusted."""
     layer = Layer(-110, -80, 220, 160)
-    ink, end = layer.glow, TOP + SWEEP * value / MOST
+    ink, end = layer.glow, TOP + SWEEP * value / LIMIT
     layer.canvas.crisp.arc(0, 0, RADIUS, TOP - SWEEP, TOP + SWEEP, NOTHING, 12)
     if value:
         ink.arc(0, 0, RADIUS, TOP, end, GOOD if value > 0 else BAD, 12)

@@ -15,10 +15,10 @@ from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text, word
 
-FIRST = 50  # initial range of the x axis, matches; doubles as needed
-HANDMADE = 0.5  # expected win rate against an equal opponent
+MIN_RANGE = 50  # initial range of the x axis, matches; doubles as needed
+EVEN = 0.5  # expected win rate against an equal opponent
 NAME_FROM = 0.4  # share of the width, start of its label
-CALM = 0.3  # smoothing factor: weight of a new measurement
+SMOOTHING = 0.3  # smoothing factor: weight of a new measurement
 GLOW = ((17, 0.14), (11, 0.3), (6, 1.0))  # width in px, brightness
 
 
@@ -33,17 +33,17 @@ class Measure:
 def smoothed(measures: Sequence[Measure]) -> list[float]:
     """Exponentially smoothed win rates with factor CALM; the first value is the first measurement."""
     out: list[float] = []
-    for one in measures:
-        out.append(one.share if not out else out[-1] + CALM * (one.share - out[-1]))
+    for measure in measures:
+        out.append(measure.share if not out else out[-1] + SMOOTHING * (measure.share - out[-1]))
     return out
 
 
 def room(matches: float) -> int:
     """Range of the x axis for `matches`."""
-    most = FIRST
-    while most < matches:
-        most *= 2
-    return most
+    limit = MIN_RANGE
+    while limit < matches:
+        limit *= 2
+    return limit
 
 
 class LearningCurve:
@@ -53,33 +53,33 @@ class LearningCurve:
         self.bare = ground.subsurface(CURVE).copy()
         self.sheet = self.bare.copy()
         self.share: float | None = None  # end of the line
-        self.shown = -1  # number of measurements drawn
+        self.drawn = -1  # number of measurements drawn
         self.above = False  # label of the hand-made robot above its line, because the curve runs below
 
     def show(self, measures: Sequence[Measure]) -> None:
         """Update the plot with all measurements so far."""
-        if len(measures) == self.shown:
+        if len(measures) == self.drawn:
             return
-        self.shown = len(measures)
+        self.drawn = len(measures)
         self.sheet.blit(self.bare, (0, 0))
         left, foot = PLOT.left - CURVE.left, PLOT.bottom - CURVE.top
-        _dashes(self.sheet, left, foot - round(PLOT.h * HANDMADE))
+        _dashes(self.sheet, left, foot - round(PLOT.h * EVEN))
         self.share = None
         if measures:
             line = smoothed(measures)
             self.share = line[-1]
-            most = room(measures[-1].matches)
-            xs = [left + PLOT.w * one.matches / most for one in measures]
-            for x, one in zip(xs, measures, strict=True):
-                pygame.draw.circle(self.sheet, dim(GOOD, 0.42), (x, foot - PLOT.h * one.share), 4)
+            limit = room(measures[-1].matches)
+            xs = [left + PLOT.w * measure.matches / limit for measure in measures]
+            for x, measure in zip(xs, measures, strict=True):
+                pygame.draw.circle(self.sheet, dim(GOOD, 0.42), (x, foot - PLOT.h * measure.share), 4)
             late = [share for x, share in zip(xs, line, strict=True) if x > left + PLOT.w * NAME_FROM]
-            self.above = sum(late) < HANDMADE * len(late)
+            self.above = sum(late) < EVEN * len(late)
             _tube(self.sheet, [(x, foot - PLOT.h * share) for x, share in zip(xs, line, strict=True)])
 
     def draw(self, screen: pygame.Surface, name: str, waiting: str) -> None:
         """Draw the plot. `name`: label of the hand-made robot; `waiting`: text before the first measurement."""
         screen.blit(self.sheet, CURVE)
-        y = PLOT.bottom - PLOT.h * HANDMADE
+        y = PLOT.bottom - PLOT.h * EVEN
         text(name, BODY, MIST, "body", "r", PLOT.w - 20).draw(screen, PLOT.right, y + (-34 if self.above else 36))
         if self.share is None:
             text(waiting, BODY, MIST, "body", "r", 190).draw(screen, RIGHT - 36, CURVE.centery)

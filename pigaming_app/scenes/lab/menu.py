@@ -54,10 +54,10 @@ class LabMenu:
             self.picture = overlay(behind(self.lab), ICE, self._paint)
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen, ALARM if self.sure else FOCUS)
-        said = self.context.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
+        label = self.context.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
         if self.sure:
             pygame.draw.rect(screen, (0, 0, 0), self.focus.spot.rect)
-        word(said, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
+        word(label, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
         self.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:

@@ -90,8 +90,8 @@ class NamePage:
             box().draw(screen, x, MIDDLE)
         draw_letters(screen, self.picker, xs, MIDDLE, SIZE, 50, ICE)
         cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
-        said, color = self._said()
-        text(said, BODY, color).draw(screen, 960, MIDDLE + 290)
+        line, color = self._said()
+        text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
         self.prompts.draw(screen)
 
     # ---- inside
@@ -129,8 +129,8 @@ class NamePage:
             self.lab.trainer.hold(lambda training: save_robot(training, name))
             self.lab.name = name
             self.lab.say(words("lab.saved", name=name))
-        except RobotFileError as trouble:
-            self.lab.say(words(str(trouble)), wrong=True)
+        except RobotFileError as error:
+            self.lab.say(words(str(error)), wrong=True)
         return Pop()
 
 

@@ -93,8 +93,8 @@ class OpenPage:
             trainer.take(training)
             self.lab.name = name
             self.lab.say(words("lab.opened_other" if other_engine else "lab.opened", name=name))
-        except RobotFileError as trouble:
-            self.lab.say(words(str(trouble), name=name), wrong=True)
+        except RobotFileError as error:
+            self.lab.say(words(str(error), name=name), wrong=True)
         return Pop()
 
 

@@ -13,12 +13,12 @@ from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
 from pigaming_app.sim.world import HZ
 
-MARKS = (0, 10, 50, 200)  # matches after which a checkpoint is saved
+CHECKPOINTS = (0, 10, 50, 200)  # matches after which a checkpoint is saved
 MATCHES = {True: 20, False: 6}  # per evaluation, compiled and interpreted
 MINUTES = {True: 2.0, False: 1.0}  # per match
 EXAM_SEED = 1000
-SOON = 8.0  # s between evaluations, provided the training advanced
-GRAIN = 25  # approximate evaluations over the length of the curve
+EXAM_INTERVAL = 8.0  # s between evaluations, provided the training advanced
+EXAMS_PER_CURVE = 25  # approximate evaluations over the length of the curve
 PICTURE = {True: 1 / 14, False: 1 / 100}  # s between frames, at full speed and otherwise
 PETAL = 1 / 60  # s between two evaluated directions of the rose
 
@@ -66,9 +66,9 @@ class Progress:
         whole = round(training.minutes * 60 * HZ)
         while ticks > 0:
             left = whole - int(training.match.tick)
-            some = min(ticks, left if left > 0 else whole)
-            training.run(some)
-            ticks -= some
+            batch = min(ticks, left if left > 0 else whole)
+            training.run(batch)
+            ticks -= batch
             self._mark()
 
     def look(self, fast: bool) -> None:
@@ -87,8 +87,8 @@ class Progress:
         """The running evaluation, or a new one if due."""
         if self._exam is None:
             played, now = self.played, perf_counter()
-            grain = max(1.0, played / GRAIN)
-            if played - self._at >= grain or (played > self._at and now - self._when >= SOON):
+            grain = max(1.0, played / EXAMS_PER_CURVE)
+            if played - self._at >= grain or (played > self._at and now - self._when >= EXAM_INTERVAL):
                 self._at, self._when = played, now
                 self._exam = self._examined(self.training.checkpoint().kind)
         return self._exam
@@ -109,7 +109,7 @@ class Progress:
     def _mark(self) -> None:
         """Save a checkpoint if one is due."""
         matches = self.training.matches
-        if matches in MARKS and matches not in self.checkpoints:
+        if matches in CHECKPOINTS and matches not in self.checkpoints:
             self.checkpoints[matches] = self.training.checkpoint(str(matches))
 
 

@@ -32,14 +32,14 @@ def file_of(name: str) -> Path:
 
 def names() -> list[str]:
     """Names of the saved robots, most recent first."""
-    found = []
+    files = []
     try:
         for path in folder().glob("*.npz"):
             if is_name(path.stem):
-                found.append((path.stat().st_mtime, path.stem))
-    except OSError as trouble:
-        log.warning("%s", trouble)
-    return [name for _, name in sorted(found, reverse=True)]
+                files.append((path.stat().st_mtime, path.stem))
+    except OSError as error:
+        log.warning("%s", error)
+    return [name for _, name in sorted(files, reverse=True)]
 
 
 def is_name(text: str) -> bool:
@@ -57,10 +57,10 @@ def save_robot(training: Training, name: str) -> None:
     """Save a robot under a name. Raises RobotFileError; an existing file is then left intact."""
     try:
         save_table(training.trained(name), file_of(name))
-    except OSError as trouble:
-        log.warning("%s was not saved: %s", file_of(name), trouble)
-        full = trouble.errno in (errno.ENOSPC, errno.EDQUOT)
-        raise RobotFileError("lab.disk_full" if full else "lab.no_writing") from trouble
+    except OSError as error:
+        log.warning("%s was not saved: %s", file_of(name), error)
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        raise RobotFileError("lab.disk_full" if full else "lab.no_writing") from error
 
 
 def load_robot(name: str, fast: bool) -> tuple[Training, bool]:
@@ -68,6 +68,6 @@ def load_robot(name: str, fast: bool) -> tuple[Training, bool]:
     try:
         trained = load_table(file_of(name))
         return resumed(trained, fast), trained.other_engine
-    except (TableError, ArenaError) as trouble:
-        log.warning("%s", trouble)
-        raise RobotFileError("lab.broken") from trouble
+    except (TableError, ArenaError) as error:
+        log.warning("%s", error)
+        raise RobotFileError("lab.broken") from error

@@ -13,9 +13,9 @@ from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
-from pigaming_app.scenes.lab.knob import MOST
+from pigaming_app.scenes.lab.knob import LIMIT
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
-from pigaming_app.scenes.lab.learning_curve import HANDMADE
+from pigaming_app.scenes.lab.learning_curve import EVEN
 from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
@@ -28,10 +28,10 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 FIRST = replace(RECIPES[1], behind_always=1)  # each knob affects every decision, so that a change shows quickly
 IDLE = 300.0  # s without input before the return to the title, which resets the table for the next visitors
 DEAF = 0.35  # s during which input is ignored after entering
-LAST = 20.0  # s before the end of IDLE at which a confirmation prompt appears
-SAID = 4.0  # s, display time of a message
-PATIENT = 2.0  # s of compiling before a notice is shown
-LEAST = 2.0  # Q value that fills at least one petal
+CONFIRM_SECONDS = 20.0  # s before the end of IDLE at which a confirmation prompt appears
+MESSAGE_SECONDS = 4.0  # s, display time of a message
+COMPILE_NOTICE = 2.0  # s of compiling before a notice is shown
+MIN_SCALE = 2.0  # Q value that fills at least one petal
 TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
@@ -48,7 +48,7 @@ class Lab:
         self.page: LabPage | None = None
         self.seen = -1  # number of the last frame shown
         self.held = ""  # knob being adjusted
-        self.age = self.said = self.compiling = 0.0
+        self.age = self.message_left = self.compiling = 0.0
         self.sentence, self.wrong = "", False
         self.focus = Focus([FocusSpot("speed", SPEED), FocusSpot("play", PLAY)]
                            + [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
@@ -99,7 +99,7 @@ class Lab:
     def update(self, seconds: float) -> Turn:
         """Feed the trainer and update the page."""
         self.age += seconds
-        self.said -= seconds
+        self.message_left -= seconds
         self.focus.update(seconds)
         self.trainer.feed(seconds)
         self.compiling = self.compiling + seconds if self.trainer.compiling else 0.0
@@ -117,13 +117,13 @@ class Lab:
         if not self.held:
             self.focus.draw(screen)
         words = self.context.words
-        if self.said > 0.0:
+        if self.message_left > 0.0:
             caption(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
         else:
             (self.turning if self.held else self.prompts).draw(screen)
-        if self.context.idle > IDLE - LAST:
+        if self.context.idle > IDLE - CONFIRM_SECONDS:
             caption(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
-        elif self.compiling > PATIENT:
+        elif self.compiling > COMPILE_NOTICE:
             warming(words("lab.warming")).draw(screen)
 
     def left(self) -> None:
@@ -134,7 +134,7 @@ class Lab:
 
     def say(self, sentence: str, wrong: bool = False) -> None:
         """Show a message for a few seconds."""
-        self.sentence, self.wrong, self.said = sentence, wrong, SAID
+        self.sentence, self.wrong, self.message_left = sentence, wrong, MESSAGE_SECONDS
         self.context.sounds.play("error" if wrong else "accept")
 
     def play(self, device: Device) -> Turn:
@@ -194,38 +194,38 @@ class Lab:
         return self.leave(Push(LabMenu(self)))
 
     def _value(self, knob: str) -> int:
-        return max(-MOST, min(MOST, int(getattr(self.trainer.recipe, knob))))
+        return max(-LIMIT, min(LIMIT, int(getattr(self.trainer.recipe, knob))))
 
     def _set(self, knob: str, value: int) -> None:
         """Set a knob, clamped to its range."""
-        value = max(-MOST, min(MOST, value))
+        value = max(-LIMIT, min(LIMIT, value))
         if value != self._value(knob):
             self.trainer.recipe = turned(self.trainer.recipe, knob, value)
             self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
         """Update the page state."""
-        trainer, shown, moment = self.trainer, self.shown, self.trainer.moment
+        trainer, now, moment = self.trainer, self.shown, self.trainer.moment
         if self.page and moment.number != self.seen:
             self.seen = moment.number
             self.page.watch(moment.state)
         if self.page:
             self.page.update(seconds)
-        shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, trainer.progress.measures
+        now.matches, now.knowing, now.measures = moment.matches, moment.knowing, trainer.progress.measures
         self._cheer(trainer.progress)
-        shown.speed, shown.focus, shown.held = trainer.speed, self.focus.name, self.held
-        shown.values = {name: self._value(name) for name in KNOB_NAMES}
+        now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
+        now.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = trainer.progress.plan
-        most = max([LEAST] + [abs(one.worth) for one in plan if one])
-        shown.levels = [level(one.worth / most) if one else 0 for one in plan]
-        shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
+        scale = max([MIN_SCALE] + [abs(entry.worth) for entry in plan if entry])
+        now.levels = [level(entry.worth / scale) if entry else 0 for entry in plan]
+        now.signs = [entry.deed if entry else SIGNS[-1] for entry in plan]
 
     def _cheer(self, progress: Progress) -> None:
         """Celebrate once per training that it overtook the hand-made robot."""
         share = self.page.curve.share if self.page else None
-        if share is not None and share < HANDMADE:
+        if share is not None and share < EVEN:
             self.lagged = progress
-        elif share is not None and share > HANDMADE and self.lagged is progress is not self.cheered:
+        elif share is not None and share > EVEN and self.lagged is progress is not self.cheered:
             self.cheered = progress
             self.say(self.context.words("lab.outdone"))
             self.context.sounds.play("win")

@@ -24,10 +24,10 @@ from pigaming_app.ui import memory as heap
 FASTEST = 2  # index of full speed
 FACTORS = (1, 10)  # times real time
 CHUNK = 1500  # ticks per batch at full speed; under 1 ms compiled
-MOST = 4  # frames of ticks to catch up at most; the rest is dropped
-HUNGRY = 0.7  # s without `feed` after which the thread ends
+MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
+FEED_TIMEOUT = 0.7  # s without `feed` after which the thread ends
 SLICE = 0.007  # s per frame for interpreted training and evaluation; rendering takes 2 of the 16 ms
-TRAINING = 0.4  # share of a slice for training at full speed
+TRAINING_SHARE = 0.4  # share of a slice for training at full speed
 SWITCH = 0.001  # s, thread switch interval
 
 log = logging.getLogger("pigaming")
@@ -116,12 +116,12 @@ class Trainer:
 
     @property
     def _wanted(self) -> bool:
-        return self._open and monotonic() - self._fed < HUNGRY
+        return self._open and monotonic() - self._fed < FEED_TIMEOUT
 
     def _due(self, seconds: float) -> int:
         """Ticks due after `seconds` of real time at one of the slower speeds."""
         factor = FACTORS[self.speed]
-        self._owed = min(self._owed + seconds * HZ * factor, MOST * factor)
+        self._owed = min(self._owed + seconds * HZ * factor, MAX_BACKLOG * factor)
         ticks = int(self._owed)
         self._owed -= ticks
         return ticks
@@ -133,7 +133,7 @@ class Trainer:
         if self.speed < FASTEST:
             self.progress.practise(self._due(seconds))
         else:
-            while perf_counter() < end - (1 - TRAINING) * SLICE:
+            while perf_counter() < end - (1 - TRAINING_SHARE) * SLICE:
                 self.progress.practise(20)
         self.progress.look(self.speed == FASTEST)
         exam = self.progress.exam_due()

@@ -170,9 +170,9 @@ def _named(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
     canvas.body(name, box.left + 32, box.top + 40, ICE, "l", fit_size(name, BODY + 4, box.w - 64, "body"))
 
 
-def _saying(canvas: LayeredCanvas, said: str, x: float) -> None:
+def _saying(canvas: LayeredCanvas, label: str, x: float) -> None:
     """Subtitle in two lines beside the title, if it fits."""
-    lines = wrap_balanced(said, 2)
+    lines = wrap_balanced(label, 2)
     if all(text_width(line, BODY, "body") <= MATCH.right - x for line in lines):
         for i, line in enumerate(lines):
             canvas.body(line, x, TITLE_Y + 24 * (2 * i + 1 - len(lines)), MIST)
@@ -184,8 +184,8 @@ def _legend(canvas: LayeredCanvas, words: Words) -> None:
     title = words("lab.plan")
     canvas.text(title, fit_size(title, 60, room), WORDS_X, y + 56, ICE)
     for i, key in enumerate(("lab.enemy", "lab.does")):
-        said = words(key)
-        canvas.body(said, WORDS_X, y + 116 + 48 * i, MIST, "l", fit_size(said, BODY, room, "body"))
+        label = words(key)
+        canvas.body(label, WORDS_X, y + 116 + 48 * i, MIST, "l", fit_size(label, BODY, room, "body"))
     for i, (name, key) in enumerate((("shoot", "shoot"), ("ahead", "drive"), ("turn_right", "turn"))):
         icon(canvas.crisp, name, WORDS_X + 20, y + 226 + 52 * i, 18, ICE, 5 if name == "shoot" else 6)
         canvas.body(words(f"lab.{key}"), WORDS_X + 60, y + 226 + 52 * i)
@@ -215,27 +215,27 @@ def _bar(canvas: LayeredCanvas, words: Words) -> None:
                         (x + (right - left) / steps + 1, BAR_Y + 7), (x, BAR_Y + 7)], color)  # fmt: skip
 
 
-def _play(canvas: LayeredCanvas, said: str) -> None:
+def _play(canvas: LayeredCanvas, label: str) -> None:
     """Button that starts a challenge match."""
     canvas.glow.line(outline(PLAY), GREEN, THIN, True)
     icon(canvas.glow, "pad", PLAY.left + 58, PLAY.centery, 34, GREEN, THIN)
-    canvas.body(said, PLAY.left + 112, PLAY.centery, ICE, "l", fit_size(said, BODY + 2, PLAY.w - 136, "body"))
+    canvas.body(label, PLAY.left + 112, PLAY.centery, ICE, "l", fit_size(label, BODY + 2, PLAY.w - 136, "body"))
 
 
 @cached
-def speed(most: str, chosen: int) -> LitImage:
+def speed(max_label: str, chosen: int) -> LitImage:
     """The three speeds, the selected one lit; top left at (0, 0)."""
     layer = Layer(0, 0, SPEED.w, SPEED.h)
     layer.glow.line(cut_box(0, 0, SPEED.w, SPEED.h, 16), BLUE, THIN, True)
-    for i, (said, name) in enumerate(zip((*SPEEDS[:-1], most), SPEED_SIGNS, strict=True)):
+    for i, (label, name) in enumerate(zip((*SPEEDS[:-1], max_label), SPEED_SIGNS, strict=True)):
         x, w = speed_part(i)
         on = i == chosen
         if on:
             layer.canvas.crisp.fill(cut_box(x + 8, 8, w - 16, SPEED.h - 16, 10), dim(BLUE, 0.3))
-        wide = text_width(said, BODY)
+        wide = text_width(label, BODY)
         left = x + (w - wide - 44) / 2
         icon(layer.canvas.crisp, name, left + 16, SPEED.h / 2, 17, BLUE if on else STEEL, THIN)
-        layer.canvas.crisp.text(said, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
+        layer.canvas.crisp.text(label, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
     return layer.done()
 
 
@@ -250,10 +250,10 @@ def speed_at(x: float) -> int:
 
 
 @cached
-def knob_name(said: str, focus: bool) -> LitImage:
+def knob_name(label: str, focus: bool) -> LitImage:
     """Label of a knob in at most two lines below it, relative to the knob's centre."""
     color: Color = FOCUS if focus else ICE
-    lines = wrap_balanced(said, 2)
+    lines = wrap_balanced(label, 2)
     layer = Layer(-104, 60, 208, 90)
     for i, line in enumerate(lines):
         y = 84 + 40 * i + (20 if len(lines) == 1 else 0)
@@ -262,23 +262,23 @@ def knob_name(said: str, focus: bool) -> LitImage:
 
 
 @cached
-def warming(said: str) -> LitImage:
+def warming(label: str) -> LitImage:
     """Notice beside a clock above the centre of the plot, which early curves do not reach."""
     layer = Layer(PLOT.x, PLOT.y - 10, PLOT.w, 92)
     icon(layer.canvas.crisp, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
-    for i, line in enumerate(wrap_balanced(said, 2)):
+    for i, line in enumerate(wrap_balanced(label, 2)):
         size = fit_size(line, BODY, PLOT.w - 92, "body")
         layer.canvas.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
     return layer.done()
 
 
 @cached
-def tag(said: str) -> Sprite:
+def tag(label: str) -> Sprite:
     """Text on a black plate, relative to its top left."""
-    w = round(text_width(said, BODY, "body")) + 40
+    w = round(text_width(label, BODY, "body")) + 40
     ink = GlowCanvas(w + 48, 102).to(24, 24)
     ink.solid(cut_box(0, 0, w, 54, 12)).line(cut_box(0, 0, w, 54, 12), STEEL, 3, True)
-    ink.text(said, BODY, w / 2, 27, ICE, "body", "c")
+    ink.text(label, BODY, w / 2, 27, ICE, "body", "c")
     return Sprite(ink.sprite(0.5), -24, -24)
 
 

@@ -36,12 +36,12 @@ from pigaming_app.ui.widgets.labels import black_out, frame, heading
 
 IDLE = 60.0  # s without input before the return to the title
 DEAF = 0.35  # s during which a start is ignored, because players may still hammer on "ready"
-SLIDE = 0.18  # s, slide-in of another arena
+SLIDE_SECONDS = 0.18  # s, slide-in of another arena
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
 MARGIN = 8  # px around the arena preview
 ROW_X, ROW_W = span(8, 4)
-HIGH = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px, row heights
+HEIGHTS = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px, row heights
 GAP = 16  # px between rows
 GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
 log = logging.getLogger(__name__)
@@ -55,7 +55,7 @@ class MatchSetupPage:
         self.arenas = playable_arenas(game)
         self.chosen = last_choice(context, game)
         self.rows = rows(self.game)
-        self.clock, self.slid, self.way = 0.0, SLIDE, 1
+        self.clock, self.slide, self.direction = 0.0, SLIDE_SECONDS, 1
         self.access = Access(context, seats.devices)
         self.going = False  # start requested, waiting for the preloader
         hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), (Button.BACK, "setup.hint_back")]
@@ -93,7 +93,7 @@ class MatchSetupPage:
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()
-        self.slid = min(SLIDE, self.slid + seconds)
+        self.slide = min(SLIDE_SECONDS, self.slide + seconds)
         turn = self.navigation.update(seconds)
         return self._begin() if self.going else turn
 
@@ -141,16 +141,16 @@ class MatchSetupPage:
         """Save the selection for the next match."""
         try:
             self.context.settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
 
     def _row(self, name: str) -> LitImage:
         """Render a row."""
         words, now, game = self.context.words, self.chosen, self.game
         if name == "arena":
-            place = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
-            where = arena_title(load_cached(game.name, now.arena), words.language)
-            return choice.row(words(f"setup.arena_{game.name}"), where, place)
+            position = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
+            arena = arena_title(load_cached(game.name, now.arena), words.language)
+            return choice.row(words(f"setup.arena_{game.name}"), arena, position)
         if name == "goal":
             return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, game.goals)), str(now.goal))
         if name == "minutes":
@@ -166,7 +166,7 @@ class MatchSetupPage:
         before = replace(now)
         if name == "arena":
             now.arena = self.arenas[(self.arenas.index(now.arena) + by) % len(self.arenas)]
-            self.slid, self.way = 0.0, by
+            self.slide, self.direction = 0.0, by
         elif name == "goal":
             now.goal = stepped(game.goals, now.goal, by)
         elif name == "minutes":
@@ -216,8 +216,8 @@ class MatchSetupPage:
     def _picture(self, screen: pygame.Surface) -> None:
         """Draw the arena preview sliding in, with markers at the start positions."""
         frame(*FRAME.size).draw(screen, *FRAME.topleft)
-        left = (1.0 - self.slid / SLIDE) ** 2
-        dx = round(self.way * 160 * left)
+        left = (1.0 - self.slide / SLIDE_SECONDS) ** 2
+        dx = round(self.direction * 160 * left)
         screen.set_clip(FRAME.inflate(-12, -12))
         picture(self.game.name, self.chosen.arena).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
@@ -258,7 +258,7 @@ def rows(game: Game) -> dict[str, pygame.Rect]:
     """Rectangles of the rows that offer a choice, and of the start button."""
     there = {"arena": True, "goal": bool(game.goals), "minutes": len(game.minutes) > 1, "rules": len(game.variants) > 1}
     boxes, y = {}, FRAME.top
-    for name, high in HIGH.items():
+    for name, high in HEIGHTS.items():
         if there[name]:
             boxes[name] = pygame.Rect(ROW_X, y, ROW_W, high)
             y += high + GAP

@@ -27,11 +27,11 @@ FEW = 4  # chips that fit at full width
 
 
 @cached
-def row(name: str, value: str, aside: str = "", line: str = "") -> LitImage:
+def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
     """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
     high = 236 if line else 140
     layer = _named(name, high)
-    layer.canvas.body(aside, W - PAD, 38, MIST, "r")
+    layer.canvas.body(note, W - PAD, 38, MIST, "r")
     size = fit_size(value, LABEL, W - 2 * PAD - 100)
     layer.canvas.text(value, size, W / 2, 94, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
@@ -48,10 +48,10 @@ def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
     """All values side by side, the selected one lit; top left at (0, 0)."""
     layer = _named(name, 140)
     wide, pitch = chip_size(len(values))
-    for i, said in enumerate(values):
-        x, on = PAD + i * pitch, said == value
+    for i, label in enumerate(values):
+        x, on = PAD + i * pitch, label == value
         layer.glow.line(cut_box(x, 66, wide, 60, 12 if wide == CHIP else 10), ICE if on else STEEL, THIN, True)
-        layer.canvas.crisp.text(said, BODY, x + wide / 2, 96, ICE if on else MIST, "head", "c")
+        layer.canvas.crisp.text(label, BODY, x + wide / 2, 96, ICE if on else MIST, "head", "c")
     return layer.done()
 
 
@@ -88,14 +88,14 @@ def records_high(lines: int) -> int:
 
 
 @cached
-def begin(said: str) -> LitImage:
+def begin(label: str) -> LitImage:
     """The start button; top left at (0, 0)."""
     layer = Layer(0, 0, W, 96)
     layer.glow.line(cut_box(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)
-    size = fit_size(said, SUB, W - 200)
-    x = W / 2 - text_width(said, size) / 2
+    size = fit_size(label, SUB, W - 200)
+    x = W / 2 - text_width(label, size) / 2
     icon(layer.glow, "right", x - 30, 48, 24, FOCUS, LINE)
-    layer.canvas.text(said, size, W / 2 + 16, 48, FOCUS, "head", "c")
+    layer.canvas.text(label, size, W / 2 + 16, 48, FOCUS, "head", "c")
     return layer.done()
 
 

@@ -29,10 +29,10 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 
 IDLE = 60.0  # s without input before the return to the title
-ALL, ALONE = 1.2, 2.4  # s, countdown once all are ready; longer for one person with an AI
-SAID = 4.0  # s, display time of a message
-AHEAD = 3.0  # ms per frame for prewarming
-POINTED = 4.0  # s for which the mouse focus stays visible after a movement
+COUNTDOWN, COUNTDOWN_ALONE = 1.2, 2.4  # s, countdown once all are ready; longer for one person with an AI
+MESSAGE_SECONDS = 4.0  # s, display time of a message
+PREWARM_MS = 3.0  # ms per frame for prewarming
+POINTER_SECONDS = 4.0  # s for which the mouse focus stays visible after a movement
 
 
 class Lobby:
@@ -66,10 +66,10 @@ class Lobby:
 
     def on(self, event: InputEvent) -> Turn:
         """Handle joining, readiness, leaving, AIs, teams and start."""
-        meant = self.page.prompts.as_button(event)
-        admitted = self.access.admit(meant)
+        mapped = self.page.prompts.as_button(event)
+        admitted = self.access.admit(mapped)
         if admitted is None:
-            self._knock(meant)
+            self._knock(mapped)
             self._watch()
             return None
         event, device = admitted, admitted.device
@@ -114,12 +114,12 @@ class Lobby:
 
     def draw(self, screen: pygame.Surface) -> None:
         self.page.draw(screen)
-        if self.now.pointed > 0.0:
+        if self.now.pointer_left > 0.0:
             self.focus.draw(screen)
 
     def _make_ahead(self) -> None:
         """Prewarm while people choose: first this page, then the sprites of the match."""
-        if not self.ahead.work(AHEAD):
+        if not self.ahead.work(PREWARM_MS):
             return
         now = last_choice(self.context, self.game)
         if self.rehearsal is None and self.context.preloader.ready(self.game, now.arena):
@@ -127,7 +127,7 @@ class Lobby:
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.rehearsal = MatchRunner(self.context, Match(setup), loud=False)
         elif self.rehearsal:
-            self.rehearsal.warm(AHEAD)
+            self.rehearsal.warm(PREWARM_MS)
 
     # ---- what presses do
 
@@ -140,7 +140,7 @@ class Lobby:
             full = len(self.seats.like(HUMAN)) == PLACES
             self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
             self.now.label = words.printed(self.context.controls.label(event.device, Button.FIRE))
-            self.now.said = SAID
+            self.now.message_left = MESSAGE_SECONDS
 
     def _fire(self, device: Device) -> None:
         if device.kind == "mouse":  # click on the hint
@@ -156,7 +156,7 @@ class Lobby:
         if seat is None:
             self._say(self.context.words("lobby.full"), "error")
         else:
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
     def _begin(self, device: Device) -> Turn:
@@ -165,8 +165,8 @@ class Lobby:
             self._fire(device)
             return None
         self._fill()
-        if trouble := problem(self.seats, self.context.words):
-            self._say(trouble, "error")
+        if message := problem(self.seats, self.context.words):
+            self._say(message, "error")
             return None
         return self._go()
 
@@ -201,7 +201,7 @@ class Lobby:
             self.seats.clear()
             self.context.sounds.play("back")
         else:
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
     def _steer(self, device: Device, act: Button) -> None:
@@ -243,7 +243,7 @@ class Lobby:
             self._say(self.context.words("lobby.unplugged", player=seat + 1), "back")
 
     def _mouse(self, event: InputEvent) -> None:
-        self.now.pointed = POINTED
+        self.now.pointer_left = POINTER_SECONDS
         self.focus.on(event)
         name = self.focus.chosen(event)
         if name is None:
@@ -263,7 +263,7 @@ class Lobby:
             self.context.sounds.play("back")
         elif kind == EMPTY:
             self.seats.add(seat)
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
         else:
             self.seats.places[seat].ready = not self.seats.places[seat].ready
@@ -278,14 +278,14 @@ class Lobby:
         elif self.now.starting is None:
             self._fill()
             if not problem(self.seats, self.context.words):
-                self.now.starting = self.now.whole = ALONE if alone else ALL
+                self.now.starting = self.now.countdown = COUNTDOWN_ALONE if alone else COUNTDOWN
 
     def _fill(self) -> None:
         for seat in self.seats.fill():
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:
-        self.now.message, self.now.label, self.now.said = message, "", SAID
+        self.now.message, self.now.label, self.now.message_left = message, "", MESSAGE_SECONDS
         self.context.sounds.play(sound)
 
 

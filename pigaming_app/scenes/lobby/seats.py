@@ -129,9 +129,9 @@ class Seats:
             return False
         now, count = self.rivals.index(self.places[chosen[0]].strength) + by, len(self.rivals)
         self.strength = self.rivals[now % count if seat is not None else max(0, min(count - 1, now))]
-        changed = any(self.places[one].strength != self.strength for one in chosen)
-        for one in chosen:
-            self.places[one].strength = self.strength
+        changed = any(self.places[i].strength != self.strength for i in chosen)
+        for i in chosen:
+            self.places[i].strength = self.strength
         return changed
 
     def unready(self) -> None:
@@ -157,9 +157,9 @@ class Seats:
         """Move a robot to the other team; if that is full, one of its robots changes sides, preferably an AI."""
         place = self.places[seat]
         place.team = 1 - place.team
-        mates = [one for one in self.places if one is not place and one.kind != EMPTY and one.team == place.team]
+        mates = [mate for mate in self.places if mate is not place and mate.kind != EMPTY and mate.team == place.team]
         if self.team_mode == PAIRS and len(mates) > 1:
-            sorted(mates, key=lambda one: one.kind == AI)[-1].team = 1 - place.team
+            sorted(mates, key=lambda mate: mate.kind == AI)[-1].team = 1 - place.team
 
     def _wanted(self, seat: int) -> int:
         """The team with fewer robots; the seat's current one if equal."""
@@ -167,8 +167,8 @@ class Seats:
         more = others.count(0) - others.count(1)
         return self.places[seat].team if more == 0 else int(more > 0)
 
-    def _strength(self, wished: str) -> str:
-        return wished if wished in self.rivals else self.strength
+    def _strength(self, strength: str) -> str:
+        return strength if strength in self.rivals else self.strength
 
     def _brain(self, place: SeatState) -> str:
         return {EMPTY: "off", HUMAN: "human"}.get(place.kind, place.strength)

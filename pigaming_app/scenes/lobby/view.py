@@ -30,19 +30,19 @@ class LobbyState:
     """Animation state of the page, in s."""
 
     clock: float = 0.0
-    since: list[float] = field(default_factory=lambda: [9.0] * PLACES)  # time since each seat was taken
+    seated: list[float] = field(default_factory=lambda: [9.0] * PLACES)  # time since each seat was taken
     starting: float | None = None  # remaining countdown
-    whole: float = 1.0  # full countdown
+    countdown: float = 1.0  # full countdown
     message: str = ""  # last event
     label: str = ""  # button in the message
-    said: float = 0.0  # remaining display time of the message
-    pointed: float = 0.0  # remaining display time of the mouse focus
+    message_left: float = 0.0  # remaining display time of the message
+    pointer_left: float = 0.0  # remaining display time of the mouse focus
 
     def pass_by(self, seconds: float) -> None:
         self.clock += seconds
-        self.said -= seconds
-        self.pointed -= seconds
-        self.since = [since + seconds for since in self.since]
+        self.message_left -= seconds
+        self.pointer_left -= seconds
+        self.seated = [age + seconds for age in self.seated]
 
 
 class LobbyPage:
@@ -85,13 +85,13 @@ class LobbyPage:
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
-        said = words("lobby.seat", player=seat + 1)
+        title = words("lobby.seat", player=seat + 1)
         if place.kind == EMPTY:
-            card.empty(seat, said).draw(screen, x, y)
+            card.empty(seat, title).draw(screen, x, y)
             level = pulse(self.now.clock) if seat == self.seats.like(EMPTY)[0] else 0
             card.invitation(seat, words("lobby.press_to_join"), self.invited, level).draw(screen, x, y)
             return
-        card.frame(seat, said, place.ready or place.kind == AI).draw(screen, x, y)
+        card.frame(seat, title, place.ready or place.kind == AI).draw(screen, x, y)
         self._robot(screen, seat)
         if self.seats.teams:
             if self.seats.team_mode == PAIRS:
@@ -127,7 +127,7 @@ class LobbyPage:
         speed = 14 if place.ready else 3
         turn = int(self.now.clock * speed) % card.TURNS
         card.turntable(seat, turn, place.ready, r).draw(screen, round(x + MIDDLE), y + middle_y)
-        coming = max(0.0, 1.0 - self.now.since[seat] / ROLL_IN) ** 2
+        coming = max(0.0, 1.0 - self.now.seated[seat] / ROLL_IN) ** 2
         hop = 8 * abs(math.sin(self.now.clock * 7 + seat)) if place.ready else 0.0
         look = 0.0 if place.ready else glance(self.now.clock, seat)
         sprite = card.robot(seat, step(card.UP + look, HEADINGS), scale)
@@ -137,36 +137,36 @@ class LobbyPage:
         words, waiting = self.context.words, self.seats.waiting
         if self.now.starting is not None:
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, MESSAGE_Y)
-            reach = round(864 * (1.0 - max(0.0, self.now.starting) / self.now.whole))
+            reach = round(864 * (1.0 - max(0.0, self.now.starting) / self.now.countdown))
             screen.fill(dim(FOCUS, 0.25), (960 - reach, LINE_Y - 5, 2 * reach, 10))
             screen.fill(FOCUS, (960 - reach, LINE_Y - 2, 2 * reach, 4))
             return
-        if self.now.said > 0.0:
+        if self.now.message_left > 0.0:
             call_to_action(self.now.message, self.now.label, LABEL).draw(screen, 960, MESSAGE_Y)
             return
         if waiting:
             place = self.seats.places[waiting[0]]
-            said = words("lobby.wait", player=waiting[0] + 1, button="{button}")
+            message = words("lobby.wait", player=waiting[0] + 1, button="{button}")
             label = words.printed(self.context.controls.label(place.device, Button.FIRE))
         else:
-            said, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
-        call_to_action(said, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
+            message, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
+        call_to_action(message, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
 
 
 def spots(seats: Seats) -> list[FocusSpot]:
     """Mouse targets: arrows and teams on the cards, then the cards."""
-    found = []
+    targets = []
     for seat, place in enumerate(seats.places):
         x, y = card_rect(seat).topleft
         if place.kind == AI:
-            found.append(FocusSpot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
-            found.append(FocusSpot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
+            targets.append(FocusSpot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
+            targets.append(FocusSpot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
         if seats.teams and place.kind != EMPTY:
-            found.append(FocusSpot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
+            targets.append(FocusSpot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
         if seats.mat and place.kind != EMPTY:
             middle = card.REAL_Y if seats.teams else card.TEAM_Y
-            found.append(FocusSpot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
-    return [*found, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
+            targets.append(FocusSpot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
+    return [*targets, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
 
 
 def problem(seats: Seats, words: Words) -> str:

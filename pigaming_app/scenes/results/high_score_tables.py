@@ -28,16 +28,16 @@ class HighScoreTable:
 def counts(setup: Setup, seat: int) -> bool:
     """True if a seat's results in this match can enter a table."""
     own = setup.seats[seat]
-    opponents = [one.brain for one in setup.seats if one.brain != "off" and one.team != own.team]
+    opponents = [other.brain for other in setup.seats if other.brain != "off" and other.team != own.team]
     return bool(opponents) and all(brain == "human" or brain in STRONG for brain in opponents)
 
 
 def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
     """The conditions of a match for a seat, or for the first person's: a table without a feat."""
-    people = [i for i, one in enumerate(setup.seats) if one.brain == "human"]
+    people = [i for i, other in enumerate(setup.seats) if other.brain == "human"]
     own = setup.seats[seat if seat is not None else people[0] if people else 0]
-    mates = [one for one in setup.seats if one.brain != "off" and one.team == own.team]
-    side = sum(one.brain == "human" for one in mates) if len(mates) > 1 else 0
+    mates = [other for other in setup.seats if other.brain != "off" and other.team == own.team]
+    side = sum(other.brain == "human" for other in mates) if len(mates) > 1 else 0
     length = setup.goal if games()[setup.game].goals else setup.minutes
     return ScoreTable(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
 
@@ -64,9 +64,9 @@ def older_tables(contest: ScoreTable, scores: Scores) -> list[HighScoreTable]:
 
 def contests(scores: Scores) -> list[ScoreTable]:
     """The contests with displayable rows, by game and arena, older ones last in each arena."""
-    found = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
+    known = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
     names = list(games())
-    return sorted(found, key=lambda one: (names.index(one.game), one.arena != "classic", one.arena, one.older, one))
+    return sorted(known, key=lambda c: (names.index(c.game), c.arena != "classic", c.arena, c.older, c))
 
 
 def format_score(value: int, feat: RecordKind | ScoreTable) -> str:

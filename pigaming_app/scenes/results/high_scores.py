@@ -30,7 +30,7 @@ from pigaming_app.ui.widgets.labels import heading, sign
 
 ROWS = 8
 WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px
-HIGH = 24 + PITCH * ROWS  # px, height of a table
+HEIGHT = 24 + PITCH * ROWS  # px, height of a table
 STAY = 12.0  # s without input
 DEAF = 0.4  # s during which input is ignored
 APART, WIPE = 0.05, 0.25  # s: delay from row to row, wipe of one row
@@ -44,7 +44,7 @@ class HighScores:
 
     def __init__(self, context: Context, contest: ScoreTable, fresh: Sequence[Score] = ()) -> None:
         self.context, self.fresh = context, list(fresh)
-        self.shelf = [one for one in contests(context.scores) if one.arena in playable_arenas(one.game)]
+        self.shelf = [table for table in contests(context.scores) if table.arena in playable_arenas(table.game)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
         self.prompts = context.prompts([(Button.FIRE, "results.on")])
@@ -92,8 +92,8 @@ class HighScores:
         heading(words("results.scores")).draw(screen)
         text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
         text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
-        shown = older_tables(contest, self.context.scores) if contest.older else high_score_tables(contest)
-        for column, board in zip((0, 6) if len(shown) > 1 else (3,), shown, strict=False):
+        tables = older_tables(contest, self.context.scores) if contest.older else high_score_tables(contest)
+        for column, board in zip((0, 6) if len(tables) > 1 else (3,), tables, strict=False):
             self._board(screen, board, *span(column, 6))
 
     # ---- inside
@@ -108,12 +108,12 @@ class HighScores:
     def _show(self, contest: ScoreTable) -> None:
         """Show the tables of a contest, with arrows where others exist."""
         self.contest, self.turned = contest, 0.0
-        where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
+        width = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
         line = min(ROOM, text_width(conditions(self.context.words, contest), LABEL, "head")) / 2
         self.arrows: dict[Button, tuple[float, float]] = {}
         if len(self._ring(Button.UP)) > 1:
-            self.arrows[Button.UP] = RIGHT - where - 52, WHERE_Y - 24
-            self.arrows[Button.DOWN] = RIGHT - where - 52, WHERE_Y + 24
+            self.arrows[Button.UP] = RIGHT - width - 52, WHERE_Y - 24
+            self.arrows[Button.DOWN] = RIGHT - width - 52, WHERE_Y + 24
         if len(self._ring(Button.LEFT)) > 1:
             self.arrows[Button.LEFT] = 960 - line - 60, LINE_Y
             self.arrows[Button.RIGHT] = 960 + line + 60, LINE_Y
@@ -122,10 +122,10 @@ class HighScores:
         """Contests reachable by a direction: in the same arena for left and right, one per arena for up and down."""
         here = place_of(self.contest)
         if button in (Button.LEFT, Button.RIGHT):
-            return [one for one in self.shelf if place_of(one) == here]
+            return [table for table in self.shelf if place_of(table) == here]
         firsts: dict[tuple[str, str], ScoreTable] = {}
-        for one in self.shelf:
-            firsts.setdefault(place_of(one), self.contest if place_of(one) == here else one)
+        for table in self.shelf:
+            firsts.setdefault(place_of(table), self.contest if place_of(table) == here else table)
         return list(firsts.values())
 
     def _where(self) -> str:
@@ -137,13 +137,13 @@ class HighScores:
 
     def _board(self, screen: pygame.Surface, board: HighScoreTable, x: int, w: int) -> None:
         """Draw a table below its heading."""
-        said = self.context.words(board.heading, goal=f"{board.table.length:g}")
-        text(said, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
+        title = self.context.words(board.heading, goal=f"{board.table.length:g}")
+        text(title, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
         frame(w).draw(screen, x, TOP)
         rows = self.context.scores.best(board.table, board.days)[:ROWS]
         if not rows:
             text(self.context.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
-                screen, x + w / 2, TOP + HIGH / 2
+                screen, x + w / 2, TOP + HEIGHT / 2
             )
         for i, row in enumerate(rows):
             share = (self.turned - APART * i) / WIPE
@@ -157,7 +157,7 @@ class HighScores:
         y = TOP + 12 + PITCH * i + PITCH / 2
         color = FOCUS if row in self.fresh else ICE if i == 0 else MIST
         before = screen.get_clip()
-        screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
+        screen.set_clip(pygame.Rect(x, TOP, round(w * share), HEIGHT))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
         value = self.context.words.decimal(format_score(row.score, board.table))
@@ -169,8 +169,8 @@ class HighScores:
 
 def nearest(contest: ScoreTable, shelf: Sequence[ScoreTable]) -> ScoreTable:
     """The contest itself if it has rows or none has, else one of its arena, of its game, or any other."""
-    near = [one for one in shelf if place_of(one) == place_of(contest)] or [
-        one for one in shelf if one.game == contest.game
+    near = [table for table in shelf if place_of(table) == place_of(contest)] or [
+        table for table in shelf if table.game == contest.game
     ]
     return contest if contest in shelf or not shelf else next(iter(near or shelf))
 
@@ -206,5 +206,5 @@ def conditions(words: Words, contest: ScoreTable) -> str:
 def frame(w: int) -> LitImage:
     """Outline of a table; top left at (0, 0)."""
     return LitImage(
-        GlowCanvas(w + 8, HIGH + 8).to(4, 4).line(cut_box(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4)
+        GlowCanvas(w + 8, HEIGHT + 8).to(4, 4).line(cut_box(0, 0, w, HEIGHT, 20), STEEL, THIN, True).plain(), (-4, -4)
     )

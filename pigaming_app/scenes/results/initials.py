@@ -57,12 +57,12 @@ def claims(context: Context, outcome: Outcome, setup: Setup, devices: Sequence[D
     done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
     out = []
     for seat, feats in done.items():
-        rivals = [feat for other, theirs in done.items() if other != seat for feat in theirs]
-        found = [(feat, places(context, *feat, rivals)) for feat in feats]
-        kept = [(feat, here) for feat, here in found if here]
+        rivals = [feat for rival, feats_of_rival in done.items() if rival != seat for feat in feats_of_rival]
+        ranked = [(feat, places(context, *feat, rivals)) for feat in feats]
+        qualified = [(feat, here) for feat, here in ranked if here]
         device = devices[seat]
-        if kept and device:
-            out.append(Claim(seat, device, tuple(feat for feat, _ in kept), tuple(here for _, here in kept)))
+        if qualified and device:
+            out.append(Claim(seat, device, tuple(feat for feat, _ in qualified), tuple(here for _, here in qualified)))
     return out
 
 
@@ -87,12 +87,12 @@ def places(
     """
     others = [other for there, other in rivals if there == table]
     ahead = sum(other < value if table.timed else other > value for other in others)
-    found = []
+    ranks = []
     for title, days in SPANS.items():
         place = context.scores.place(table, value, days)
         if place and place + ahead <= TOP:
-            found.append((title, place + ahead))
-    return tuple(found)
+            ranks.append((title, place + ahead))
+    return tuple(ranks)
 
 
 class Initials:
@@ -177,10 +177,10 @@ class Initials:
         """Lines of a panel: each feat with its value, and the places it takes."""
         words = self.context.words
         lines = []
-        for (table, value), found in zip(claim.feats, claim.places, strict=True):
-            shown = found if len(claim.feats) == 1 else found[-1:]
+        for (table, value), ranks in zip(claim.feats, claim.places, strict=True):
+            listed = ranks if len(claim.feats) == 1 else ranks[-1:]
             lines.append((words(f"setup.best_{table.feat}"), words.decimal(format_score(value, table))))
-            lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
+            lines += [(words("results.place", board=words(title), place=place), "") for title, place in listed]
         return tuple(lines)
 
     def _end(self) -> Turn:

@@ -53,12 +53,12 @@ def panel_at(x: int) -> pygame.Rect:
 
 @cached
 @resumable
-def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[LitImage]:
+def frame(seat: int, label: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[LitImage]:
     """Panel without its letters: player, qualifying results and the letter boxes."""
     layer = Layer(0, 0, W, H)
     panel(layer.glow, 0, 0, W, H, PLAYERS[seat], LINE if done else THIN)
     badge(layer.glow, seat, 72, 76, 36)
-    layer.canvas.text(said, fit_size(said, LABEL, W - 160), 136, 76, ICE)
+    layer.canvas.text(label, fit_size(label, LABEL, W - 160), 136, 76, ICE)
     for i, (name, value) in enumerate(lines):
         y = LINES_Y + LINE_PITCH * i
         room = W - 48
@@ -85,10 +85,10 @@ def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> No
 
 
 @cached
-def refused(said: str) -> LitImage:
+def refused(label: str) -> LitImage:
     """Text that replaces the button while rejected letters shake."""
     layer = Layer(*BAR)
-    layer.canvas.body(said, MIDDLE, BAR_Y, ALARM, "c", fit_size(said, BODY, W - 48, "body"))
+    layer.canvas.body(label, MIDDLE, BAR_Y, ALARM, "c", fit_size(label, BODY, W - 48, "body"))
     return layer.done()
 
 

@@ -34,7 +34,7 @@ class Plot:
     def __init__(self, x: int, y: int, w: int, h: int, curves: Sequence[Curve], seconds: float) -> None:
         badges = max((len(curve.players) for curve in curves), default=1)
         self.low, self.high, self.step = self.scale([value for curve in curves for _, value in curve.series])
-        left = 20 + max(64.0, *(text_width(said, BODY) for _, said in self.numbers()))
+        left = 20 + max(64.0, *(text_width(label, BODY) for _, label in self.numbers()))
         self.x, self.y, self.w, self.h = round(x + left), y + 8, round(w - left) - 30 - 50 * badges, h - 76
         self.foot = y + h - 20
         self.seconds = max(1.0, seconds)
@@ -55,13 +55,13 @@ class Plot:
         layer = Layer(*self.box)
         ink = layer.canvas.crisp
         faint = dim(STEEL, 0.55)
-        for value, said in self.numbers():
+        for value, label in self.numbers():
             a, b = self.to(0, value), self.to(self.seconds, value)
             ink.line([a, b], STEEL if value == 0 else faint, THIN if value == 0 else HAIR)
-            ink.text(said, BODY, self.x - 20, a[1], MIST, "head", "r")
-        for at, said in self.marks():
+            ink.text(label, BODY, self.x - 20, a[1], MIST, "head", "r")
+        for at, label in self.marks():
             ink.line([self.to(at, self.low), self.to(at, self.high)], faint, HAIR)
-            ink.text(said, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
+            ink.text(label, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
         return layer.done()
 
     def numbers(self) -> list[tuple[int, str]]:
@@ -194,7 +194,7 @@ def spread(wanted: Sequence[float], room: float, bottom: float) -> list[float]:
 
 def team_curve(players: Sequence[int], series: Sequence[Series]) -> Curve:
     """One curve for several robots: the sum of their scores."""
-    changes = sorted((seconds, k, score) for k, one in enumerate(series) for seconds, score in one)
+    changes = sorted((seconds, k, score) for k, steps in enumerate(series) for seconds, score in steps)
     now, out = [0.0] * len(series), []
     for seconds, k, score in changes:
         now[k] = score

@@ -86,8 +86,8 @@ class RematchVote:
         x += width + 78
         taken = dict(zip(self.takeable, held, strict=False))
         for seat in self.seats:
-            said = "ai" if seat not in self.humans else "check" if seat in self.votes else ""
-            answer(seat, said).draw(screen, x)
+            icon_name = "ai" if seat not in self.humans else "check" if seat in self.votes else ""
+            answer(seat, icon_name).draw(screen, x)
             if seat in taken:
                 hold_ring(seat, math.ceil(taken[seat] * RING_STEPS)).draw(screen, x, Y)
             x += PITCH
@@ -105,13 +105,13 @@ def question(text: str) -> LitImage:
 
 
 @cached
-def answer(seat: int, said: str) -> LitImage:
+def answer(seat: int, icon_name: str) -> LitImage:
     """Badge centred on x = 0 with the player's vote: an icon name, or "" before it."""
     layer = Layer(-40, Y - 40, 140, 80)
-    badge(layer.glow, seat, 0, Y, 28, None if said else dim(PLAYERS[seat], 0.45))
-    if said:
-        color, weight = (ICE, LINE) if said == "check" else (MIST, THIN)
-        icon(layer.glow, said, 66, Y, 20, color, weight)
+    badge(layer.glow, seat, 0, Y, 28, None if icon_name else dim(PLAYERS[seat], 0.45))
+    if icon_name:
+        color, weight = (ICE, LINE) if icon_name == "check" else (MIST, THIN)
+        icon(layer.glow, icon_name, 66, Y, 20, color, weight)
     else:
         layer.glow.dashes(cut_box(44, Y - 22, 44, 44, 8), MIST, THIN, 10, 8)
     return layer.done()

@@ -25,7 +25,7 @@ from pigaming_app.ui.widgets.caption import caption
 
 DEAF = 2.5  # s during which input is ignored
 LATE, LEAVE = 5.0, 0.5  # s during which BACK is ignored; s it must be held afterwards
-SAID = 3.0  # s, display time of a message
+MESSAGE_SECONDS = 3.0  # s, display time of a message
 CLAIMS = 2.6  # s before the initials entry
 IDLE = 60.0  # s without input before the return to the title
 
@@ -60,7 +60,7 @@ class Results:
         self.claims = claims(context, outcome, setup, own) if finished else []
         self.initials = Initials(context, setup, self.claims)
         self.sounds = self.page.sounds(humans)
-        self.age = self.idle = self.told = 0.0
+        self.age = self.idle = self.message_left = 0.0
         self.access = Access(context, lambda: self.ballot.devices)
         self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE)
         hints = [
@@ -111,7 +111,7 @@ class Results:
         """Reveal the page, ask for initials, count the votes, leave when idle."""
         self.age += seconds
         self.idle += seconds
-        self.told -= seconds
+        self.message_left -= seconds
         self.page.update(seconds, self.age)
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
@@ -134,7 +134,7 @@ class Results:
         self.page.draw(screen, self.age)
         if self.age >= self.page.ready_at:
             self.ballot.draw(screen, self.joining.shares.values())
-            if self.told > 0.0:
+            if self.message_left > 0.0:
                 caption(self.context.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
             else:
                 self.prompts.draw(screen)
@@ -147,7 +147,7 @@ class Results:
             self.context.sounds.play("ready", None)
         elif event.device not in self.ballot.devices and self.ballot.takeable:
             self.joining.begin(event)
-            self.told = SAID
+            self.message_left = MESSAGE_SECONDS
 
     def _leave(self) -> Turn:
         self.context.sounds.play("back")

@@ -197,11 +197,11 @@ class ResultsPage:
         words, setup = self.context.words, self.setup
         minutes = match_length(words, games()[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
-        where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
-        size = fit_size(where, BODY, 720, "body")
-        self.room = RIGHT - text_width(where, size, "body") - 40  # px, right limit of the title
+        line = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
+        size = fit_size(line, BODY, 720, "body")
+        self.room = RIGHT - text_width(line, size, "body") - 40  # px, right limit of the title
         layer = Layer(self.room, 60, RIGHT - self.room, 100)
-        layer.canvas.body(where, RIGHT, 112, MIST, "r", size)
+        layer.canvas.body(line, RIGHT, 112, MIST, "r", size)
         return layer.done()
 
     def _columns(self) -> LitImage:

@@ -42,27 +42,27 @@ class BlockLayout:
     def update(self, seconds: float, homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> None:
         """Re-arrange if necessary. `homes`: the blocks in page coordinates."""
         self.age += seconds
-        if [one.home for one in self.placed] == list(homes) and self.age < EVERY:
+        if [block.home for block in self.placed] == list(homes) and self.age < EVERY:
             return
         self.age = 0.0
         better = arrange(homes, discs)
-        same = [one.home for one in self.placed] == list(homes)
+        same = [block.home for block in self.placed] == list(homes)
         if not same or hit(self.placed, discs) or better[0].scale > self.placed[0].scale or not discs:
             self.placed = better
 
     def draw(self, screen: pygame.Surface, sheet: pygame.Surface) -> None:
         """Blit the blocks from their home positions on `sheet` to the screen, additively."""
-        for one in self.placed:
-            block = sheet.subsurface(one.home.clip(sheet.get_rect()))
-            if one.scale < 1.0:
-                block = pygame.transform.smoothscale(block, one.box.size)
-            screen.blit(block, one.at, special_flags=ADD)
+        for block in self.placed:
+            image = sheet.subsurface(block.home.clip(sheet.get_rect()))
+            if block.scale < 1.0:
+                image = pygame.transform.smoothscale(image, block.box.size)
+            screen.blit(image, block.at, special_flags=ADD)
 
     def back(self, at: Point) -> Point:
         """Canvas to sheet coordinates; a point outside all blocks maps to (-1, -1)."""
-        for one in self.placed:
-            if one.box.collidepoint(at):
-                return tuple(one.home.topleft[i] + (at[i] - one.at[i]) / one.scale for i in (0, 1))  # type: ignore[return-value]
+        for block in self.placed:
+            if block.box.collidepoint(at):
+                return tuple(block.home.topleft[i] + (at[i] - block.at[i]) / block.scale for i in (0, 1))  # type: ignore[return-value]
         return -1.0, -1.0
 
 
@@ -73,7 +73,7 @@ def arrange(homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> list[Place
     for scale in SCALES:
         placed: list[PlacedBlock] = []
         for home in homes:
-            at = nearest(home, scale, discs, [one.box for one in placed])
+            at = nearest(home, scale, discs, [block.box for block in placed])
             if at is None:
                 break
             placed.append(PlacedBlock(home, at, scale))
@@ -109,7 +109,7 @@ def nearest(
 
 def hit(placed: Sequence[PlacedBlock], discs: Sequence[Circle]) -> bool:
     """True if a disc reaches a block."""
-    return any(near(one.box, disc) for one in placed for disc in discs)
+    return any(near(block.box, disc) for block in placed for disc in discs)
 
 
 def near(box: pygame.Rect, disc: Circle) -> bool:

@@ -85,7 +85,7 @@ class FaultPage:
         if self.held >= HOLD:
             safety.release()
         now = [fault for fault in self.match.plant.faults if fault.pauses]
-        if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
+        if [(fault.name, fault.robot) for fault in now] != [(fault.name, fault.robot) for fault in self.faults]:
             self.faults, self.picture = now, None
         if self.context.idle > IDLE:
             return Home()
@@ -96,7 +96,7 @@ class FaultPage:
         if self.picture is None:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
-            fault_caption = tuple((one.name, one.robot) for one in self.faults)
+            fault_caption = tuple((fault.name, fault.robot) for fault in self.faults)
             self.picture = overlay(self.match.picture(), color, self._paint, fault_caption)
         screen.blit(self.picture, (0, 0))
         if self.match.plant.safety.stopped:
@@ -112,8 +112,10 @@ class FaultPage:
     def _releasing(self) -> list[Device]:
         """Devices whose FIRE releases the stop: the seated ones and the one that pressed it."""
         players, stopper = self.context.controls.players(), self.stopper
-        asked = [one for one in players if one == stopper or (stopper and one.kind == stopper.kind == "keys")]
-        return [*self.match.access.seated, *asked] or players
+        stoppers = [
+            device for device in players if device == stopper or (stopper and device.kind == stopper.kind == "keys")
+        ]
+        return [*self.match.access.seated, *stoppers] or players
 
     def _simulate(self) -> None:
         """Replace the robots with faults by simulated ones."""
@@ -130,8 +132,8 @@ class FaultPage:
             sheet_title(layer, None, words("mat.stand"), ICE)
             return
         first = self.faults[0]
-        about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
-        sheet_title(layer, first.robot, about, ICE)
+        title = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
+        sheet_title(layer, first.robot, title, ICE)
         sign(layer.glow, first.name, *ICON, 76, ALARM)
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
@@ -141,7 +143,7 @@ class FaultPage:
         cause = cause_of(self.match.plant.rig, first.name)
         if cause:
             y = write_lines(layer, words.sentence(cause), TEXT_X, y + 8, ROOM, MIST)
-        others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
+        others = [fault for fault in self.faults[1:] if fault.name != first.name or fault.robot != first.robot]
         if others and y < FOOT - 130:
             write_lines(layer, words("mat.also", other=fault_sentence(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
 

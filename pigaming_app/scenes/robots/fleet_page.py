@@ -34,8 +34,8 @@ EMULATED = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
 WEAK, LOW = 0.7, 4.4  # share of reports, V: below these a robot is marked
 IDLE = 600.0  # s without input before the return to the title
-SAID = 8.0  # s, display time of a message
-ANEW = 0.8  # s after a change until all devices are reopened
+MESSAGE_SECONDS = 8.0  # s, display time of a message
+REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
 EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
 ROBOTS_H = 486  # px, height of the robots' frame
@@ -57,7 +57,7 @@ class FleetPage:
             ROWS if not context.session.emulated else ("radio", *EMULATED) if unfit(context.settings) else EMULATED
         )
         self.focus = Focus(dials.spots(self.names), "pair")
-        self.anew, self.age = 0.0, EVERY
+        self.reopen_in, self.age = 0.0, EVERY
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # per robot: radio and vision status
         hints = [
@@ -65,7 +65,7 @@ class FleetPage:
             (Button.FIRE, "robots.hint_ok"),
             (Button.BACK, "robots.hint_back"),
         ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
     def entered(self) -> None:
         """Open camera and radio."""
@@ -96,9 +96,9 @@ class FleetPage:
         words = self.context.words
         turn = self.navigation.update(seconds)
         self.age += seconds
-        if self.anew > 0.0:
-            self.anew -= seconds
-            if self.anew <= 0.0:
+        if self.reopen_in > 0.0:
+            self.reopen_in -= seconds
+            if self.reopen_in <= 0.0:
                 self.check.end()
                 self.entered()
         pairing = self.check.pairing is not None
@@ -141,13 +141,13 @@ class FleetPage:
         low = self.focus.spots[-1].rect.bottom
         ends = places(self.navigation.prompts.said, self.navigation.prompts.room)
         left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
-        found = [
+        boxes = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
             pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
             pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
             pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
         ]
-        return [*found, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else found
+        return [*boxes, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else boxes
 
     def _sentence(self) -> str:
         """Fault, or result of the last action."""
@@ -193,8 +193,8 @@ class FleetPage:
 
     def _trouble(self) -> str | None:
         """Fault message of camera or radio."""
-        told = self.check.session.trouble
-        return self.context.words.sentence(told) if told else None
+        message = self.check.session.trouble
+        return self.context.words.sentence(message) if message else None
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)
@@ -244,12 +244,12 @@ class FleetPage:
             keys = list(values)
             at = keys.index(now) + by
             settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
-            self.anew = ANEW
+            self.reopen_in = REOPEN_DELAY
         self.context.sounds.play("move")
         try:
             settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
             self.navigation.say(self.context.words("app.unsaved"))
 
     def _do(self, name: str) -> None:
@@ -264,13 +264,13 @@ class FleetPage:
 
     def _found(self) -> None:
         """Report the result of the pairing."""
-        words, told = self.context.words, worst(self.check.findings)
-        if told is None:
+        words, finding = self.context.words, worst(self.check.findings)
+        if finding is None:
             self.navigation.say(words("fleet.paired"))
         else:
-            marker = 0 if told.marker is None else told.marker + 1
-            self.navigation.say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
+            marker = 0 if finding.marker is None else finding.marker + 1
+            self.navigation.say(words(f"fleet.case_{finding.case}", radio=finding.channel + 1, marker=marker))
         try:
             self.context.settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)

@@ -60,9 +60,9 @@ class FleetState:
         try:
             self.rig = self.session.open()
             self.link = self.rig.link
-        except RobotsUnavailable as trouble:
-            log.warning("%s", english().explained(trouble.message))
-            self.refusal = trouble.message
+        except RobotsUnavailable as error:
+            log.warning("%s", english().explained(error.message))
+            self.refusal = error.message
             self.rig, self.link = None, self.session.listen()
 
     def end(self) -> None:
@@ -80,7 +80,7 @@ class FleetState:
     def looking(self) -> bool:
         """True if robots move or are about to, and fewer are seen than heard."""
         robots = range(ROBOTS)
-        return self.busy and sum(self._seen(one) for one in robots) < sum(self.heard(one) for one in robots)
+        return self.busy and sum(self._seen(robot) for robot in robots) < sum(self.heard(robot) for robot in robots)
 
     @property
     def moving(self) -> int | None:
@@ -189,5 +189,5 @@ class FleetState:
 def worst(findings: list[PairingFinding]) -> PairingFinding | None:
     """The most important finding of a pairing: a robot not found, then a swapped one."""
     order = (PairingCase.TWICE, PairingCase.SEVERAL, PairingCase.WIRED, PairingCase.NONE, PairingCase.SWAPPED)
-    told = [finding for case in order for finding in findings if finding.case is case]
-    return told[0] if told else None
+    faults = [finding for case in order for finding in findings if finding.case is case]
+    return faults[0] if faults else None

@@ -46,14 +46,14 @@ class FloodLight:
             screen.blit(veil, (0, 0))
             return
         screen.fill((LIGHT,) * 3)
-        for said, size, y in ((title, BODY, TITLE_Y), (line, 34, LINE_Y)):
-            if said:
-                written(screen, said, size, y)
+        for caption, size, y in ((title, BODY, TITLE_Y), (line, 34, LINE_Y)):
+            if caption:
+                written(screen, caption, size, y)
 
 
-def written(screen: pygame.Surface, said: str, size: int, y: int) -> None:
+def written(screen: pygame.Surface, caption: str, size: int, y: int) -> None:
     """Draw black text by subtraction."""
-    lit = text(said, size, (LIGHT,) * 3, "body", "c", 1760)
+    lit = text(caption, size, (LIGHT,) * 3, "body", "c", 1760)
     screen.blit(lit.image, (960 + lit.at[0], y + lit.at[1]), special_flags=pygame.BLEND_RGB_SUB)
 
 

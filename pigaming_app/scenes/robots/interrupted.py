@@ -28,5 +28,5 @@ class InterruptedMatch(PausedMatch, Protocol):
     def swap(self, seat: int, real: bool) -> None:
         """Hand a seat over to its simulated or its real robot."""
 
-    def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
-        """Apply a new pairing of radios and robots. `well`: robots that turned as commanded."""
+    def paired(self, channels: Sequence[int], turned: Collection[int]) -> None:
+        """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""

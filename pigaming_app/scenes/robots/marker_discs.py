@@ -37,21 +37,21 @@ class MarkerDiscs:
 
     def circles(self, robots: set[int]) -> list[tuple[float, float, float]]:
         """Centres and radii of the areas covered by the light of these robots: rings, arrows, tags; canvas px."""
-        found = []
+        areas = []
         for _, at in self._there(robots):
             x, y = LEFT + at.x, TOP + at.y
             dx, dy = _behind(at)
-            found += [
+            areas += [
                 (x, y, RING + 12.0),
                 (x + ARM * math.cos(at.heading), y + ARM * math.sin(at.heading), TIP + 18.0 - ARM),
                 (x + dx, y + dy, TAG_R),
             ]
-        return found
+        return areas
 
     def draw(self, screen: pygame.Surface, robots: set[int]) -> None:
         """Draw the discs of the visible robots: all surrounding light first, then the discs."""
-        there = self._there(robots)
-        for robot, at in there:
+        visible = self._there(robots)
+        for robot, at in visible:
             x, y = LEFT + at.x, TOP + at.y
             for sprite, dx, dy in (
                 (pointer(robot, step(at.heading, HEADINGS)), 0.0, 0.0),
@@ -61,7 +61,7 @@ class MarkerDiscs:
                 place = round(x + dx + sprite.dx), round(y + dy + sprite.dy)
                 screen.blit(sprite.image, place, special_flags=pygame.BLEND_PREMULTIPLIED)
         for r, color in ((MOAT, BLACK), (DISC, GREY)):  # all margins first: none may cut into a neighbour's disc
-            for _, at in there:
+            for _, at in visible:
                 screen.blit(disc(r, color), (round(LEFT + at.x) - r, round(TOP + at.y) - r))
 
     def _there(self, robots: set[int]) -> list[tuple[int, Sighting]]:

@@ -31,7 +31,7 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 
 IDLE = 180.0  # s without input while robots take their places, before the return to the title
-TOLD = ("low", "drifts", "deadman")  # faults that are only reported
+REPORTED_ONLY = ("low", "drifts", "deadman")  # faults that are only reported
 
 log = logging.getLogger("pigaming")
 
@@ -162,11 +162,11 @@ class RealMatch(MatchScene):
             draw_corners(screen)
         self.discs.draw(screen, self.real)
 
-    def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
-        """Apply a new pairing of radios and robots. `well`: robots that turned as commanded."""
+    def paired(self, channels: Sequence[int], turned: Collection[int]) -> None:
+        """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
         self.plant.rig.channels = channels
         self.context.settings.radios = [channel + 1 for channel in channels]
-        for robot in well:
+        for robot in turned:
             self.plant.forgive(robot)
 
     def swap(self, seat: int, real: bool) -> None:
@@ -234,13 +234,13 @@ class RealMatch(MatchScene):
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
         for key in now.keys() - self.logged:
             cause = cause_of(self.plant.rig, now[key].name)
-            told = [fault_sentence(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
-            log.warning("%s", " ".join(told))
-            if now[key].name in TOLD:
-                said = fault_sentence(now[key], self.context.words, "")
-                self.notice, self.noticed = caption(said, ALARM, player=now[key].robot), 2 * NOTICE
+            sentences = [fault_sentence(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
+            log.warning("%s", " ".join(sentences))
+            if now[key].name in REPORTED_ONLY:
+                sentence = fault_sentence(now[key], self.context.words, "")
+                self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE
         self.logged = set(now)
 
     def _worth(self, fault: Fault) -> bool:
         """False for a robot that is only briefly hard to see."""
-        return fault.does is not Response.HALF and (fault.pauses or fault.name in TOLD)
+        return fault.does is not Response.HALF and (fault.pauses or fault.name in REPORTED_ONLY)

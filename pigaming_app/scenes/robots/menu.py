@@ -23,7 +23,7 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("robots", "calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
-SAID = 8.0  # s, display time of a message
+MESSAGE_SECONDS = 8.0  # s, display time of a message
 IDLE = 300.0  # s without input before the return to the title
 
 log = logging.getLogger("pigaming")
@@ -36,7 +36,7 @@ class RobotsMenu:
         self.context = context
         self.focus = Focus(dials.spots(ROWS))
         hints = [(Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
     def entered(self) -> None:
         """Nothing to do."""
@@ -58,7 +58,7 @@ class RobotsMenu:
         heading(words("robots.title")).draw(screen)
         black_out(screen, dials.PANEL)
         values = {
-            one: SettingValue("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS
+            row: SettingValue("deed", (words("robots.write" if row == "sheet" else "robots.open"),)) for row in ROWS
         }
         dials.draw(screen, self.context.words, self.focus, "robots", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
@@ -100,8 +100,8 @@ class RobotsMenu:
         except OpenCVMissing as missing:
             log.warning("%s", english().explained(missing.message))
             self.navigation.say(words.sentence(missing.message))
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
             self.navigation.say(words("app.unsaved"))
 
 

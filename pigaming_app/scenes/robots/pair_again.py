@@ -90,13 +90,13 @@ class PairAgain:
 
     def _found(self, pairing: Pairing) -> Turn:
         """Apply the result; close if there is no fault."""
-        well = [one.marker for one in pairing.findings if one.case in GOOD and one.marker is not None]
-        self.match.paired(pairing.channels, well)
-        told = worst([one for one in pairing.findings if one.case not in GOOD])
-        if told is None:
+        turned = [finding.marker for finding in pairing.findings if finding.case in GOOD and finding.marker is not None]
+        self.match.paired(pairing.channels, turned)
+        fault = worst([finding for finding in pairing.findings if finding.case not in GOOD])
+        if fault is None:
             self.context.sounds.play("accept")
             return Pop()
-        marker = 0 if told.marker is None else told.marker + 1
-        self.sentence = self.context.words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker)
+        marker = 0 if fault.marker is None else fault.marker + 1
+        self.sentence = self.context.words(f"fleet.case_{fault.case}", radio=fault.channel + 1, marker=marker)
         self.context.sounds.play("error")
         return None

@@ -37,6 +37,6 @@ def match_of(
     again = partial(match_of, context, game_choice=game_choice)
     try:
         return RealMatch(context, setup, devices, real, context.session, again, game_choice)
-    except RobotsUnavailable as trouble:
-        log.warning("%s", english().explained(trouble.message))
-        return UnavailablePage(context, setup, devices, real, trouble.message, again)
+    except RobotsUnavailable as error:
+        log.warning("%s", english().explained(error.message))
+        return UnavailablePage(context, setup, devices, real, error.message, again)

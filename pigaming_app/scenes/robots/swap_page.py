@@ -61,10 +61,10 @@ class SwapPage:
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen)
         for spot in self.focus.spots:
-            said = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
+            label = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
             color = FOCUS if spot.name == self.focus.name else MIST
-            size = fit_size(said, LABEL, spot.rect.w - 150)
-            word(said, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
+            size = fit_size(label, LABEL, spot.rect.w - 150)
+            word(label, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
         self.prompts.draw(screen)
         self.match.shine(screen)
 

@@ -78,7 +78,7 @@ class TakePlaces:
         """Draw outlines, paths and captions; the discs are drawn on top by the caller."""
         words, places = self.context.words, self.plant.places
         if self.flood.whole:
-            hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
+            hints = "   ·   ".join(f"{label}: {action}" for label, action in self.prompts.said)
             faults = [fault_sentence(fault, words, "") for fault in self._faults()]
             self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
             return
@@ -94,8 +94,8 @@ class TakePlaces:
         there = sum(place.there for place in places)
         text(words("mat.places"), LABEL, ICE, "head", "l", 900).draw(screen, 176, TITLE_Y)
         if places:
-            told = words("mat.there", there=there, all=len(places))
-            text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
+            progress = words("mat.there", there=there, all=len(places))
+            text(progress, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
         self.prompts.draw(screen)
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         for i, fault in enumerate(self._faults()[:2]):

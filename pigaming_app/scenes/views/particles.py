@@ -24,7 +24,7 @@ from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step
 
-MOST = 320  # limit of live particles
+MAX_PARTICLES = 320  # limit of live particles
 SHAKE = 0.28  # s
 RISE, RISING = 60.0, 0.8  # px, s: height and duration of a popup
 Cone = tuple[float, float]  # centre and half the opening angle, rad
@@ -76,7 +76,7 @@ class Particles:
 
     def burst(self, x: float, y: float, color: Color, count: int, start: float, reach: float, cone: Cone = ALL) -> None:
         """Sparks from a radius of `start` px around (x, y), travelling up to `reach` px within a cone."""
-        for _ in range(min(count, MOST - len(self.particles))):
+        for _ in range(min(count, MAX_PARTICLES - len(self.particles))):
             a = cone[0] + self.random.uniform(-cone[1], cone[1])
             c, s, far = math.cos(a), math.sin(a), reach * self.random.random() ** 0.6
             near = start * self.random.uniform(1.0, 1.3)
@@ -86,7 +86,7 @@ class Particles:
 
     def debris(self, ax: float, ay: float, bx: float, by: float, count: int) -> None:
         """Splinters along a line."""
-        for _ in range(min(count, MOST - len(self.particles))):
+        for _ in range(min(count, MAX_PARTICLES - len(self.particles))):
             t, a, far = self.random.random(), self.random.uniform(0, math.tau), self.random.uniform(20, 90)
             frames = shards(self.random.randrange(SHARDS), self.random.randrange(SPARK_TURNS))
             x, y, life = ax + (bx - ax) * t, ay + (by - ay) * t, self.random.uniform(0.5, 1.1)

@@ -9,7 +9,7 @@ from pigaming_app.ui.draw.sprites import Batch, put, step
 APART = 13.0  # px between two marks
 OVER = 10.0  # px, minimum distance to any mark: moving to and fro would draw crosses
 LASTS = 3.0  # s
-MOST = 30  # limit per robot
+MAX_MARKS = 30  # limit per robot
 
 
 class TreadMarks:
@@ -17,7 +17,7 @@ class TreadMarks:
 
     def __init__(self, player: int) -> None:
         self.player = player
-        self.marks: deque[tuple[float, float, float, int]] = deque(maxlen=MOST)
+        self.marks: deque[tuple[float, float, float, int]] = deque(maxlen=MAX_MARKS)
         self.last: tuple[float, float] | None = None
 
     def roll(self, x: float, y: float, heading: float, now: float) -> None:

@@ -12,7 +12,7 @@ from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.benchmark.race import BusyRace
-from pigaming_app.scenes.views.particles import MOST
+from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.scenes.views.race import hud_cards as race_cards
@@ -84,7 +84,7 @@ def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, sea
         if tick % 10 == 0:
             view.draw(screen, scene.state, 0.5, 0.2)
         assert digest(scene.state) == before
-        assert len(view.particles.particles) <= MOST
+        assert len(view.particles.particles) <= MAX_PARTICLES
 
 
 @pytest.mark.parametrize("track", arenas("race"))

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
-from pigaming_app.scenes.views.particles import MOST
+from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.pitanks.hud import layout
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.registry import VIEWS
@@ -44,7 +44,7 @@ def test_a_second_of_any_company_draws_and_leaves_the_match_alone(screen, teams)
         view.watch(scene.state)
         view.draw(screen, scene.state, 0.5, 0.02)
         assert digest(scene.state) == before
-    assert len(view.particles.particles) <= MOST
+    assert len(view.particles.particles) <= MAX_PARTICLES
 
 
 @pytest.mark.parametrize("power", range(len(POWERS)), ids=POWERS)

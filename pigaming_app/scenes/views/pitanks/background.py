@@ -28,33 +28,33 @@ class WalledBackground(Background):
     def show_walls(self, state: Any) -> None:
         """Bake the walls whose health has changed."""
         for i in range(state.wall_count):
-            one = state.walls[i]
-            if self.sprites[i] is None or one.health != self.health[i]:
-                before, now = self.sprites[i], wall_sprite(one, one.health)
-                self.health[i], self.sprites[i] = one.health, now
-                box = _box(one, now)
-                self._bake_walls(state, box.union(_box(one, before)) if before else box)
+            part = state.walls[i]
+            if self.sprites[i] is None or part.health != self.health[i]:
+                before, now = self.sprites[i], wall_sprite(part, part.health)
+                self.health[i], self.sprites[i] = part.health, now
+                box = _box(part, now)
+                self._bake_walls(state, box.union(_box(part, before)) if before else box)
 
     def _bake_walls(self, state: Any, box: pygame.Rect) -> None:
         self.surface.set_clip(box)
         self.surface.blit(self.bare, box, box)
-        for one, sprite in zip(state.walls, self.sprites, strict=False):
+        for part, sprite in zip(state.walls, self.sprites, strict=False):
             if sprite:
-                at = _box(one, sprite)
+                at = _box(part, sprite)
                 if at.colliderect(box):
                     self.surface.blit(sprite.image, at, special_flags=PRE)
         self.surface.set_clip(None)
 
 
-def wall_sprite(one: Any, health: int) -> Sprite:
+def wall_sprite(part: Any, health: int) -> Sprite:
     """Wall sprite for a given health."""
-    length = math.dist((one.ax, one.ay), (one.bx, one.by)) + 2 * one.half - 4
-    angle = math.atan2(one.by - one.ay, one.bx - one.ax)
-    return wall(length, 2 * one.half - 4, angle, health, int(one.ax * 7 + one.ay * 13 + one.bx), max(1, one.whole))
+    length = math.dist((part.ax, part.ay), (part.bx, part.by)) + 2 * part.half - 4
+    angle = math.atan2(part.by - part.ay, part.bx - part.ax)
+    return wall(length, 2 * part.half - 4, angle, health, int(part.ax * 7 + part.ay * 13 + part.bx), max(1, part.whole))
 
 
-def _box(one: Any, sprite: Sprite) -> pygame.Rect:
-    x, y = LEFT + (one.ax + one.bx) / 2, TOP + (one.ay + one.by) / 2
+def _box(part: Any, sprite: Sprite) -> pygame.Rect:
+    x, y = LEFT + (part.ax + part.bx) / 2, TOP + (part.ay + part.by) / 2
     return sprite.image.get_rect(topleft=(int(x + sprite.dx + 0.5), int(y + sprite.dy + 0.5)))
 
 

@@ -93,7 +93,7 @@ class PiTanksHud:
     def show(self, state: Any) -> list[SeatPanel]:
         """Bake changed parts; returns the panels whose points changed."""
         points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
-        totals = {one.team: sum(points[slot.seat] for slot in one.mates) for one in self.sums}
+        totals = {panel.team: sum(points[slot.seat] for slot in panel.mates) for panel in self.sums}
         ahead = _ahead(totals or points)
         changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
         self.points = points
@@ -101,10 +101,10 @@ class PiTanksHud:
             leads = slot.seat == ahead and not self.sums
             says = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
             self.parts.show(slot, says, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *says))
-        for one in self.sums:
-            total = totals[one.team], one.team == ahead
-            if self.parts.changed(one, total):
-                self._bake_sum(one, *total)
+        for panel in self.sums:
+            total = totals[panel.team], panel.team == ahead
+            if self.parts.changed(panel, total):
+                self._bake_sum(panel, *total)
         self.parts.countdown(state, 84)
         return changed
 
@@ -124,14 +124,14 @@ class PiTanksHud:
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]
 
-    def _bake_sum(self, one: TeamPanel, points: int, leads: bool) -> None:
+    def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")
         size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
-        bits: list[Bit] = [(sum_frame(leads, one is self.sums[1]), (one.x - EDGE, Y - EDGE), None)]
-        bits += number_bits(text, size, one.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
-        self.background.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
-        inner = one.x - 12 if one.x < 960 else one.x + SUM_W
-        gaps = [inner, *(slot.x + slot.w for slot in one.mates[:-1])]
+        bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
+        bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
+        self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
+        inner = panel.x - 12 if panel.x < 960 else panel.x + SUM_W
+        gaps = [inner, *(slot.x + slot.w for slot in panel.mates[:-1])]
         for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
             self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
 

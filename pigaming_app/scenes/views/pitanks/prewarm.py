@@ -49,9 +49,9 @@ def _numbers(seats: Sequence[int]) -> Iterator[Job]:
 
 def _walls(state: Any) -> Iterator[Job]:
     for i in range(state.wall_count):
-        one = state.walls[i]
-        for health in range(one.whole - 1, -1, -1):
-            yield partial(wall_sprite, one, health)
+        wall = state.walls[i]
+        for health in range(wall.whole - 1, -1, -1):
+            yield partial(wall_sprite, wall, health)
 
 
 def _hits(seats: Sequence[int]) -> Iterator[Job]:

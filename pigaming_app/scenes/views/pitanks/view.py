@@ -43,7 +43,7 @@ class PiTanksView(MatchView):
         self.flying = [0] * len(state.bullets)
         self.ahead(self.hud.jobs(state))
         self.ahead(jobs(state, self.seats))
-        self.marked = [slot.seat for one in self.hud.sums for slot in one.mates]
+        self.marked = [slot.seat for event in self.hud.sums for slot in event.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 
     def watch(self, state: PiTanks) -> list[Heard]:
@@ -54,9 +54,9 @@ class PiTanksView(MatchView):
             self.shots[i] = (bullet.x - bullet.vx * DT, bullet.y - bullet.vy * DT) if fresh else (was.x, was.y)
             self.flying[i] = bullet.alive
         events = self.detector.look(state)
-        for one in events:
-            if one.kind == "fire" and one.player is not None:
-                self.flashed[one.player] = self.particles.clock
+        for event in events:
+            if event.kind == "fire" and event.player is not None:
+                self.flashed[event.player] = self.particles.clock
         return react(events, state, self.particles, self.options)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:

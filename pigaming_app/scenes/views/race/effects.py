@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.particles import MOST, Particle, Particles
+from pigaming_app.scenes.views.particles import MAX_PARTICLES, Particle, Particles
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
@@ -89,9 +89,9 @@ def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
 def heard(events: Sequence[RaceEvent], state: Race) -> list[Heard]:
     """Sounds of the events: for each robot only the most important one."""
     loudest: dict[int, str] = {}
-    for one in events:
-        if one.kind in SOUNDS:
-            loudest[one.seat] = min(loudest.get(one.seat, one.kind), one.kind, key=BY_WEIGHT.index)
+    for event in events:
+        if event.kind in SOUNDS:
+            loudest[event.seat] = min(loudest.get(event.seat, event.kind), event.kind, key=BY_WEIGHT.index)
     return [(SOUNDS[kind], seat, state.robots[seat].x) for seat, kind in loudest.items()]
 
 
@@ -101,23 +101,23 @@ class RaceEffects:
     def __init__(self, particles: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
         self.particles, self.notes, self.options, self.words = particles, notes, options, words
 
-    def show(self, one: RaceEvent, state: Race, golden: Delta | None) -> None:
+    def show(self, event: RaceEvent, state: Race, golden: Delta | None) -> None:
         """Show one event; `golden`: the racer's difference to the best lap ever."""
-        particles, robot, racer = self.particles, state.robots[one.seat], state.racers[one.seat]
-        x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[one.seat]
-        match one.kind:
+        particles, robot, racer = self.particles, state.robots[event.seat], state.racers[event.seat]
+        x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[event.seat]
+        match event.kind:
             case "line":
-                particles.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
-                if int(one.number) != one.seat:
-                    self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
+                particles.burst(x, y, PLAYERS[int(event.number)], 10, 40, 50)
+                if int(event.number) != event.seat:
+                    self._difference(event.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
             case "lap" if not racer.finished:
-                self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), ICE)
+                self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), ICE)
             case "best":
                 if not racer.finished:
-                    self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), FOCUS)
+                    self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), FOCUS)
                 particles.burst(x, y, FOCUS, 16, 44, 80)
             case "last_lap" if self.words:
-                self._say(one.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
+                self._say(event.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
             case "missed" | "void":
                 particles.burst(x, y, ALARM, 12, 44, 60)
             case "mud":
@@ -129,7 +129,7 @@ class RaceEffects:
         """A cloud of chequered confetti."""
         particles = self.particles
         for tone in (color, WHITE):
-            for _ in range(min(22, MOST - len(particles.particles))):
+            for _ in range(min(22, MAX_PARTICLES - len(particles.particles))):
                 _fly(particles, x, y, 210.0, race_signs.confetti(tone, particles.random.randrange(4)), 1.3)
         particles.burst(x, y, FOCUS, 14, 46, 130)
         if self.options.flashes != "off":
@@ -155,7 +155,7 @@ class RaceEffects:
 
 def spray(particles: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
     """Clods thrown up behind the wheels."""
-    for _ in range(min(count, MOST - len(particles.particles))):
+    for _ in range(min(count, MAX_PARTICLES - len(particles.particles))):
         frames = race_signs.clods(particles.random.choice(race_signs.CLODS))
         _fly(particles, x, y, 70.0, frames, 0.6, heading, spread)
 

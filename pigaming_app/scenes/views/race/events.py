@@ -36,20 +36,19 @@ class RaceEventDetector:
     def __init__(self, state: Race) -> None:
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.order = self._running(state)
-        self.asked, self.since = self.order, state.tick
+        self.candidate, self.since = self.order, state.tick
         self._remember(state)
 
     def look(self, state: Race) -> list[RaceEvent]:
         """Events since the last call."""
-        found = [one for seat in self.seats for one in self._racer(state, seat)]
-        found += self._order(state)
+        events = [event for seat in self.seats for event in self._racer(state, seat)]
+        events += self._order(state)
         self._remember(state)
-        return found
+        return events
 
     def _remember(self, state: Race) -> None:
         self.racers = [
-            (one.passed, one.missed, one.void, one.wrong > SHOWN_FROM, one.place.on, one.finished, one.best_lap)
-            for one in state.racers
+            (r.passed, r.missed, r.void, r.wrong > SHOWN_FROM, r.place.on, r.finished, r.best_lap) for r in state.racers
         ]
 
     def _racer(self, state: Race, seat: int) -> list[RaceEvent]:
@@ -90,8 +89,8 @@ class RaceEventDetector:
     def _order(self, state: Race) -> list[RaceEvent]:
         """Accept a new order after it has held for SETTLE ticks, or when a robot finishes."""
         running = self._running(state)
-        if running != self.asked:
-            self.asked, self.since = running, state.tick
+        if running != self.candidate:
+            self.candidate, self.since = running, state.tick
         finished = any(state.racers[seat].finished > self.racers[seat][5] for seat in self.seats)
         if running == self.order or not (finished or state.tick - self.since >= SETTLE or state.over):
             return []

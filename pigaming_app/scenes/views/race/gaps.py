@@ -29,7 +29,7 @@ class Gaps:
         """Gap to the leader in s; after the finish, to the winner."""
         racer = state.racers[seat]
         if racer.finished:
-            first = min(one.finish for one in state.racers if one.finished)
+            first = min(other.finish for other in state.racers if other.finished)
             return (racer.finish - first) * DT
         return (len(self.reached) - 1 - bisect_left(self.reached, racer.progress)) * DT
 

@@ -30,7 +30,7 @@ class GhostRecorder:
     def watch(self, state: Race, events: Sequence[RaceEvent]) -> list[int]:
         """Record people's laps and compare them with the ghost; returns the seats with a new best lap ever."""
         new = []
-        for seat in (one.seat for one in events if one.kind == "line" and self._person(one.seat)):
+        for seat in (event.seat for event in events if event.kind == "line" and self._person(event.seat)):
             self._compare(state, seat)
             if state.racers[seat].passed % LINES == 1:
                 if self._best_ever(state, seat):

@@ -76,7 +76,7 @@ def ghost_of(line: int, seconds: float, crossed: Sequence[float], track: Sequenc
         (before, a), (after, b) = track[k], track[k + 1]
         x, y, heading = between(a, b, max(0.0, min(1.0, (at - before) / (after - before))))
         poses.append((round(x, 1), round(y, 1), round(heading, 3)))
-    return Ghost(line, round(seconds, 4), tuple(round(one, 4) for one in crossed), tuple(poses))
+    return Ghost(line, round(seconds, 4), tuple(round(time, 4) for time in crossed), tuple(poses))
 
 
 # ---- files
@@ -90,12 +90,12 @@ def file_of(folder: Path, arena: Arena) -> Path:
 
 def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
     """The ghost of a track, if any, and the reason if one was dropped: "old", "lost", else ""."""
-    found, said = read_or_restore(file_of(folder, arena), _parsed)
-    for line in said:
+    parsed, warnings = read_or_restore(file_of(folder, arena), _parsed)
+    for line in warnings:
         log.warning("%s", line)
-    if found is None:
-        return None, "lost" if said else ""
-    engine, ghost = found
+    if parsed is None:
+        return None, "lost" if warnings else ""
+    engine, ghost = parsed
     if drivable(ghost, arena) or engine == engine_hash():  # hashing the engine takes a tenth of a second
         return ghost, ""
     log.warning("%s: by today's rules no robot can drive this lap; it is not shown", file_of(folder, arena))
@@ -125,8 +125,8 @@ def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
     def save() -> None:
         try:
             write_with_backup(file_of(folder, arena), text)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
 
     thread = Thread(target=save, name="ghost")
     thread.start()
@@ -156,10 +156,10 @@ def _parsed(text: str) -> tuple[str, Ghost]:
     return engine, Ghost(line, lap, lines, tuple((x, y, heading) for x, y, heading in ways))
 
 
-def _numbers(found: Any, count: int, low: float, high: float) -> tuple[float, ...]:
+def _numbers(values: Any, count: int, low: float, high: float) -> tuple[float, ...]:
     """Validate `count` numbers between `low` and `high`. Raises ValueError."""
-    if not isinstance(found, list) or len(found) != count:
-        raise ValueError(f"{quote(found)} should be {count} numbers")
-    if not all(isinstance(one, int | float) and not isinstance(one, bool) and low <= one <= high for one in found):
-        raise ValueError(f"{quote(found)} are not all numbers from {low:g} to {high:g}")
-    return tuple(float(one) for one in found)
+    if not isinstance(values, list) or len(values) != count:
+        raise ValueError(f"{quote(values)} should be {count} numbers")
+    if not all(isinstance(v, int | float) and not isinstance(v, bool) and low <= v <= high for v in values):
+        raise ValueError(f"{quote(values)} are not all numbers from {low:g} to {high:g}")
+    return tuple(float(value) for value in values)

@@ -86,7 +86,7 @@ class RaceHud:
 
     def _card(self, state: Race, seat: int, place: int) -> RaceCard:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
-        went, when = self.moves.get(seat, (0, -MOVED))
+        direction, changed_at = self.moves.get(seat, (0, -MOVED))
         done = bool(racer.finished)
         share = racer.progress / (laps * state.course.length)
         return RaceCard(
@@ -101,7 +101,7 @@ class RaceHud:
             laps=laps,
             sign="" if done else "missed" if racer.missed else "wrong" if racer.wrong > SHOWN_FROM else "",
             missed=racer.missed - 1,
-            moved=went if state.tick - when < MOVED else 0,
+            moved=direction if state.tick - changed_at < MOVED else 0,
             done=done,
         )
 
@@ -122,7 +122,7 @@ def clock_bits(kind: str, seconds: int) -> list[Bit]:
 
 def _left(state: Race) -> int | None:
     """Seconds left for the unfinished robots, once one has finished."""
-    racing = any(robot.present and not one.finished for robot, one in zip(state.robots, state.racers, strict=True))
+    racing = any(robot.present and not racer.finished for robot, racer in zip(state.robots, state.racers, strict=True))
     if not state.first or not racing:
         return None
     return max(0, -(-(state.first + state.rules.patience - state.tick) // HZ))

@@ -46,11 +46,11 @@ def ribs(course: Course) -> tuple[Rib, ...]:
         )
         for i in range(n)
     ]
-    found = []
+    out = []
     for i in range(n):
         turn = (headings[(i + 1) % n] - headings[i - 1] + math.pi) % math.tau - math.pi
-        found.append(Rib(course.xs[i], course.ys[i], headings[i], course.half[i], turn / (2 * course.step)))
-    return tuple(found)
+        out.append(Rib(course.xs[i], course.ys[i], headings[i], course.half[i], turn / (2 * course.step)))
+    return tuple(out)
 
 
 def edge_point(rib: Rib, side: float, out: float = 0.0) -> Point:
@@ -120,9 +120,9 @@ def draw_arrows(ink: GlowCanvas, track: TrackPlan) -> None:
         gap = (track.lines[(i + 1) % len(track.lines)] - along) % course.length
         for share in (0.36, 0.72):
             for back in (0.0, 26.0):
-                here = along + share * gap - back
-                k, _ = segment_at(course, here % course.length)
-                x, y = point_at(course, here % course.length, 0.0)
+                position = along + share * gap - back
+                k, _ = segment_at(course, position % course.length)
+                x, y = point_at(course, position % course.length, 0.0)
                 c, s = math.cos(ribs(course)[k].heading), math.sin(ribs(course)[k].heading)
                 head = [(-12.0, -17.0), (0.0, 0.0), (-12.0, 17.0)]
                 ink.line([(x + a * c - b * s, y + a * s + b * c) for a, b in head], ARROWS, 6)

@@ -65,10 +65,10 @@ class RaceView(MatchView):
         events = self.detector.look(state)
         records = self.recorder.watch(state, events) if self.recorder else []
         golden = self.recorder.golden if self.recorder else {}
-        for one in events:
-            fresh = golden.get(one.seat)
-            self.reactions.show(one, state, fresh if fresh and fresh[1] == state.tick else None)
-            self._note(one, state)
+        for event in events:
+            fresh = golden.get(event.seat)
+            self.reactions.show(event, state, fresh if fresh and fresh[1] == state.tick else None)
+            self._note(event, state)
         for seat in records:
             self.reactions.record(LEFT + state.robots[seat].x, TOP + state.robots[seat].y)
         for seat in self.seats:
@@ -100,15 +100,15 @@ class RaceView(MatchView):
 
     # ---- inside
 
-    def _note(self, one: RaceEvent, state: Race) -> None:
+    def _note(self, event: RaceEvent, state: Race) -> None:
         """Update cards and signs after an event."""
-        if one.kind in ("up", "down"):
-            self.cards.moved(one.seat, one.kind == "up", state.tick)
+        if event.kind in ("up", "down"):
+            self.cards.moved(event.seat, event.kind == "up", state.tick)
             if self.options.flashes != "off":
-                x = self.cards.xs[int(one.number) - 1]
-                self.particles.bloom(x, Y, 0.4, race_cards.pulse(one.seat))
-        elif one.kind == "void":
-            self.voided[one.seat] = self.particles.clock
+                x = self.cards.xs[int(event.number) - 1]
+                self.particles.bloom(x, Y, 0.4, race_cards.pulse(event.seat))
+        elif event.kind == "void":
+            self.voided[event.seat] = self.particles.clock
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: Race, seat: int, pose: Pose) -> None:
         x, y, heading = pose
