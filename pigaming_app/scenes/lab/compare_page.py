@@ -125,12 +125,9 @@ class ComparePage:
         if self.exam.over:
             exam, self.exam = self.exam, None
             self.pairs.pop(0)
-            first.won, first.tied, first.lost = first.won + exam.wins, first.tied + exam.ties, first.lost + exam.losses
-            second.won, second.tied, second.lost = (
-                second.won + exam.losses,
-                second.tied + exam.ties,
-                second.lost + exam.wins,
-            )
+            for entrant, wins, losses in ((first, exam.wins, exam.losses), (second, exam.losses, exam.wins)):
+                entrant.won, entrant.lost = entrant.won + wins, entrant.lost + losses
+                entrant.tied += exam.ties
             if not self.pairs:
                 self.context.sounds.play("win")
 

@@ -90,13 +90,13 @@ class NamePage:
             box().draw(screen, x, MIDDLE)
         draw_letters(screen, self.picker, xs, MIDDLE, SIZE, 50, ICE)
         cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
-        line, color = self._said()
+        line, color = self._hint()
         text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
         self.prompts.draw(screen)
 
     # ---- inside
 
-    def _said(self) -> tuple[str, Color]:
+    def _hint(self) -> tuple[str, Color]:
         words = self.context.words
         if self.taken:
             return words("lab.taken", name=self.name), ALARM

@@ -43,16 +43,16 @@ class Progress:
         self.checkpoints: dict[int, Checkpoint] = {}
         self.moment = TrainingState(training.look(), 0, training.matches, knowing(training))
         self._exam: Evaluation | None = None
-        self._at = -1.0  # matches at the start of the last evaluation
-        self._when = self._seen = self._petal = perf_counter()
+        self._exam_start = -1.0  # matches at the start of the last evaluation
+        self._exam_time = self._last_frame = self._last_direction = perf_counter()
         self._sector = 0
-        self._mark()
+        self._save_checkpoint()
 
     def go_on(self, training: Training) -> None:
         """Continue with the same table in another implementation (compiled or interpreted)."""
         self.training = training
         if self._exam:
-            self._exam = self._examined(self._exam.kinds[0])
+            self._exam = self._evaluation(self._exam.kinds[0])
 
     @property
     def played(self) -> float:
@@ -69,17 +69,17 @@ class Progress:
             batch = min(ticks, left if left > 0 else whole)
             training.run(batch)
             ticks -= batch
-            self._mark()
+            self._save_checkpoint()
 
     def look(self, fast: bool) -> None:
         """Publish a frame and evaluate one direction of the rose, when due."""
         now = perf_counter()
-        if now - self._seen >= PICTURE[fast]:
-            self._seen = now
+        if now - self._last_frame >= PICTURE[fast]:
+            self._last_frame = now
             training = self.training
             self.moment = TrainingState(training.look(), self.moment.number + 1, training.matches, knowing(training))
-        if now - self._petal >= PETAL:
-            self._petal = now
+        if now - self._last_direction >= PETAL:
+            self._last_direction = now
             self.plan[self._sector] = direction(self.training.table, self._sector, self.training.recipe.cold)
             self._sector = (self._sector + 1) % PETALS
 
@@ -88,25 +88,26 @@ class Progress:
         if self._exam is None:
             played, now = self.played, perf_counter()
             grain = max(1.0, played / EXAMS_PER_CURVE)
-            if played - self._at >= grain or (played > self._at and now - self._when >= EXAM_INTERVAL):
-                self._at, self._when = played, now
-                self._exam = self._examined(self.training.checkpoint().kind)
+            since = played - self._exam_start
+            if since >= grain or (since > 0 and now - self._exam_time >= EXAM_INTERVAL):
+                self._exam_start, self._exam_time = played, now
+                self._exam = self._evaluation(self.training.checkpoint().kind)
         return self._exam
 
     def note(self) -> None:
         """Record the result of a finished evaluation."""
         if self._exam and self._exam.over:
-            self.measures = [*self.measures, Measure(self._at, self._exam.share)]
+            self.measures = [*self.measures, Measure(self._exam_start, self._exam.share)]
             self._exam = None
 
-    def _examined(self, learned: BrainKind) -> Evaluation:
+    def _evaluation(self, learned: BrainKind) -> Evaluation:
         """An evaluation against the hand-made robot."""
         training, handmade = self.training, BRAINS[GAME][HANDMADE]
         fast = training.fast
         minutes = min(MINUTES[fast], training.minutes)
         return Evaluation(learned, handmade, MATCHES[fast], EXAM_SEED, minutes, training.arena, fast)
 
-    def _mark(self) -> None:
+    def _save_checkpoint(self) -> None:
         """Save a checkpoint if one is due."""
         matches = self.training.matches
         if matches in CHECKPOINTS and matches not in self.checkpoints:

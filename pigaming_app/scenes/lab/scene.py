@@ -82,7 +82,7 @@ class Lab:
             case Button.X:
                 return self.play(event.device)
             case Button.Y:
-                self._hurry((self.trainer.speed + 1) % len(SPEEDS))
+                self._next_speed((self.trainer.speed + 1) % len(SPEEDS))
             case Button.START:
                 return self._menu()
             case Button.BACK:
@@ -166,7 +166,7 @@ class Lab:
         if chosen == "speed":
             at = event.at
             here = self.trainer.speed
-            self._hurry(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
+            self._next_speed(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
         elif chosen and event.at:
             self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
         elif chosen:
@@ -183,7 +183,7 @@ class Lab:
             self.context.sounds.play("set_down")
         return None
 
-    def _hurry(self, speed: int) -> None:
+    def _next_speed(self, speed: int) -> None:
         self.trainer.speed = speed
         self.context.sounds.play("move")
 

@@ -46,9 +46,9 @@ class Trainer:
         self.compiling = False
         self._lock = threading.Lock()  # guards the training
         self._thread: threading.Thread | None = None
-        self._fed = 0.0
+        self._last_feed = 0.0
         self._open = False
-        self._owed = 0.0  # ticks
+        self._backlog = 0.0  # ticks
 
     @property
     def moment(self) -> TrainingState:
@@ -61,9 +61,9 @@ class Trainer:
 
     def feed(self, seconds: float) -> None:
         """Called every frame, `seconds` after the last call: keep the training running."""
-        self._fed, self._open = monotonic(), True
+        self._last_feed, self._open = monotonic(), True
         if self.may_compile and (self._thread is None or not self._thread.is_alive()):
-            self._thread = threading.Thread(target=self._work, name="lab")
+            self._thread = threading.Thread(target=self._thread_main, name="lab")
             self._thread.start()
         if not self.training.fast and self._lock.acquire(blocking=False):
             try:
@@ -111,19 +111,19 @@ class Trainer:
     # ---- inside
 
     def _train(self, training: Training) -> None:
-        self.training, self._owed = training, 0.0
+        self.training, self._backlog = training, 0.0
         self.progress = Progress(training)
 
     @property
-    def _wanted(self) -> bool:
-        return self._open and monotonic() - self._fed < FEED_TIMEOUT
+    def _active(self) -> bool:
+        return self._open and monotonic() - self._last_feed < FEED_TIMEOUT
 
     def _due(self, seconds: float) -> int:
         """Ticks due after `seconds` of real time at one of the slower speeds."""
         factor = FACTORS[self.speed]
-        self._owed = min(self._owed + seconds * HZ * factor, MAX_BACKLOG * factor)
-        ticks = int(self._owed)
-        self._owed -= ticks
+        self._backlog = min(self._backlog + seconds * HZ * factor, MAX_BACKLOG * factor)
+        ticks = int(self._backlog)
+        self._backlog -= ticks
         return ticks
 
     def _slice(self, seconds: float) -> None:
@@ -145,27 +145,27 @@ class Trainer:
         if self.training.recipe != self.recipe:
             self.training.recipe = self.recipe
 
-    def _work(self) -> None:
+    def _thread_main(self) -> None:
         """Thread body: compile, then train until no longer fed."""
         before = sys.getswitchinterval()
         sys.setswitchinterval(SWITCH)
         try:
-            if self.training.fast or self._get_ready():
+            if self.training.fast or self._load_compiled():
                 self._run()
         except Exception:
             log.exception("the Lab goes on without compiled training")
             self.may_compile = False
-            self._hand_over(fast=False)
+            self._switch_to(fast=False)
         finally:
             sys.setswitchinterval(before)
 
-    def _get_ready(self) -> bool:
+    def _load_compiled(self) -> bool:
         """Wait for the compiler, load its output and take over the training; False if no longer fed."""
         self.compiling = True
         try:
             self._compiler.start()
             while (code := self._compiler.code) is None:
-                if not self._wanted:
+                if not self._active:
                     return False
                 sleep(0.05)
             if code:
@@ -173,12 +173,12 @@ class Trainer:
             with heap.uncollected():  # a collection over numba's objects takes up to 100 ms and would stall a frame
                 compile_all()
                 gc.freeze()  # they stay loaded
-            self._hand_over(fast=True)
+            self._switch_to(fast=True)
             return True
         finally:
             self.compiling = False
 
-    def _hand_over(self, fast: bool) -> None:
+    def _switch_to(self, fast: bool) -> None:
         """Continue with the same table, compiled or interpreted."""
         with self._lock:
             old = self.training
@@ -188,7 +188,7 @@ class Trainer:
 
     def _run(self) -> None:
         last = perf_counter()
-        while self._wanted:
+        while self._active:
             now = perf_counter()
             with self._lock:
                 self._follow_recipe()

@@ -141,7 +141,7 @@ def ground(language: str) -> Steps[pygame.Surface]:
     title = words("lab.title")
     canvas.text(title, TITLE, LEFT, TITLE_Y, ICE)
     yield
-    _saying(canvas, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
+    _subtitle(canvas, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
     yield
     canvas.glow.line(outline(MATCH, 20), WALL, THIN, True)
     yield
@@ -152,8 +152,8 @@ def ground(language: str) -> Steps[pygame.Surface]:
     for box in (KNOBS, CURVE, PLAN):
         panel(canvas.glow, *box)
     yield
-    _named(canvas, words("lab.likes"), KNOBS)
-    _named(canvas, words("lab.wins"), CURVE)
+    _caption(canvas, words("lab.likes"), KNOBS)
+    _caption(canvas, words("lab.wins"), CURVE)
     canvas.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
     canvas.crisp.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
     yield
@@ -166,11 +166,11 @@ def ground(language: str) -> Steps[pygame.Surface]:
     return out
 
 
-def _named(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
+def _caption(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
     canvas.body(name, box.left + 32, box.top + 40, ICE, "l", fit_size(name, BODY + 4, box.w - 64, "body"))
 
 
-def _saying(canvas: LayeredCanvas, label: str, x: float) -> None:
+def _subtitle(canvas: LayeredCanvas, label: str, x: float) -> None:
     """Subtitle in two lines beside the title, if it fits."""
     lines = wrap_balanced(label, 2)
     if all(text_width(line, BODY, "body") <= MATCH.right - x for line in lines):

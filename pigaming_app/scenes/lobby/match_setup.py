@@ -101,7 +101,7 @@ class MatchSetupPage:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("setup.title")).draw(screen)
-        choice.lineup(self._signs()).draw(screen, RIGHT, 112)
+        choice.lineup(self._lineup()).draw(screen, RIGHT, 112)
         black_out(screen, FRAME, *self.rows.values())
         self._picture(screen)
         for name, box in self.rows.items():
@@ -114,7 +114,7 @@ class MatchSetupPage:
     # ---- inside
 
     def _go(self) -> Turn:
-        self._keep()
+        self._save_selection()
         self.context.sounds.play("accept")
         self.going = True
         return self._begin()
@@ -137,7 +137,7 @@ class MatchSetupPage:
         seats, minutes = self.seats.seats(), float(now.minutes)
         return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
-    def _keep(self) -> None:
+    def _save_selection(self) -> None:
         """Save the selection for the next match."""
         try:
             self.context.settings.save(folders().config)
@@ -207,7 +207,7 @@ class MatchSetupPage:
         if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
-    def _signs(self) -> tuple[tuple[int, str], ...]:
+    def _lineup(self) -> tuple[tuple[int, str], ...]:
         """(seat, driver icon) of every occupied seat."""
         kinds = ((i, place) for i, place in enumerate(self.seats.places) if place.kind != EMPTY)
         signs = {"pad": "pad", "keys": "keys"}
@@ -223,7 +223,7 @@ class MatchSetupPage:
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
         starts = begins(self.game.name, self.chosen.arena, self.seats.seats())
-        for i, _ in self._signs():
+        for i, _ in self._lineup():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
                 wave = effects.wave(PLAYERS[i], stage)

@@ -30,7 +30,7 @@ FEW = 4  # chips that fit at full width
 def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
     """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
     high = 236 if line else 140
-    layer = _named(name, high)
+    layer = _layer(name, high)
     layer.canvas.body(note, W - PAD, 38, MIST, "r")
     size = fit_size(value, LABEL, W - 2 * PAD - 100)
     layer.canvas.text(value, size, W / 2, 94, ICE, "head", "c")
@@ -46,7 +46,7 @@ def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
 @cached
 def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
     """All values side by side, the selected one lit; top left at (0, 0)."""
-    layer = _named(name, 140)
+    layer = _layer(name, 140)
     wide, pitch = chip_size(len(values))
     for i, label in enumerate(values):
         x, on = PAD + i * pitch, label == value
@@ -127,7 +127,7 @@ def focus_outline(high: int) -> LitImage:
     return layer.done()
 
 
-def _named(name: str, high: int) -> Layer:
+def _layer(name: str, high: int) -> Layer:
     layer = Layer(0, 0, W, high)
     layer.glow.line(cut_box(0, 0, W, high, 16), STEEL, THIN, True)
     layer.canvas.body(name, PAD, 38, MIST)

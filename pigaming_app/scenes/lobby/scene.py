@@ -69,8 +69,8 @@ class Lobby:
         mapped = self.page.prompts.as_button(event)
         admitted = self.access.admit(mapped)
         if admitted is None:
-            self._knock(mapped)
-            self._watch()
+            self._try_join(mapped)
+            self._update_countdown()
             return None
         event, device = admitted, admitted.device
         match event.button:
@@ -83,19 +83,19 @@ class Lobby:
             case Button.LEAVE_SEAT:
                 self._leave(device)
             case Button.Y:
-                self._ais()
+                self._add_ai()
             case Button.X if self.seats.team_mode == FREE:
                 self.seats.teams = not self.seats.teams
                 self.context.sounds.play("move")
             case Button.LEFT | Button.RIGHT | Button.UP | Button.DOWN:
-                self._steer(device, event.button)
+                self._direct(device, event.button)
             case Button.LOST:
                 self._unplugged(device)
             case Button.POINT | Button.CLICK:
                 self._mouse(event)
             case _:
                 pass
-        self._watch()
+        self._update_countdown()
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -109,7 +109,7 @@ class Lobby:
             self.now.starting -= seconds
             if self.now.starting <= 0.0:
                 return self._go()
-        self._make_ahead()
+        self._prewarm()
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -117,7 +117,7 @@ class Lobby:
         if self.now.pointer_left > 0.0:
             self.focus.draw(screen)
 
-    def _make_ahead(self) -> None:
+    def _prewarm(self) -> None:
         """Prewarm while people choose: first this page, then the sprites of the match."""
         if not self.ahead.work(PREWARM_MS):
             return
@@ -131,7 +131,7 @@ class Lobby:
 
     # ---- what presses do
 
-    def _knock(self, event: InputEvent) -> None:
+    def _try_join(self, event: InputEvent) -> None:
         """Handle a free device while others are seated: join, or show which of its buttons joins."""
         if event.button in (Button.FIRE, Button.START):
             self._fire(event.device)
@@ -185,7 +185,7 @@ class Lobby:
             self.seats.places[seat].ready = False
         else:
             self.seats.leave(seat)
-        self._watch()
+        self._update_countdown()
         return None
 
     def _leave(self, device: Device) -> None:
@@ -194,7 +194,7 @@ class Lobby:
             self.seats.leave(seat)
             self.context.sounds.play("back")
 
-    def _ais(self) -> None:
+    def _add_ai(self) -> None:
         """Add one AI; remove all if every seat is taken."""
         seat = self.seats.add()
         if seat is None:
@@ -204,7 +204,7 @@ class Lobby:
             self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
-    def _steer(self, device: Device, act: Button) -> None:
+    def _direct(self, device: Device, act: Button) -> None:
         """Left and right select the device's own team if teams are on, up and down its robot if a mat is present; the
         remaining directions set the strength of the AIs.
         """
@@ -215,10 +215,10 @@ class Lobby:
         if self.seats.teams and seat is not None and act in (Button.LEFT, Button.RIGHT):
             self._change_team(seat)
         elif self.seats.strengthen(1 if act in (Button.RIGHT, Button.UP) else -1):
-            self._remember()
+            self._save_strength()
             self.context.sounds.play("move")
 
-    def _remember(self) -> None:
+    def _save_strength(self) -> None:
         """Save the AI strength as the default of the next lobby, unless only this game offers it."""
         if self.seats.strength in STRENGTHS:
             self.context.settings.strength = self.seats.strength
@@ -256,7 +256,7 @@ class Lobby:
             self._swap(seat)
         elif what in ("weaker", "stronger"):
             self.seats.strengthen(1 if what == "stronger" else -1, seat)
-            self._remember()
+            self._save_strength()
             self.context.sounds.play("move")
         elif kind == AI:
             self.seats.leave(seat)
@@ -269,7 +269,7 @@ class Lobby:
             self.seats.places[seat].ready = not self.seats.places[seat].ready
             self.context.sounds.play("ready", seat)
 
-    def _watch(self) -> None:
+    def _update_countdown(self) -> None:
         """Start the countdown when all are ready, cancel it otherwise."""
         self.focus.place(spots(self.seats))
         alone = len(self.seats.like(HUMAN)) == 1

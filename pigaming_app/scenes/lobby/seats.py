@@ -96,7 +96,7 @@ class Seats:
         if seat is None:
             seat = next(iter(reversed(self.like(AI))), None)
         if seat is not None:
-            self.places[seat] = SeatState(HUMAN, device, team=self._wanted(seat), real=self.places[seat].real)
+            self.places[seat] = SeatState(HUMAN, device, team=self._smaller_team(seat), real=self.places[seat].real)
         return seat
 
     def seat(self, seat: int, driver: Device | str) -> None:
@@ -104,7 +104,7 @@ class Seats:
         place = (
             SeatState(HUMAN, driver) if isinstance(driver, Device) else SeatState(AI, strength=self._strength(driver))
         )
-        self.places[seat] = replace(place, team=self._wanted(seat), real=self.places[seat].real)
+        self.places[seat] = replace(place, team=self._smaller_team(seat), real=self.places[seat].real)
 
     def leave(self, seat: int) -> None:
         self.places[seat] = SeatState(team=self.places[seat].team, real=self.places[seat].real)
@@ -114,7 +114,7 @@ class Seats:
         seat = next(iter(self.like(EMPTY)), None) if seat is None else seat
         if seat is not None:
             real = self.places[seat].real
-            self.places[seat] = SeatState(AI, strength=self.strength, team=self._wanted(seat), real=real)
+            self.places[seat] = SeatState(AI, strength=self.strength, team=self._smaller_team(seat), real=real)
         return seat
 
     def clear(self) -> None:
@@ -161,7 +161,7 @@ class Seats:
         if self.team_mode == PAIRS and len(mates) > 1:
             sorted(mates, key=lambda mate: mate.kind == AI)[-1].team = 1 - place.team
 
-    def _wanted(self, seat: int) -> int:
+    def _smaller_team(self, seat: int) -> int:
         """The team with fewer robots; the seat's current one if equal."""
         others = [place.team for i, place in enumerate(self.places) if place.kind != EMPTY and i != seat]
         more = others.count(0) - others.count(1)

@@ -102,7 +102,7 @@ class Initials:
         self.context, self.setup, self.claims = context, setup, sorted(claims, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
-        self.ahead = PrewarmQueue(self._ahead())
+        self.ahead = PrewarmQueue(self._prewarm_jobs())
 
     def warm(self) -> None:
         """Prewarm one widget of the page, to avoid one long frame."""
@@ -113,7 +113,7 @@ class Initials:
 
     def on(self, event: InputEvent) -> Turn:
         """Each player's input changes only their own letters."""
-        device = self._meant(event)
+        device = self._device_of(event)
         if self.age < DEAF or device is None:
             return None
         if sound := self.spellings[device].on(event.button):
@@ -140,7 +140,7 @@ class Initials:
 
     # ---- inside
 
-    def _meant(self, event: InputEvent) -> Device | None:
+    def _device_of(self, event: InputEvent) -> Device | None:
         """The device whose letters an event controls; None for a key shared by two players on one keyboard."""
         if not event.among:
             return event.device if event.device in self.spellings else None
@@ -164,7 +164,7 @@ class Initials:
     def _frame(self, claim: Claim, done: bool) -> LitImage:
         return page.frame(claim.seat, self.context.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
 
-    def _ahead(self) -> Iterator[Callable[[], object]]:
+    def _prewarm_jobs(self) -> Iterator[Callable[[], object]]:
         words = self.context.words
         yield partial(heading, words("results.high_score"), color=FOCUS)
         for done in (False, True):

@@ -78,7 +78,7 @@ class ResultsPage:
         self.parts: list[Part] = []
         self.plot: Plot
         self.finale: Celebration | None = None
-        self._making = self._make()
+        self._rendering = self._render_parts()
 
     def warm(self, milliseconds: float) -> bool:
         """Render widgets for at most this many milliseconds; True when all are ready."""
@@ -136,10 +136,10 @@ class ResultsPage:
 
     def _finish(self) -> None:
         """Render the remaining widgets. Raises Unfinished if the frame budget is exhausted."""
-        for _ in self._making:
+        for _ in self._rendering:
             budget.pause()
 
-    def _make(self) -> Iterator[bool]:
+    def _render_parts(self) -> Iterator[bool]:
         """Render one widget per step."""
         self.colored = line(self._color(), RIGHT - LEFT if self.winners else SHORT)
         self.steel = line(STEEL, RIGHT - LEFT, THIN)

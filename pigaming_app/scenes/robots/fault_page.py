@@ -80,7 +80,7 @@ class FaultPage:
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
         controls = self.context.controls
-        firing = safety.stopped and any(controls.drive(device).fire for device in self._releasing())
+        firing = safety.stopped and any(controls.drive(device).fire for device in self._stoppers())
         self.held = self.held + seconds if firing else 0.0
         if self.held >= HOLD:
             safety.release()
@@ -109,12 +109,11 @@ class FaultPage:
 
     # ---- inside
 
-    def _releasing(self) -> list[Device]:
+    def _stoppers(self) -> list[Device]:
         """Devices whose FIRE releases the stop: the seated ones and the one that pressed it."""
         players, stopper = self.context.controls.players(), self.stopper
-        stoppers = [
-            device for device in players if device == stopper or (stopper and device.kind == stopper.kind == "keys")
-        ]
+        by_keys = stopper is not None and stopper.kind == "keys"
+        stoppers = [device for device in players if device == stopper or (by_keys and device.kind == "keys")]
         return [*self.match.access.seated, *stoppers] or players
 
     def _simulate(self) -> None:

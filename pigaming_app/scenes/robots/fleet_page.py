@@ -77,7 +77,7 @@ class FleetPage:
 
     def on(self, event: InputEvent) -> Turn:
         """Up and down select, left and right change, FIRE runs; while robots move, any input stops them."""
-        event = self.navigation.prompts.as_button(self._on_sheet(event))
+        event = self.navigation.prompts.as_button(self._to_sheet(event))
         if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
             self.check.stop()
             self.navigation.say(self.context.words("fleet.stopped"))
@@ -88,7 +88,7 @@ class FleetPage:
         if by := dials.step_of(event, self.focus, self._value(name)):
             self._change(name, by, False)
         elif self.focus.chosen(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
-            self._do(name)
+            self._run(name)
         return None
 
     def update(self, seconds: float) -> Turn:
@@ -105,7 +105,7 @@ class FleetPage:
         self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
             if pairing:
-                self._found()
+                self._report_pairing()
             else:
                 self.navigation.say(words("fleet.measured" if self.check.late else "fleet.nobody"))
             self.context.sounds.play("accept")
@@ -147,13 +147,13 @@ class FleetPage:
             pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
             pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
         ]
-        return [*boxes, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else boxes
+        return [*boxes, pygame.Rect(150, 866, 1620, 84)] if self._message() else boxes
 
-    def _sentence(self) -> str:
+    def _message(self) -> str:
         """Fault, or result of the last action."""
-        return self._trouble() or self.navigation.sentence
+        return self._fault() or self.navigation.sentence
 
-    def _on_sheet(self, event: InputEvent) -> InputEvent:
+    def _to_sheet(self, event: InputEvent) -> InputEvent:
         """Map a mouse event from the canvas to the sheet."""
         return replace(event, at=self.aside.back(event.at)) if event.at else event
 
@@ -172,7 +172,7 @@ class FleetPage:
         told = words("fleet.moving", robot=moving + 1) if moving is not None else self._line()
         for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
             line.draw(screen, dials.PANEL.x + 30, LINE_Y + LINE_PITCH * i)
-        sentence = self._sentence()
+        sentence = self._message()
         for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
             line.draw(screen, 960, 896 + 44 * i)
         self.navigation.prompts.draw(screen)
@@ -191,7 +191,7 @@ class FleetPage:
             return words.sentence(check.refusal) if check.refusal else words("fleet.no_camera")
         return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
 
-    def _trouble(self) -> str | None:
+    def _fault(self) -> str | None:
         """Fault message of camera or radio."""
         message = self.check.session.trouble
         return self.context.words.sentence(message) if message else None
@@ -252,7 +252,7 @@ class FleetPage:
             log.warning("%s", error)
             self.navigation.say(self.context.words("app.unsaved"))
 
-    def _do(self, name: str) -> None:
+    def _run(self, name: str) -> None:
         """Run a row's action, or step its value."""
         if name not in EMULATED:
             self._change(name, 1, True)
@@ -262,7 +262,7 @@ class FleetPage:
         if not begun:
             self.navigation.say(self.context.words("fleet.nobody"))
 
-    def _found(self) -> None:
+    def _report_pairing(self) -> None:
         """Report the result of the pairing."""
         words, finding = self.context.words, worst(self.check.findings)
         if finding is None:

@@ -48,10 +48,10 @@ class FleetState:
     shake: LatencyTest | None = None
 
     def __post_init__(self) -> None:
-        self._pace = FixedTimestep()
+        self._timestep = FixedTimestep()
         self._todo: list[int] = []  # robots still to be measured
         self._next_job: Callable[[], bool] | None = None  # job that starts once all robots are seen
-        self._looked = 0.0  # s spent searching
+        self._searched = 0.0  # s spent searching
         self._counted, self._pictures, self._newest = 0.0, 0, 0.0
 
     def begin(self) -> None:
@@ -110,12 +110,12 @@ class FleetState:
         if self.rig is None:
             return False
         self._count(self.rig, seconds)
-        self._looked += seconds
+        self._searched += seconds
         done = False
-        if self._next_job is not None and (self._looked > LOOKS or not self.looking):
+        if self._next_job is not None and (self._searched > LOOKS or not self.looking):
             begin, self._next_job = self._next_job, None
             done = not begin()
-        for _ in range(self._pace.due(seconds)):
+        for _ in range(self._timestep.due(seconds)):
             if self.pairing is not None:
                 done = self._pair_on(self.rig, self.pairing) or done
             elif self.shake is not None:
@@ -142,7 +142,7 @@ class FleetState:
     def _search(self, job: Callable[[], bool]) -> bool:
         if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):
             return False
-        self._next_job, self._looked = job, 0.0
+        self._next_job, self._searched = job, 0.0
         return True
 
     def _pair(self) -> bool:

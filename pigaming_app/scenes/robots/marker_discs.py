@@ -38,9 +38,9 @@ class MarkerDiscs:
     def circles(self, robots: set[int]) -> list[tuple[float, float, float]]:
         """Centres and radii of the areas covered by the light of these robots: rings, arrows, tags; canvas px."""
         areas = []
-        for _, at in self._there(robots):
+        for _, at in self._visible(robots):
             x, y = LEFT + at.x, TOP + at.y
-            dx, dy = _behind(at)
+            dx, dy = _tag_offset(at)
             areas += [
                 (x, y, RING + 12.0),
                 (x + ARM * math.cos(at.heading), y + ARM * math.sin(at.heading), TIP + 18.0 - ARM),
@@ -50,12 +50,12 @@ class MarkerDiscs:
 
     def draw(self, screen: pygame.Surface, robots: set[int]) -> None:
         """Draw the discs of the visible robots: all surrounding light first, then the discs."""
-        visible = self._there(robots)
+        visible = self._visible(robots)
         for robot, at in visible:
             x, y = LEFT + at.x, TOP + at.y
             for sprite, dx, dy in (
                 (pointer(robot, step(at.heading, HEADINGS)), 0.0, 0.0),
-                (tag(robot), *_behind(at)),
+                (tag(robot), *_tag_offset(at)),
                 (ring(robot), 0.0, 0.0),
             ):
                 place = round(x + dx + sprite.dx), round(y + dy + sprite.dy)
@@ -64,13 +64,13 @@ class MarkerDiscs:
             for _, at in visible:
                 screen.blit(disc(r, color), (round(LEFT + at.x) - r, round(TOP + at.y) - r))
 
-    def _there(self, robots: set[int]) -> list[tuple[int, Sighting]]:
+    def _visible(self, robots: set[int]) -> list[tuple[int, Sighting]]:
         """The visible robots with their predicted poses."""
         seen = self.rig.sense(LIGHT_AFTER)
         return [(robot, seen[robot]) for robot in sorted(robots) if seen[robot].age < KNOWN + LIGHT_AFTER]
 
 
-def _behind(at: Sighting) -> tuple[float, float]:
+def _tag_offset(at: Sighting) -> tuple[float, float]:
     """Offset of the tag: behind the robot, or beside it where that would leave the arena."""
     for turn in (math.pi, 0.75 * math.pi, 1.25 * math.pi, 0.5 * math.pi, 1.5 * math.pi):
         dx, dy = TAG * math.cos(at.heading + turn), TAG * math.sin(at.heading + turn)

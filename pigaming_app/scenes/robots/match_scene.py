@@ -68,7 +68,7 @@ class RealMatch(MatchScene):
         self.gone = False  # rig released
         self.waiting = FixedTimestep()  # clock while the match waits
         self.logged: set[tuple[str, int | None]] = set()
-        self._dressed()
+        self._mark_real()
 
     @property
     def real(self) -> set[int]:
@@ -120,13 +120,13 @@ class RealMatch(MatchScene):
             return super().update(seconds)
         seconds = self.session.advance(seconds)
         if self.gathering is not None:
-            return self._gather(self.gathering, seconds)
+            return self._take_places(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
             return Push(FaultPage(self))
         if self.count.locked or self.match.over:
-            self._rest(seconds)
+            self._stand_still(seconds)
         turn = super().update(seconds)
-        self._tell()
+        self._report_faults()
         return turn
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -154,7 +154,7 @@ class RealMatch(MatchScene):
 
     def hold(self, seconds: float) -> None:
         """Advance below a page: all robots stand still, faults are updated."""
-        self._rest(self.session.advance(seconds))
+        self._stand_still(self.session.advance(seconds))
 
     def shine(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
@@ -176,7 +176,7 @@ class RealMatch(MatchScene):
         self.plant.swap(seat, real)
         if self.plant.arriving:
             self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.voice)
-        self._dressed()
+        self._mark_real()
 
     def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """A rematch with a new seed and the same robots."""
@@ -185,7 +185,7 @@ class RealMatch(MatchScene):
 
     # ---- inside
 
-    def _gather(self, gathering: TakePlaces, seconds: float) -> Turn:
+    def _take_places(self, gathering: TakePlaces, seconds: float) -> Turn:
         """Drive the robots to their start positions."""
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
@@ -199,7 +199,7 @@ class RealMatch(MatchScene):
             if self.plant.take_places():
                 self._begin()
                 break
-        self._tell()
+        self._report_faults()
         if self.plant.safety.stopped or self.plant.safety.lasting:
             return Push(FaultPage(self))
         return Home() if self.context.idle > IDLE else None
@@ -216,22 +216,22 @@ class RealMatch(MatchScene):
         self.count = Countdown(lead=LEAD)
         self.idle = 0.0
         self.context.sounds.play("ready", 0)
-        self._dressed()
+        self._mark_real()
 
-    def _rest(self, seconds: float) -> None:
+    def _stand_still(self, seconds: float) -> None:
         """Keep all robots still."""
         for _ in range(self.waiting.due(seconds)):
             self.plant.watch()
-        self._tell()
+        self._report_faults()
 
-    def _dressed(self) -> None:
+    def _mark_real(self) -> None:
         """Update view and tracker with the set of real robots."""
         self.runner.view.real = frozenset(self.real)
         self.plant.rig.tracker.expected = self.real
 
-    def _tell(self) -> None:
+    def _report_faults(self) -> None:
         """Log new faults; show the minor ones over the match."""
-        now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
+        now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._reportable(fault)}
         for key in now.keys() - self.logged:
             cause = cause_of(self.plant.rig, now[key].name)
             sentences = [fault_sentence(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
@@ -241,6 +241,6 @@ class RealMatch(MatchScene):
                 self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE
         self.logged = set(now)
 
-    def _worth(self, fault: Fault) -> bool:
+    def _reportable(self, fault: Fault) -> bool:
         """False for a robot that is only briefly hard to see."""
         return fault.does is not Response.HALF and (fault.pauses or fault.name in REPORTED_ONLY)

@@ -47,7 +47,7 @@ class RobotsMenu:
         if turn := self.navigation.on(event):
             return turn
         chosen = self.focus.chosen(event)
-        return self._do(chosen) if chosen else None
+        return self._run(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
         return self.navigation.update(seconds)
@@ -69,7 +69,7 @@ class RobotsMenu:
                 line.draw(screen, 960, 900 + 44 * i)
         self.navigation.prompts.draw(screen)
 
-    def _do(self, name: str) -> Turn:
+    def _run(self, name: str) -> Turn:
         from pigaming_app.scenes.calibration.corner_pin_page import CornerPinPage
         from pigaming_app.scenes.calibration.drift_page import DriftPage
         from pigaming_app.scenes.calibration.setup_page import CalibrationPage

@@ -62,7 +62,7 @@ class PairAgain:
             if self.pairing is None:
                 self.match.plant.watch()
             elif not self.sentence and self.pairing.tick():
-                return self._found(self.pairing)
+                return self._apply(self.pairing)
         if self.pairing is None and (self.clock > LOOKS or not self.missing):
             self.pairing = Pairing(self.match.plant.rig)
         return None
@@ -88,7 +88,7 @@ class PairAgain:
         seen = self.match.plant.rig.sense()
         return [robot for robot in sorted(self.match.real) if seen[robot].age > UNSEEN]
 
-    def _found(self, pairing: Pairing) -> Turn:
+    def _apply(self, pairing: Pairing) -> Turn:
         """Apply the result; close if there is no fault."""
         turned = [finding.marker for finding in pairing.findings if finding.case in GOOD and finding.marker is not None]
         self.match.paired(pairing.channels, turned)

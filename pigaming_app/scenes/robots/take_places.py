@@ -88,9 +88,9 @@ class TakePlaces:
         for place in places:
             self._outline(screen, place)
             if not place.there and place.distance < UNSEEN:
-                self._way(screen, place, (LEFT + seen[place.robot].x, TOP + seen[place.robot].y))
+                self._draw_path(screen, place, (LEFT + seen[place.robot].x, TOP + seen[place.robot].y))
         for place in places:
-            self._said(screen, place)
+            self._caption(screen, place)
         there = sum(place.there for place in places)
         text(words("mat.places"), LABEL, ICE, "head", "l", 900).draw(screen, 176, TITLE_Y)
         if places:
@@ -117,7 +117,7 @@ class TakePlaces:
         if place.distance > 2 * MOAT:
             blit_sprite(screen, tag(color), LEFT + x, TOP + y)
 
-    def _way(self, screen: pygame.Surface, place: HomingProgress, at: tuple[float, float]) -> None:
+    def _draw_path(self, screen: pygame.Surface, place: HomingProgress, at: tuple[float, float]) -> None:
         """Draw moving dashes from a robot to its place."""
         goal = LEFT + place.pose[0], TOP + place.pose[1]
         turn = math.atan2(goal[1] - at[1], goal[0] - at[0])
@@ -131,7 +131,7 @@ class TakePlaces:
             )
             along += DASH
 
-    def _said(self, screen: pygame.Surface, place: HomingProgress) -> None:
+    def _caption(self, screen: pygame.Surface, place: HomingProgress) -> None:
         """Caption with the manual action for a robot that cannot drive there itself."""
         words, robot = self.context.words, place.robot
         if place.there or place.moving or self.clock < MISSING:

@@ -131,7 +131,7 @@ def test_where_compiled_training_breaks_plain_training_goes_on_with_the_same_tab
     def broken(self: Trainer) -> None:
         raise MemoryError("no more")
 
-    shop._hand_over(fast=True)
+    shop._switch_to(fast=True)
     table = shop.training.experiences
     monkeypatch.setattr(Trainer, "_run", broken)
     shop.may_compile = True

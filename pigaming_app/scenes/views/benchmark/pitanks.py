@@ -56,7 +56,7 @@ class BusyPiTanks:
         self._shoot()
         if state.tick % 15 == 0:
             self._hit()
-        self._lie_about()
+        self._scatter_items()
 
     def _shoot(self) -> None:
         state = self.state
@@ -87,7 +87,7 @@ class BusyPiTanks:
         if standing:
             self.random.choice(standing).health -= 1
 
-    def _lie_about(self) -> None:
+    def _scatter_items(self) -> None:
         state = self.state
         for i in range(PICKUPS):
             pickup = state.pickups[i]

@@ -32,7 +32,7 @@ def bare(floor: Floor) -> Steps[pygame.Surface]:
     yield
     yield from draw_floor((page.glow, page.crisp), floor)
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _beside((page.glow, page.crisp), floor.slots[first : first + SHELVES])
+        _draw_storage((page.glow, page.crisp), floor.slots[first : first + SHELVES])
     page.glow.line(cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
     yield
     return (yield from page.lighting())
@@ -111,7 +111,7 @@ def _machine(canvases: Inks, floor: Floor, m: int, kind: int, x: float, y: float
         crisp.fill([(cx + u * c - v * s, cy + u * s + v * c) for u, v in ((8, 0), (-6, 13), (-6, -13))], WALL)
 
 
-def _beside(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
+def _draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
     """Draw a shelf or lorry beside a warehouse, outside the arena, with the direction of the pallets."""
     glow, _ = canvases
     color, entry = TEAMS[slots[0].team], slots[0].kind == ENTRY

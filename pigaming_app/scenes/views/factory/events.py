@@ -22,15 +22,15 @@ class FactoryEventDetector:
     """Keeps the previous tick of one match."""
 
     def __init__(self, state: Factory) -> None:
-        self._remember(state)
+        self._store(state)
 
     def look(self, state: Factory) -> list[FactoryEvent]:
         """Events since the last call."""
         found = [*self._robots(state), *self._pallets(state)]
-        self._remember(state)
+        self._store(state)
         return found
 
-    def _remember(self, state: Factory) -> None:
+    def _store(self, state: Factory) -> None:
         self.loads = [(load.pallet, load.refused, load.frozen) for load in state.loads]
         self.pallets = [(one.state, one.place, one.at) for one in state.pallets]
 

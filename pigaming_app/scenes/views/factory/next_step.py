@@ -61,7 +61,7 @@ def next_slot(state: Factory, seat: int, before: int) -> int:
     best, least = -1, 1e9
     for s in range(SLOTS):
         slot = state.slots[s]
-        useful = _useful_to_put(state, seat, s) if load.pallet else _useful_to_lift(state, seat, s)
+        useful = _drop_cost(state, seat, s) if load.pallet else _lift_cost(state, seat, s)
         if useful < 0.0:
             continue
         cost = math.dist((robot.x, robot.y), (slot.x, slot.y)) + useful - (STAY if s == before else 0.0)
@@ -70,7 +70,7 @@ def next_slot(state: Factory, seat: int, before: int) -> int:
     return best
 
 
-def _useful_to_put(state: Factory, seat: int, s: int) -> float:
+def _drop_cost(state: Factory, seat: int, s: int) -> float:
     """Cost, in addition to the distance, of setting the load down there; below 0: it does not belong there."""
     slot, pallet = state.slots[s], state.pallets[state.loads[seat].pallet - 1]
     if not may_set_down(state, seat, s):
@@ -83,7 +83,7 @@ def _useful_to_put(state: Factory, seat: int, s: int) -> float:
     return 0.0 if slot.kind == EXIT and pallet.state == DONE else -1.0
 
 
-def _useful_to_lift(state: Factory, seat: int, s: int) -> float:
+def _lift_cost(state: Factory, seat: int, s: int) -> float:
     """Cost, in addition to the distance, of lifting the load there; below 0: there is none, or it is in its right
     place.
     """

@@ -44,9 +44,9 @@ def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: Vi
         case "hit":
             particles.burst(x, y, color, 30, 46, 120)
             _blast(x, y, color, particles, options)
-            particles.score(_inside(x) + BESIDE, y - 66, f"−{event.number}", player or 0)
+            particles.score(_clamp_x(x) + BESIDE, y - 66, f"−{event.number}", player or 0)
         case "scored":
-            particles.score(_inside(x) - BESIDE, y - 66, f"+{event.number}", player or 0)
+            particles.score(_clamp_x(x) - BESIDE, y - 66, f"+{event.number}", player or 0)
         case "shielded":
             particles.burst(x, y, color, 26, 66, 90)
             particles.burst(x, y, FOCUS, 10, 66, 70)
@@ -84,6 +84,6 @@ def _break(event: PiTanksEvent, state: PiTanks, particles: Particles) -> None:
             particles.burst(x, y, WALL, 5, 10, 70)
 
 
-def _inside(x: float) -> float:
+def _clamp_x(x: float) -> float:
     """Clamp x so that two score popups fit side by side."""
     return min(max(x, LEFT + 60 + BESIDE), LEFT + WIDTH - 60 - BESIDE)

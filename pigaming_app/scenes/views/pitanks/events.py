@@ -50,15 +50,15 @@ class PiTanksEventDetector:
     """Keeps the previous tick of one match."""
 
     def __init__(self, state: PiTanks) -> None:
-        self._remember(state)
+        self._store(state)
 
     def look(self, state: PiTanks) -> list[PiTanksEvent]:
         """Events since the last call."""
         found = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
-        self._remember(state)
+        self._store(state)
         return found
 
-    def _remember(self, state: PiTanks) -> None:
+    def _store(self, state: PiTanks) -> None:
         self.tanks = [(t.shots, t.hits, t.taken, tuple(t.powers)) for t in state.tanks]
         self.shots = [_shot(bullet) for bullet in state.bullets]
         self.walls = [wall.health for wall in state.walls]

@@ -94,7 +94,7 @@ class PiTanksHud:
         """Bake changed parts; returns the panels whose points changed."""
         points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
         totals = {panel.team: sum(points[slot.seat] for slot in panel.mates) for panel in self.sums}
-        ahead = _ahead(totals or points)
+        ahead = _sole_leader(totals or points)
         changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
         self.points = points
         for slot in self.slots:
@@ -136,7 +136,7 @@ class PiTanksHud:
             self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
 
 
-def _ahead(points: dict[int, int]) -> int | None:
+def _sole_leader(points: dict[int, int]) -> int | None:
     """The sole leader, if any."""
     best = max(points.values(), default=0)
     leaders = [who for who, score in points.items() if score == best]

@@ -69,7 +69,7 @@ class PiTanksView(MatchView):
         over: Batch = []
         light: Batch = []
         top: Batch = []
-        self._things(over, light, state)
+        self._items(over, light, state)
         for seat in self.seats:
             self._robot(under, over, light, state, seat, self.pose(seat, blend))
         self._bullets(light, state, blend)
@@ -77,7 +77,7 @@ class PiTanksView(MatchView):
         self.particles.draw_scores(top)
         self.paint(screen, under, over, light, top)
 
-    def _things(self, over: Batch, light: Batch, state: PiTanks) -> None:
+    def _items(self, over: Batch, light: Batch, state: PiTanks) -> None:
         rules = state.rules
         for pickup in state.pickups:
             if pickup.alive:

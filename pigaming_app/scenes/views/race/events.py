@@ -37,16 +37,16 @@ class RaceEventDetector:
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.order = self._running(state)
         self.candidate, self.since = self.order, state.tick
-        self._remember(state)
+        self._store(state)
 
     def look(self, state: Race) -> list[RaceEvent]:
         """Events since the last call."""
         events = [event for seat in self.seats for event in self._racer(state, seat)]
         events += self._order(state)
-        self._remember(state)
+        self._store(state)
         return events
 
-    def _remember(self, state: Race) -> None:
+    def _store(self, state: Race) -> None:
         self.racers = [
             (r.passed, r.missed, r.void, r.wrong > SHOWN_FROM, r.place.on, r.finished, r.best_lap) for r in state.racers
         ]

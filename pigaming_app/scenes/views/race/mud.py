@@ -26,8 +26,8 @@ Indices = npt.NDArray[np.int64]
 @resumable
 def mud(course: Course) -> Steps[pygame.Surface]:
     """The 1600 x 900 arena with mud outside the track, as additive light."""
-    coarse = yield from _away(course)
-    away = _finer(_finer(coarse, 0), 1)
+    coarse = yield from _distances(course)
+    away = _upsampled(_upsampled(coarse, 0), 1)
     h, w = away.shape
     yield
     clods = _clods(h, w)
@@ -54,7 +54,7 @@ def _rows(away: Heights, clods: Heights, top: int) -> npt.NDArray[np.uint8]:
     return np.asarray((bright[..., None] * np.array(MUD, np.float32)).clip(0, 255), np.uint8)
 
 
-def _away(course: Course) -> Steps[Heights]:
+def _distances(course: Course) -> Steps[Heights]:
     """Distance outside the track's edge on a coarse grid, px; negative on the track."""
     centre = np.array([course.xs[: course.count], course.ys[: course.count]]).T
     half = np.array(course.half[: course.count])
@@ -79,7 +79,7 @@ def _on_leg(points: Numbers, centre: Numbers, half: Numbers, a: Indices, b: Indi
     return gap, half[a] + share * (half[b] - half[a])
 
 
-def _finer(coarse: Heights, axis: int) -> Heights:
+def _upsampled(coarse: Heights, axis: int) -> Heights:
     """Interpolate a grid along one axis."""
     at = np.arange((coarse.shape[axis] - 1) * GRID // FINE, dtype=np.float32) * FINE / GRID
     first = at.astype(int)

@@ -88,7 +88,7 @@ class RaceView(MatchView):
         poses = [self.pose(seat, blend) for seat in range(len(state.robots))]
         for seat in self.seats:
             if state.racers[seat].missed and not state.racers[seat].finished:
-                self._way_back(over, seat, poses[seat], self.frames[state.racers[seat].missed - 1])
+                self._draw_path_back(over, seat, poses[seat], self.frames[state.racers[seat].missed - 1])
         self._ghost(light, state, blend)
         for seat in self.seats:
             self._robot(under, over, light, state, seat, poses[seat])
@@ -96,7 +96,7 @@ class RaceView(MatchView):
         self.particles.draw_light(light)
         self.notes.draw(light, top, poses, self.particles.clock, signed)
         self.paint(screen, under, over, light, top)
-        self._trouble(screen)
+        self._draw_notice(screen)
 
     # ---- inside
 
@@ -132,7 +132,7 @@ class RaceView(MatchView):
         said = bool(racer.missed) and self.particles.clock - self.voided[seat] < VOID_LASTS
         below = pose[1] - TOP < (260.0 if said else 165.0)
         sprite = self._sign_of(racer, seat, said, below)
-        if sprite is None or (racer.finished and not self._placed(state, racer)):
+        if sprite is None or (racer.finished and not self._shows_place(state, racer)):
             return False
         half = sprite.image.get_width() / 2
         x = min(max(pose[0], LEFT + half), LEFT + WIDTH - half)
@@ -147,13 +147,13 @@ class RaceView(MatchView):
             return race_signs.missed(racer.missed - 1, below, self.void if said else ())
         return race_signs.wrong_way(below) if racer.wrong > SHOWN_FROM else None
 
-    def _placed(self, state: Race, racer: Racer) -> bool:
+    def _shows_place(self, state: Race, racer: Racer) -> bool:
         """True while a place is shown: briefly after the finish and again at the end, as it would cover robots still
         racing.
         """
         return bool(state.over) or state.tick - racer.finish < PLACE_LASTS
 
-    def _way_back(self, over: Batch, seat: int, pose: Pose, line: LineFrame) -> None:
+    def _draw_path_back(self, over: Batch, seat: int, pose: Pose, line: LineFrame) -> None:
         """Draw moving dashes from a robot to the entry side of a line."""
         x, y, _ = pose
         entry, stop = (LEFT + line.x - ENTRY * line.c, TOP + line.y - ENTRY * line.s), self._stop(line)
@@ -175,7 +175,7 @@ class RaceView(MatchView):
     def _stop(self, line: LineFrame) -> tuple[float, float]:
         return LEFT + line.x - STOP * line.c, TOP + line.y - STOP * line.s
 
-    def _trouble(self, screen: pygame.Surface) -> None:
+    def _draw_notice(self, screen: pygame.Surface) -> None:
         """Briefly show that the ghost was dropped."""
         if self.recorder and self.recorder.trouble and self.words and self.particles.clock < TROUBLE_LASTS:
             caption(self.words(f"race.ghost_{self.recorder.trouble}"), FOCUS).draw(screen, 960, 1034)
