@@ -232,8 +232,8 @@ def speed(max_label: str, chosen: int) -> LitImage:
         on = i == chosen
         if on:
             layer.canvas.crisp.fill(cut_box(x + 8, 8, w - 16, SPEED.h - 16, 10), dim(BLUE, 0.3))
-        wide = text_width(label, BODY)
-        left = x + (w - wide - 44) / 2
+        width = text_width(label, BODY)
+        left = x + (w - width - 44) / 2
         icon(layer.canvas.crisp, name, left + 16, SPEED.h / 2, 17, BLUE if on else STEEL, THIN)
         layer.canvas.crisp.text(label, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
     return layer.done()

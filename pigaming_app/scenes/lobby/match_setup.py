@@ -160,19 +160,19 @@ class MatchSetupPage:
             return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
         return choice.begin(words("setup.go"))
 
-    def _change(self, name: str, by: int) -> None:
-        """Step a row's value by `by`."""
+    def _change(self, name: str, delta: int) -> None:
+        """Step a row's value by `delta`."""
         now, game = self.chosen, self.game
         before = replace(now)
         if name == "arena":
-            now.arena = self.arenas[(self.arenas.index(now.arena) + by) % len(self.arenas)]
-            self.slide, self.direction = 0.0, by
+            now.arena = self.arenas[(self.arenas.index(now.arena) + delta) % len(self.arenas)]
+            self.slide, self.direction = 0.0, delta
         elif name == "goal":
-            now.goal = stepped(game.goals, now.goal, by)
+            now.goal = stepped(game.goals, now.goal, delta)
         elif name == "minutes":
-            now.minutes = stepped(game.minutes, now.minutes, by)
+            now.minutes = stepped(game.minutes, now.minutes, delta)
         elif name == "rules":
-            now.variant = game.variants[(game.variants.index(now.variant) + by) % len(game.variants)]
+            now.variant = game.variants[(game.variants.index(now.variant) + delta) % len(game.variants)]
         if now != before:
             self.context.sounds.play("move")
         self.context.settings.games[game.name] = now
@@ -258,13 +258,13 @@ def rows(game: Game) -> dict[str, pygame.Rect]:
     """Rectangles of the rows that offer a choice, and of the start button."""
     there = {"arena": True, "goal": bool(game.goals), "minutes": len(game.minutes) > 1, "rules": len(game.variants) > 1}
     boxes, y = {}, FRAME.top
-    for name, high in HEIGHTS.items():
+    for name, height in HEIGHTS.items():
         if there[name]:
-            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, high)
-            y += high + GAP
+            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, height)
+            y += height + GAP
     return {**boxes, "go": GO}
 
 
-def stepped(values: Sequence[int], value: int, by: int) -> int:
-    """The element `by` places after `value`, clamped at both ends."""
-    return values[max(0, min(len(values) - 1, values.index(value) + by))]
+def stepped(values: Sequence[int], value: int, delta: int) -> int:
+    """The element `delta` places after `value`, clamped at both ends."""
+    return values[max(0, min(len(values) - 1, values.index(value) + delta))]

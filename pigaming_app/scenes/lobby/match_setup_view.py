@@ -29,8 +29,8 @@ FEW = 4  # chips that fit at full width
 @cached
 def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
     """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
-    high = 236 if line else 140
-    layer = _layer(name, high)
+    height = 236 if line else 140
+    layer = _layer(name, height)
     layer.canvas.body(note, W - PAD, 38, MIST, "r")
     size = fit_size(value, LABEL, W - 2 * PAD - 100)
     layer.canvas.text(value, size, W / 2, 94, ICE, "head", "c")
@@ -47,26 +47,26 @@ def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
 def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
     """All values side by side, the selected one lit; top left at (0, 0)."""
     layer = _layer(name, 140)
-    wide, pitch = chip_size(len(values))
+    width, pitch = chip_size(len(values))
     for i, label in enumerate(values):
         x, on = PAD + i * pitch, label == value
-        layer.glow.line(cut_box(x, 66, wide, 60, 12 if wide == CHIP else 10), ICE if on else STEEL, THIN, True)
-        layer.canvas.crisp.text(label, BODY, x + wide / 2, 96, ICE if on else MIST, "head", "c")
+        layer.glow.line(cut_box(x, 66, width, 60, 12 if width == CHIP else 10), ICE if on else STEEL, THIN, True)
+        layer.canvas.crisp.text(label, BODY, x + width / 2, 96, ICE if on else MIST, "head", "c")
     return layer.done()
 
 
 def chip_size(count: int) -> tuple[int, int]:
     """Width of each of `count` chips and the gap between them, px."""
     apart = APART if count <= FEW else CLOSE
-    wide = min(CHIP, (W - 2 * PAD + apart) // count - apart)
-    return wide, wide + apart
+    width = min(CHIP, (W - 2 * PAD + apart) // count - apart)
+    return width, width + apart
 
 
 def chip_at(count: int, x: float) -> int | None:
     """Index of the chip at `x` px from the left edge of the row, if any."""
-    wide, pitch = chip_size(count)
+    width, pitch = chip_size(count)
     i, rest = divmod(x - PAD, pitch)
-    return int(i) if 0 <= i < count and rest < wide else None
+    return int(i) if 0 <= i < count and rest < width else None
 
 
 @cached
@@ -120,15 +120,15 @@ def mark(seat: int) -> LitImage:
 
 
 @cached
-def focus_outline(high: int) -> LitImage:
+def focus_outline(height: int) -> LitImage:
     """Additional highlight of the focused row, drawn over its outline; top left at (0, 0)."""
-    layer = Layer(0, 0, W, high)
-    layer.glow.line(cut_box(0, 0, W, high, 16), dim(FOCUS, 0.55), THIN, True)
+    layer = Layer(0, 0, W, height)
+    layer.glow.line(cut_box(0, 0, W, height, 16), dim(FOCUS, 0.55), THIN, True)
     return layer.done()
 
 
-def _layer(name: str, high: int) -> Layer:
-    layer = Layer(0, 0, W, high)
-    layer.glow.line(cut_box(0, 0, W, high, 16), STEEL, THIN, True)
+def _layer(name: str, height: int) -> Layer:
+    layer = Layer(0, 0, W, height)
+    layer.glow.line(cut_box(0, 0, W, height, 16), STEEL, THIN, True)
     layer.canvas.body(name, PAD, 38, MIST)
     return layer

@@ -122,12 +122,12 @@ class Seats:
         for seat in self.like(AI):
             self.leave(seat)
 
-    def strengthen(self, by: int, seat: int | None = None) -> bool:
+    def strengthen(self, delta: int, seat: int | None = None) -> bool:
         """Step the strength of one seat's AI, or of all, through `rivals`; it becomes the default. True if changed."""
         chosen = self.like(AI) if seat is None else [seat]
         if not chosen:
             return False
-        now, count = self.rivals.index(self.places[chosen[0]].strength) + by, len(self.rivals)
+        now, count = self.rivals.index(self.places[chosen[0]].strength) + delta, len(self.rivals)
         self.strength = self.rivals[now % count if seat is not None else max(0, min(count - 1, now))]
         changed = any(self.places[i].strength != self.strength for i in chosen)
         for i in chosen:

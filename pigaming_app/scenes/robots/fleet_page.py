@@ -232,8 +232,8 @@ class FleetPage:
             return {one: str(one) for one in sorted({*BAUDS, settings.baud})}, settings.baud
         return {one: words(f"fleet.{one}") for one in RADIOS}, settings.radio
 
-    def _change(self, name: str, by: int, around: bool) -> None:
-        """Step a row's value by `by`."""
+    def _change(self, name: str, delta: int, around: bool) -> None:
+        """Step a row's value by `delta`."""
         settings = self.context.settings
         if name in EMULATED:
             return
@@ -242,7 +242,7 @@ class FleetPage:
         else:
             values, now = self._choices(name)
             keys = list(values)
-            at = keys.index(now) + by
+            at = keys.index(now) + delta
             settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
             self.reopen_in = REOPEN_DELAY
         self.context.sounds.play("move")

@@ -72,12 +72,12 @@ def test_one_person_alone_who_is_ready_gets_an_ai_and_a_moment_in_which_others_m
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE)
     assert kinds(arcade) == "HA.."
-    arcade.wait(lobby.ALONE - 0.3, draw=True)
+    arcade.wait(lobby.COUNTDOWN_ALONE - 0.3, draw=True)
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(2.0)
     assert kinds(arcade) == "HAH."
     arcade.press(Button.FIRE, KEYS[1])
-    arcade.wait(lobby.ALL + 0.2)
+    arcade.wait(lobby.COUNTDOWN + 0.2)
     arcade.shown(MatchSetupPage)
 
 

@@ -44,30 +44,30 @@ def react(
 ) -> list[Heard]:
     """Add particles for the events; returns their sounds."""
     heard: list[Heard] = []
-    for one in events:
-        x, y = LEFT + one.x, TOP + one.y
-        if one.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
-            popping.begin(one.what, particles.clock)
-        match one.kind:
+    for event in events:
+        x, y = LEFT + event.x, TOP + event.y
+        if event.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
+            popping.begin(event.what, particles.clock)
+        match event.kind:
             case "delivered":
-                color = TEAMS[state.pallets[one.what].team]
+                color = TEAMS[state.pallets[event.what].team]
                 particles.burst(x, y, color, 30, 30, 120)
                 if options.flashes != "off":
                     particles.shock(x, y, color)
                 if options.flashes == "full":
                     particles.glow(x, y, color)
-                if one.player is not None:
-                    particles.score(x, y - 70, "+1", one.player)
+                if event.player is not None:
+                    particles.score(x, y - 70, "+1", event.player)
             case "spoiled":
                 particles.burst(x, y, ALARM, 24, 26, 100)
                 if options.flashes == "full" and options.shake:
                     particles.shake()
             case "machine_done":
-                particles.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)
+                particles.burst(x, y, STATES[state.pallets[event.what].state], 10, 26, 50)
             case "freeze":
                 particles.burst(x, y, ALARM, 16, 50, 70)
             case _:
                 pass
-        if one.kind not in (THAWED, STARTED):
-            heard.append((one.kind, one.player, one.x))
+        if event.kind not in (THAWED, STARTED):
+            heard.append((event.kind, event.player, event.x))
     return heard

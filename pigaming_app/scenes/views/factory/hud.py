@@ -45,10 +45,12 @@ class FactoryHud:
             )
             first = team * MOST_PALLETS
             states = tuple(
-                sorted((one.state for one in state.pallets[first : first + MOST_PALLETS] if one.exists), key=order)
+                sorted(
+                    (pallet.state for pallet in state.pallets[first : first + MOST_PALLETS] if pallet.exists), key=order
+                )
             )
-            says = state.delivered[team], state.rules.pallets, mates, states
-            self.parts.show(team, says, X[team] - 8, W + 16, partial(panel_bits, team, *says))
+            content = state.delivered[team], state.rules.pallets, mates, states
+            self.parts.show(team, content, X[team] - 8, W + 16, partial(panel_bits, team, *content))
         self.parts.countdown(state, 82)
         return new
 
@@ -79,10 +81,10 @@ def panel_bits(
         return x + px if team == 0 else x + W - px - width
 
     text, of = str(delivered), f"/{whole}"
-    wide, rest = number_width(text, SUB), number_width(of, LABEL)
-    begin = at(NUMBER, wide + rest + 4)
+    number_w, rest = number_width(text, SUB), number_width(of, LABEL)
+    begin = at(NUMBER, number_w + rest + 4)
     yield from number_bits(text, SUB, begin, Y + H / 2, ICE)
-    yield from number_bits(of, LABEL, begin + wide + 4, Y + H / 2 + 7, MIST)
+    yield from number_bits(of, LABEL, begin + number_w + 4, Y + H / 2 + 7, MIST)
     for i, (seat, ai, turbo) in enumerate(mates):
         image = robot_sign(seat, ai, turbo)
         y = Y + H / 2 + (0 if len(mates) == 1 else -25 + 50 * i)

@@ -99,13 +99,13 @@ class FactoryView(MatchView):
     def _crates(self, over: Batch, state: Factory) -> None:
         """Draw the crates in slots; carried ones are drawn with their carrier."""
         for p in range(PALLETS):
-            one = state.pallets[p]
-            if one.exists and one.place == IN_SLOT:
+            pallet = state.pallets[p]
+            if pallet.exists and pallet.place == IN_SLOT:
                 x, y = spot(state, p)
-                put(over, self._crate(p, one), LEFT + x, TOP + y)
+                put(over, self._crate(p, pallet), LEFT + x, TOP + y)
 
-    def _crate(self, p: int, one: Any) -> Any:
-        return crates.crate(one.team, one.state, self.popping.tenths(p, self.particles.clock))
+    def _crate(self, p: int, pallet: Any) -> Any:
+        return crates.crate(pallet.team, pallet.state, self.popping.tenths(p, self.particles.clock))
 
     def _people(self, over: Batch, top: Batch, state: Factory, blend: float) -> None:
         for old, new, worker in zip(self.people_before, self.people, state.workers, strict=True):
@@ -147,17 +147,19 @@ class FactoryView(MatchView):
         for team in range(TEAMS):
             entry = state.slots[team * 2 * SHELVES]
             left = entry.x < 800
-            waiting = sum(one.place == WAITING and one.team == team and one.exists for one in state.pallets)
-            shipped = sum(one.place == SHIPPED and one.team == team for one in state.pallets)
+            waiting = sum(pallet.place == WAITING and pallet.team == team and pallet.exists for pallet in state.pallets)
+            shipped = sum(pallet.place == SHIPPED and pallet.team == team for pallet in state.pallets)
             gate = LEFT + entry.x + (-150 if left else 150)
             if waiting:
                 put(light, crates.count(waiting, team), gate, TOP + entry.y - 14)
             if shipped:
                 out = state.slots[team * 2 * SHELVES + SHELVES]
                 put(light, crates.count(shipped, team), LEFT + out.x + (-150 if out.x < 800 else 150), TOP + out.y - 14)
-            soon = [one for one in state.pallets if one.exists and one.team == team and one.state == DAMAGED]
-            for i, one in enumerate(soon):
-                seconds = -(-(state.rules.replace - one.waited) // HZ)
+            damaged = [
+                pallet for pallet in state.pallets if pallet.exists and pallet.team == team and pallet.state == DAMAGED
+            ]
+            for i, pallet in enumerate(damaged):
+                seconds = -(-(state.rules.replace - pallet.waited) // HZ)
                 put(light, crates.awaited(seconds), gate, TOP + entry.y + 3 * 88 - 60 * i)
 
 

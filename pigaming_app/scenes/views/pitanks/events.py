@@ -54,9 +54,9 @@ class PiTanksEventDetector:
 
     def look(self, state: PiTanks) -> list[PiTanksEvent]:
         """Events since the last call."""
-        found = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
+        events = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
         self._store(state)
-        return found
+        return events
 
     def _store(self, state: PiTanks) -> None:
         self.tanks = [(t.shots, t.hits, t.taken, tuple(t.powers)) for t in state.tanks]
@@ -66,38 +66,38 @@ class PiTanksEventDetector:
         self.places = [(robot.x, robot.y) for robot in state.robots]
 
     def _tanks(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for k, (tank, robot) in enumerate(zip(state.tanks, state.robots, strict=True)):
             shots, hits, taken, powers = self.tanks[k]
             x, y = robot.x, robot.y
             if tank.shots > shots:
-                found.append(PiTanksEvent("fire", k, x, y, robot.heading))
+                events.append(PiTanksEvent("fire", k, x, y, robot.heading))
             if tank.hits > hits:
-                found.append(PiTanksEvent("scored", k, x, y, 0.0, tank.hits - hits))
+                events.append(PiTanksEvent("scored", k, x, y, 0.0, tank.hits - hits))
             if tank.taken > taken:
-                found.append(PiTanksEvent("hit", k, x, y, 0.0, tank.taken - taken))
+                events.append(PiTanksEvent("hit", k, x, y, 0.0, tank.taken - taken))
             for power in range(len(POWERS)):
                 before, now = powers[power], tank.powers[power]
                 if now > before:
-                    found.append(PiTanksEvent("pickup", k, x, y, 0.0, power))
+                    events.append(PiTanksEvent("pickup", k, x, y, 0.0, power))
                 elif power == SHIELD and before > 1 and not now:
-                    found.append(PiTanksEvent("shielded", k, x, y))
+                    events.append(PiTanksEvent("shielded", k, x, y))
                 elif before == 1 and not now:
-                    found.append(PiTanksEvent("power_end", k, x, y, 0.0, power))
-        return found
+                    events.append(PiTanksEvent("power_end", k, x, y, 0.0, power))
+        return events
 
     def _bullets(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for i, bullet in enumerate(state.bullets):
             before, owner = self.shots[i], i // OWN_BULLETS
             if bullet.alive and before.alive and (bullet.vx != before.vx or bullet.vy != before.vy):
-                found.append(PiTanksEvent("bounced", owner, bullet.x, bullet.y, math.atan2(bullet.vy, bullet.vx)))
+                events.append(PiTanksEvent("bounced", owner, bullet.x, bullet.y, math.atan2(bullet.vy, bullet.vx)))
             elif not bullet.alive and (before.alive or (bullet.x, bullet.y) != (before.x, before.y)):
                 victim = self._stopped_by(state, bullet, owner)
                 if victim is None or state.tanks[victim].taken == self.tanks[victim][2]:
                     angle = math.atan2(-bullet.vy, -bullet.vx)
-                    found.append(PiTanksEvent("stopped", owner, bullet.x, bullet.y, angle))
-        return found
+                    events.append(PiTanksEvent("stopped", owner, bullet.x, bullet.y, angle))
+        return events
 
     def _stopped_by(self, state: PiTanks, bullet: Bullet, owner: int) -> int | None:
         """The robot that stopped a bullet, by the positions of the previous tick, since robots have moved on."""
@@ -112,7 +112,7 @@ class PiTanksEventDetector:
         return None
 
     def _walls(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for i in range(state.wall_count):
             wall = state.walls[i]
             if wall.health != self.walls[i]:
@@ -121,18 +121,18 @@ class PiTanksEventDetector:
                     (wall.ay + wall.by) / 2,
                     math.atan2(wall.by - wall.ay, wall.bx - wall.ax),
                 )
-                found.append(PiTanksEvent("cracked" if wall.health else "crumbled", None, x, y, angle, i))
-        return found
+                events.append(PiTanksEvent("cracked" if wall.health else "crumbled", None, x, y, angle, i))
+        return events
 
     def _mines(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for i, mine in enumerate(state.mines):
             alive, _, _ = self.mines[i]
             if mine.alive > alive:
-                found.append(PiTanksEvent("mine_laid", i // OWN_MINES, mine.x, mine.y))
+                events.append(PiTanksEvent("mine_laid", i // OWN_MINES, mine.x, mine.y))
             elif alive > 1 and not mine.alive:
-                found.append(PiTanksEvent("mine_blown", i // OWN_MINES, mine.x, mine.y))
-        return found
+                events.append(PiTanksEvent("mine_blown", i // OWN_MINES, mine.x, mine.y))
+        return events
 
 
 def _shot(bullet: Bullet) -> _Shot:

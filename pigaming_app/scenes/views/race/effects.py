@@ -31,8 +31,8 @@ SOUNDS = {
 }
 BY_WEIGHT = list(SOUNDS)
 LASTS, RISE = 1.7, 46.0  # s and px of an announcement
-OVER = 70.0  # px from a robot to its announcement
-HIGH = 76.0  # px between stacked announcements
+ABOVE = 70.0  # px from a robot to its announcement
+STACK_PITCH = 76.0  # px between stacked announcements
 
 
 class Announcement(NamedTuple):
@@ -60,14 +60,14 @@ class Announcements:
         self.notes = [note for note in self.notes if now - note.born < LASTS and note.seat not in busy]
         placed: list[tuple[float, float, float]] = []
         for note in self.notes:
-            wide = note.sprite.image.get_width() if note.sprite else number_width(note.text, SUB) + 70
+            width = note.sprite.image.get_width() if note.sprite else number_width(note.text, SUB) + 70
             t = (now - note.born) / LASTS
-            x = min(max(poses[note.seat][0], LEFT + wide / 2), LEFT + WIDTH - wide / 2)
-            y = poses[note.seat][1] - OVER - RISE * (1.0 - (1.0 - t) ** 2)
-            while any(abs(x - px) < (wide + w) / 2 and abs(y - py) < HIGH for px, py, w in placed):
-                y -= HIGH
+            x = min(max(poses[note.seat][0], LEFT + width / 2), LEFT + WIDTH - width / 2)
+            y = poses[note.seat][1] - ABOVE - RISE * (1.0 - (1.0 - t) ** 2)
+            while any(abs(x - px) < (width + w) / 2 and abs(y - py) < STACK_PITCH for px, py, w in placed):
+                y -= STACK_PITCH
             y = max(y, TOP + 60)
-            placed.append((x, y, wide))
+            placed.append((x, y, width))
             if note.sprite:
                 put(top, note.sprite, x, y)
             else:
@@ -75,11 +75,11 @@ class Announcements:
 
 
 def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
-    wide = number_width(note.text, SUB)
+    width = number_width(note.text, SUB)
     if note.color == FOCUS:
-        put(light, race_signs.gold_star(), x - wide / 2 - 12, y)
+        put(light, race_signs.gold_star(), x - width / 2 - 12, y)
         x += 26
-    x -= wide / 2
+    x -= width / 2
     for char in note.text:
         sprite, advance = glyph(char, SUB, note.color)
         put(light, sprite, x, y)

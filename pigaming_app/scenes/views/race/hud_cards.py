@@ -138,8 +138,8 @@ def pulse(seat: int) -> tuple[Sprite, ...]:
 @cached
 def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
     """Short word, EDGE px from the left, vertical centre EDGE px from the top."""
-    wide = max(1, round(number_width(text, size)))
-    ink = GlowCanvas(wide + 2 * EDGE, size + 2 * EDGE)
+    width = max(1, round(number_width(text, size)))
+    ink = GlowCanvas(width + 2 * EDGE, size + 2 * EDGE)
     return ink.text(text, size, EDGE, EDGE, color, "head").lit(0.5)
 
 

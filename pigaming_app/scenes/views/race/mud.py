@@ -64,9 +64,9 @@ def _distances(course: Course) -> Steps[Heights]:
         points = np.stack([xs, np.full_like(xs, y)], 1)
         nearest = ((centre**2).sum(1) - 2 * points @ centre.T).argmin(1)
         after, before = (nearest + 1) % course.count, (nearest - 1) % course.count
-        gap, wide = _on_leg(points, centre, half, nearest, after)
+        gap, half_width = _on_leg(points, centre, half, nearest, after)
         gap_before, wide_before = _on_leg(points, centre, half, before, nearest)
-        rows.append(np.where(gap_before < gap, gap_before - wide_before, gap - wide))
+        rows.append(np.where(gap_before < gap, gap_before - wide_before, gap - half_width))
         yield
     return np.array(rows, np.float32)
 

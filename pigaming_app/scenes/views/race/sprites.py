@@ -50,20 +50,20 @@ def wrong_way(below: bool) -> Sprite:
 @cached
 def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
     """Missed-line sign: the badge of the line to return to; `words`: text of an invalid lap."""
-    wide = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
-    high = 84 + 46 * len(words)
-    half_w, half_h = round(wide / 2) + 30, high // 2 + 50
+    width = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
+    height = 84 + 46 * len(words)
+    half_w, half_h = round(width / 2) + 30, height // 2 + 50
     ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
-    ink.fill([(-17, (high / 2 - 4) * up), (17, (high / 2 - 4) * up), (0, (high / 2 + 24) * up)], ALARM)
-    box = cut_box(-wide / 2, -high / 2, wide, high, 18)
+    ink.fill([(-17, (height / 2 - 4) * up), (17, (height / 2 - 4) * up), (0, (height / 2 + 24) * up)], ALARM)
+    box = cut_box(-width / 2, -height / 2, width, height, 18)
     ink.solid(box).fill(box, DARK_RED).line(box, ALARM, LINE, True)
     for i, text in enumerate(words):
-        ink.text(text, BODY, 0, -high / 2 + 38 + 46 * i, WHITE, "head", "c")
-    middle = high / 2 - 42
+        ink.text(text, BODY, 0, -height / 2 + 38 + 46 * i, WHITE, "head", "c")
+    middle = height / 2 - 42
     badge(ink, line, -28, middle, 25)
     ink.line([(34, middle - 22), (34, middle + 3)], WHITE, 10).disc(34, middle + 21, 6.5, WHITE)
     sprite = trim(ink.sprite(0.8), half_w, half_h)
-    return Sprite(sprite.image, sprite.dx, sprite.dy - (high // 2 - 42) * up)
+    return Sprite(sprite.image, sprite.dx, sprite.dy - (height // 2 - 42) * up)
 
 
 @cached
@@ -71,14 +71,14 @@ def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
     """Finish sign: the place between chequered bands."""
     color = PLAYERS[seat]
     text = f"{number}{ending}"
-    wide = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
-    half_w, half_h = wide // 2 + 30, 100
+    width = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
+    half_w, half_h = width // 2 + 30, 100
     ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
-    box = [(-wide / 2, -54), (wide / 2, -54), (wide / 2, 54), (-wide / 2, 54)]
+    box = [(-width / 2, -54), (width / 2, -54), (width / 2, 54), (-width / 2, 54)]
     ink.fill([(-14, 54 * up), (14, 54 * up), (0, 76 * up)], color)
     ink.solid(box).line(box, color, THIN, True)
     for row, y in ((0, -52), (1, -44), (0, 36), (1, 44)):
-        for x in range(-wide // 2 + 8 * row, wide // 2, 16):
+        for x in range(-width // 2 + 8 * row, width // 2, 16):
             ink.fill([(x, y), (x + 8, y), (x + 8, y + 8), (x, y + 8)], ICE)
     ink.text(text, SUB, 0, 0, FOCUS if number == 1 else mix(color, WHITE, 0.6), "hero", "c")
     return trim(ink.sprite(0.8), half_w, half_h)
@@ -88,16 +88,16 @@ def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
 def notice(text: str, color: Color, sign: str = "") -> Sprite:
     """Rising word over a robot, with a star or a flag before it."""
     lead = 64 if sign else 0
-    wide, high = round(text_width(text, LABEL, "hero")) + lead + 80, 120
-    ink = GlowCanvas(wide, high)
-    box = cut_box(14, 22, wide - 28, high - 44, 14)
+    width, height = round(text_width(text, LABEL, "hero")) + lead + 80, 120
+    ink = GlowCanvas(width, height)
+    box = cut_box(14, 22, width - 28, height - 44, 14)
     ink.solid(box).line(box, dim(color, 0.55), THIN, True)
     if sign == "star":
-        ink.fill(star(62, high / 2, 24), color)
+        ink.fill(star(62, height / 2, 24), color)
     elif sign:
-        flag(ink, 62, high / 2, 20, color)
-    ink.text(text, LABEL, 40 + lead, high / 2, color, "hero")
-    return trim(ink.sprite(0.7), wide / 2, high / 2)
+        flag(ink, 62, height / 2, 20, color)
+    ink.text(text, LABEL, 40 + lead, height / 2, color, "hero")
+    return trim(ink.sprite(0.7), width / 2, height / 2)
 
 
 @cached
