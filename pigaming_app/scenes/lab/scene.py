@@ -64,7 +64,7 @@ class Lab:
         )
         self.turning = context.prompts([(Button.RIGHT, "lab.hint_turn"), (Button.FIRE, "lab.hint_done")], PROMPTS_Y)
 
-    # ---- what happens to it
+    # ---- scene
 
     def entered(self) -> None:
         self.age, self.held = 0.0, ""
@@ -130,7 +130,7 @@ class Lab:
         """Pause the training when the scene is removed."""
         self.trainer.close()
 
-    # ---- what the pages above it may do
+    # ---- interface for the pages above
 
     def say(self, sentence: str, wrong: bool = False) -> None:
         """Show a message for a few seconds."""

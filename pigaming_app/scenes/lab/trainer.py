@@ -153,7 +153,7 @@ class Trainer:
             if self.training.fast or self._load_compiled():
                 self._run()
         except Exception:
-            log.exception("the Lab goes on without compiled training")
+            log.exception("compiled training failed; falling back to interpreted training")
             self.may_compile = False
             self._switch_to(fast=False)
         finally:

@@ -129,7 +129,7 @@ class Lobby:
         elif self.rehearsal:
             self.rehearsal.warm(PREWARM_MS)
 
-    # ---- what presses do
+    # ---- input
 
     def _try_join(self, event: InputEvent) -> None:
         """Handle a free device while others are seated: join, or show which of its buttons joins."""

@@ -42,7 +42,7 @@ class Seats:
     def __post_init__(self) -> None:
         self.teams = self.team_mode == PAIRS or (self.teams and self.team_mode == FREE)
 
-    # ---- what is so
+    # ---- queries
 
     def of(self, device: Device) -> int | None:
         """The seat of a device, if any."""
@@ -82,7 +82,7 @@ class Seats:
         """Occupied seats with real robots."""
         return [i for i, place in enumerate(self.places) if self.mat and place.real and place.kind != EMPTY]
 
-    # ---- what people do
+    # ---- changes
 
     def swap(self, seat: int) -> None:
         """Toggle between the real and the simulated robot of a seat."""

@@ -132,7 +132,7 @@ class ResultsPage:
                 self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
                 self.finale.draw(screen)
 
-    # ---- the pieces
+    # ---- widgets
 
     def _finish(self) -> None:
         """Render the remaining widgets. Raises Unfinished if the frame budget is exhausted."""

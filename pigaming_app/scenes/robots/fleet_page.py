@@ -129,7 +129,7 @@ class FleetPage:
         if self.discs:
             self.discs.draw(screen, EVERYBODY)
 
-    # ---- what is painted
+    # ---- drawing
 
     @property
     def discs(self) -> MarkerDiscs | None:
@@ -177,7 +177,7 @@ class FleetPage:
             line.draw(screen, 960, 896 + 44 * i)
         self.navigation.prompts.draw(screen)
 
-    # ---- what is read
+    # ---- readings
 
     def _line(self) -> str:
         """Description of the focused row, or the reason why matches reject its value."""
@@ -206,7 +206,7 @@ class FleetPage:
         weak = health.battery < LOW or health.share < WEAK
         return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST
 
-    # ---- what the rows are
+    # ---- rows
 
     def _value(self, name: str) -> SettingValue:
         words, settings = self.context.words, self.context.settings
@@ -222,15 +222,15 @@ class FleetPage:
         """Options of a row, by stored value, and the current value."""
         words, settings = self.context.words, self.context.settings
         if name == "camera":
-            known: dict[object, str] = {one.number: f"{one.number}: {one.name}" for one in cameras()}
+            known: dict[object, str] = {camera.number: f"{camera.number}: {camera.name}" for camera in cameras()}
             return {settings.camera: str(settings.camera), **known}, settings.camera
         if name == "port":
-            there: dict[object, str] = {one.device: one.device for one in ports()}
+            there: dict[object, str] = {port.device: port.device for port in ports()}
             first = words("fleet.first", port=next(iter(there), "-"))
             return {"": first, settings.port or "": settings.port or first, **there}, settings.port
         if name == "baud":
-            return {one: str(one) for one in sorted({*BAUDS, settings.baud})}, settings.baud
-        return {one: words(f"fleet.{one}") for one in RADIOS}, settings.radio
+            return {baud: str(baud) for baud in sorted({*BAUDS, settings.baud})}, settings.baud
+        return {radio: words(f"fleet.{radio}") for radio in RADIOS}, settings.radio
 
     def _change(self, name: str, delta: int, around: bool) -> None:
         """Step a row's value by `delta`."""

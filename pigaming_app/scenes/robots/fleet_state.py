@@ -78,7 +78,7 @@ class FleetState:
 
     @property
     def looking(self) -> bool:
-        """True if robots move or are about to, and fewer are seen than heard."""
+        """True while busy with fewer robots visible than reporting."""
         robots = range(ROBOTS)
         return self.busy and sum(self._seen(robot) for robot in robots) < sum(self.heard(robot) for robot in robots)
 
@@ -97,11 +97,11 @@ class FleetState:
             self.rig.tell([None] * ROBOTS)
 
     def pair(self) -> bool:
-        """Search for all robots, then spin one after the other; False if none is heard."""
+        """Search for all robots, then spin one after the other; False if none reports."""
         return self._search(self._pair)
 
     def measure(self) -> bool:
-        """Search for all robots, then measure the latency of each one seen; False if none is heard."""
+        """Search for all robots, then measure the latency of each one seen; False if none reports."""
         return self._search(self._measure)
 
     def update(self, seconds: float) -> bool:

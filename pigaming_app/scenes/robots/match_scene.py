@@ -140,7 +140,7 @@ class RealMatch(MatchScene):
                 return
         self.shine(screen)
 
-    # ---- what the pages above it may do
+    # ---- interface for the pages above
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:

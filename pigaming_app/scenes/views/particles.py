@@ -107,7 +107,7 @@ class Particles:
     def score(self, x: float, y: float, text: str, player: int) -> None:
         """Score popup over a robot, kept inside the arena; replaces an overlapping one."""
         x, y = min(max(x, LEFT + 60), LEFT + WIDTH - 60), max(y, TOP + 48 + RISE)
-        self.scores = [one for one in self.scores if (one.player, one.text[0]) != (player, text[0])]
+        self.scores = [popup for popup in self.scores if (popup.player, popup.text[0]) != (player, text[0])]
         self.scores.append(ScorePopup(self.clock, x, y, text, player))
 
     def shake(self) -> None:
@@ -117,9 +117,9 @@ class Particles:
     def advance(self, seconds: float) -> None:
         self.clock += seconds
         now = self.clock
-        self.particles = [one for one in self.particles if now - one.born < one.life]
-        self.blooms = [one for one in self.blooms if now - one.born < one.life]
-        self.scores = [one for one in self.scores if now - one.born < RISING]
+        self.particles = [effect for effect in self.particles if now - effect.born < effect.life]
+        self.blooms = [effect for effect in self.blooms if now - effect.born < effect.life]
+        self.scores = [popup for popup in self.scores if now - popup.born < RISING]
 
     @property
     def offset(self) -> tuple[int, int]:

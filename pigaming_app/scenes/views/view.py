@@ -76,7 +76,7 @@ class MatchView:
         """Prewarm sprites for at most this many milliseconds; True when complete."""
         return self.jobs.work(milliseconds)
 
-    # ---- for the views of games
+    # ---- for subclasses
 
     def ahead(self, jobs: Iterator[Job]) -> None:
         """Append prewarm jobs after those of driving robots."""

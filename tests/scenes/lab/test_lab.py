@@ -74,9 +74,9 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
 
 
 def lab_of(arcade: Arcade) -> Lab:
-    found = arcade.shown(Title).lab
-    assert isinstance(found, Lab)
-    return found
+    scene = arcade.shown(Title).lab
+    assert isinstance(scene, Lab)
+    return scene
 
 
 def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, home: Path) -> None:
@@ -108,11 +108,11 @@ def test_as_fast_as_it_can_it_learns_is_examined_and_has_a_plan(
     arcade.until(lambda: len(lab(arcade).trainer.progress.measures) >= 2, 600.0)
     arcade.wait(1.0)
     shown = lab(arcade).shown
-    assert all(0.0 <= one.share <= 1.0 for one in shown.measures)
-    assert [one.matches for one in shown.measures] == sorted(one.matches for one in shown.measures)
+    assert all(0.0 <= measure.share <= 1.0 for measure in shown.measures)
+    assert [measure.matches for measure in shown.measures] == sorted(measure.matches for measure in shown.measures)
     assert shown.knowing > 0.0
     assert any(shown.levels)
-    assert sum(one.seen for one in lab(arcade).trainer.progress.plan if one) > 1000
+    assert sum(direction.seen for direction in lab(arcade).trainer.progress.plan if direction) > 1000
 
 
 def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
@@ -166,11 +166,11 @@ def test_what_it_has_learned_stays_when_a_knob_is_turned(arcade: Arcade) -> None
 
 def test_a_pad_reaches_everything(arcade: Arcade) -> None:
     here = lab(arcade)
-    found = {here.focus.name}
+    visited = {here.focus.name}
     for button in (Button.DOWN, *[Button.LEFT] * 3, Button.UP, Button.RIGHT):
         arcade.press(button)
-        found.add(here.focus.name)
-    assert found == {"speed", "play", *KNOB_NAMES}
+        visited.add(here.focus.name)
+    assert visited == {"speed", "play", *KNOB_NAMES}
 
 
 def test_a_mouse_chooses_a_speed_and_turns_a_knob(arcade: Arcade) -> None:
@@ -285,9 +285,9 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
 
 
 def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
-    kept = lab(arcade).trainer.checkpoints()
-    assert set(kept) == {0}
-    assert (kept[0].matches, kept[0].experiences) == (0, 0)
+    checkpoints = lab(arcade).trainer.checkpoints()
+    assert set(checkpoints) == {0}
+    assert (checkpoints[0].matches, checkpoints[0].experiences) == (0, 0)
 
 
 def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:

@@ -73,16 +73,16 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
     assert here.name == "B9"
     assert here.sentence == arcade.context.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
-    kept, _ = robots.load_robot("B9", fast=False)
-    assert kept.experiences > 0
+    saved, _ = robots.load_robot("B9", fast=False)
+    assert saved.experiences > 0
     here.begin()
     menu(arcade, "open")
     arcade.shown(OpenPage)
     arcade.press(Button.FIRE)
     assert lab(arcade) is here
-    assert (here.name, here.trainer.training.experiences) == ("B9", kept.experiences)
-    assert digest(here.trainer.training.table) == digest(kept.table)
-    assert here.trainer.recipe == kept.recipe
+    assert (here.name, here.trainer.training.experiences) == ("B9", saved.experiences)
+    assert digest(here.trainer.training.table) == digest(saved.table)
+    assert here.trainer.recipe == saved.recipe
 
 
 def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> None:

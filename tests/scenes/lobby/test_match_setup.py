@@ -60,8 +60,8 @@ def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) 
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
     assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
     assert match.devices == [KEYS[0], None, None, None]
-    kept = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
-    assert tuple(kept["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)
+    saved = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
+    assert tuple(saved["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)
 
 
 def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:

@@ -88,7 +88,7 @@ def test_minutes_count_where_a_match_is_played_for_time_and_the_goal_where_it_is
 
 def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
     first, second = high_score_tables(contest(match("human normal off off", game="race", goal=3)))
-    assert [(one.table.feat, one.table.timed, one.days) for one in (first, second)] == [
+    assert [(board.table.feat, board.table.timed, board.days) for board in (first, second)] == [
         ("lap", True, None),
         ("race", True, None),
     ]

@@ -192,9 +192,9 @@ def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) 
     assert [row.initials for row in arcade.shown(HighScores).fresh] == ["BAA", "ZCA"]
     arcade.press(Button.FIRE)
     assert arcade.shown(Results) is results
-    kept, said = Scores.load(folders().data)
+    saved, said = Scores.load(folders().data)
     assert not said
-    assert [(row.initials, row.score) for row in kept.best(replace(ALONE, people=3))] == [("ZCA", 9), ("BAA", 4)]
+    assert [(row.initials, row.score) for row in saved.best(replace(ALONE, people=3))] == [("ZCA", 9), ("BAA", 4)]
 
 
 def test_after_ten_seconds_letters_are_taken_as_they_are_but_not_those_of_somebody_who_only_fired(
@@ -353,11 +353,11 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
     arcade.press(Button.START, KEYS[0])
     arcade.wait(2.0, draw=True)
     arcade.shown(HighScores)
-    kept, said = Scores.load(folders().data)
+    saved, said = Scores.load(folders().data)
     assert not said
-    assert [row.score for row in kept.best(LAP)] == [9_870]
-    assert [row.score for row in kept.best(RACE)] == [30_120]
-    assert not kept.best(replace(RACE, length=5)), "five laps are another race"
+    assert [row.score for row in saved.best(LAP)] == [9_870]
+    assert [row.score for row in saved.best(RACE)] == [30_120]
+    assert not saved.best(replace(RACE, length=5)), "five laps are another race"
 
 
 def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> None:

@@ -11,7 +11,7 @@ from tests.scenes.arcade import Arcade
 
 
 @pytest.fixture(scope="session")
-def kept() -> Iterator[EmulatedSession]:
+def emulated() -> Iterator[EmulatedSession]:
     """The arena, created and calibrated once."""
     pytest.importorskip("cv2")
     mat = EmulatedSession(live=False)
@@ -20,16 +20,16 @@ def kept() -> Iterator[EmulatedSession]:
 
 
 @pytest.fixture
-def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
+def mat(emulated: EmulatedSession) -> Iterator[EmulatedSession]:
     """The arena in its initial state: dark, four robots, no fault."""
-    arena = kept.arena
+    arena = emulated.arena
     arena.project(np.zeros((1080, 1920), np.uint8))
     for robot, pose in enumerate(((180, 260, 0.4), (1300, 700, 2.9), (1300, 200, 3.9), (300, 700, 5.5))):
         arena.place(robot, pose)
-    yield kept
+    yield emulated
     for name, robot in arena.faults.on():
         arena.faults.switch(name, False, robot)
-    kept.close()
+    emulated.close()
 
 
 @pytest.fixture

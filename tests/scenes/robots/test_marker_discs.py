@@ -38,11 +38,11 @@ def test_every_lid_is_lit_evenly_even_where_robots_touch(controls: Controls, gap
     seen = Seen(Sighting(400.0, 300.0, 0.3, 0.0), Sighting(400.0 + gap, 300.0, 3.0, 0.0))
     lit(screen, seen, {0, 1})
     assert seen.asked > 0.0
-    for one in seen.sightings:
+    for sighting in seen.sightings:
         for x in range(-LID, LID + 1, 3):
             for y in range(-LID, LID + 1, 3):
                 if hypot(x, y) <= LID:
-                    assert screen.get_at((round(160 + one.x + x), round(140 + one.y + y)))[:3] == GREY
+                    assert screen.get_at((round(160 + sighting.x + x), round(140 + sighting.y + y)))[:3] == GREY
 
 
 def test_ring_and_arrow_show_player_and_heading(controls: Controls) -> None:

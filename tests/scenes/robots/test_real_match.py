@@ -50,13 +50,13 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
             mat.show(lambda: pixels_of(arcade.screen))
 
 
-def until(arcade: Arcade, kind: type, most: float = 8.0) -> float:
+def until(arcade: Arcade, kind: type, timeout: float = 8.0) -> float:
     """Advance until a scene of this type is on top; returns the time taken, s."""
-    for frame in range(round(most * FPS)):
+    for frame in range(round(timeout * FPS)):
         if isinstance(arcade.stack.top, kind):
             return frame / FPS
         arcade.frame(1 / FPS)
-    raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {most} s")
+    raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {timeout} s")
 
 
 def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealMatch:

@@ -199,7 +199,7 @@ def test_a_delivery_is_heard_once_sparks_and_counts(screen):
     state.robots[0].score = state.loads[0].delivered = 1
     assert view.watch(state) == [("delivered", 0, state.slots[EXIT_ICE].x)]
     assert view.particles.particles
-    assert [(one.text, one.player) for one in view.particles.scores] == [("+1", 0)]
+    assert [(popup.text, popup.player) for popup in view.particles.scores] == [("+1", 0)]
     panel = pygame.Rect(160, 0, 652, 136)
     old = pygame.image.tobytes(screen.subsurface(panel), "RGB")
     view.draw(screen, state, 1.0, 9.0)
@@ -281,7 +281,7 @@ def test_waiting_and_delivered_pallets_are_counted_beside_the_warehouses(screen)
     match = begun(goal=8)
     view, state = seen(match), match.state
     entry, out = state.slots[0], state.slots[EXIT_ICE]
-    assert sum(one.place == WAITING for one in state.pallets[:MOST_PALLETS]) == 4
+    assert sum(pallet.place == WAITING for pallet in state.pallets[:MOST_PALLETS]) == 4
     four = picture(screen, view, state, entry.x - 150, entry.y - 14)
     feed(state, 7, ICE, SHIPPED)
     three = picture(screen, view, state, entry.x - 150, entry.y - 14)

@@ -45,8 +45,8 @@ def draw_floor(canvases: Inks, floor: Floor) -> Steps[None]:
     for first in range(0, MACHINE_SLOTS, SHELVES):
         _warehouse(canvases, floor.slots[first : first + SHELVES])
         yield
-    for m, one in enumerate(floor.machines):
-        _machine(canvases, floor, m, one.kind, one.x, one.y)
+    for m, machine in enumerate(floor.machines):
+        _machine(canvases, floor, m, machine.kind, machine.x, machine.y)
         yield
 
 

@@ -98,7 +98,7 @@ def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
     engine, ghost = parsed
     if drivable(ghost, arena) or engine == engine_hash():  # hashing the engine takes a tenth of a second
         return ghost, ""
-    log.warning("%s: by today's rules no robot can drive this lap; it is not shown", file_of(folder, arena))
+    log.warning("%s: dropped; under the current rules no robot can drive this lap", file_of(folder, arena))
     return None, "old"
 
 
@@ -145,13 +145,13 @@ def _parsed(text: str) -> tuple[str, Ghost]:
         case {"engine": str(engine), "line": int(line), "seconds": seconds, "crossed": crossed, "poses": poses}:
             pass
         case _:
-            raise ValueError("it is no ghost")
+            raise ValueError("not a ghost")
     (lap,) = _numbers([seconds], 1, 1.0, LONGEST)
     if line is True or not 0 <= line < LINES or not isinstance(poses, list) or len(poses) != int(lap * RATE) + 1:
-        raise ValueError("its lap is not whole")
+        raise ValueError("the lap is incomplete")
     lines = _numbers(crossed, LINES, 0.0, lap)
     if lines[0] != 0.0 or any(before >= after for before, after in pairwise((*lines, lap))):
-        raise ValueError("its lap does not cross one line after the other")
+        raise ValueError("the lap does not cross the lines in order")
     ways = (_numbers(pose, 3, -FARTHEST, FARTHEST) for pose in poses)
     return engine, Ghost(line, lap, lines, tuple((x, y, heading) for x, y, heading in ways))
 

@@ -107,7 +107,7 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
     return [(full, (x, y), (0, 0, split, h)), (empty, (x + split, y), (split, 0, w - split, h))]
 
 
-# ---- pieces, each made once
+# ---- cached pieces
 
 
 @cached
