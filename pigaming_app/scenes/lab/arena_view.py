@@ -111,11 +111,11 @@ class ArenaView:
                 put(under, shadow(seat, step(poses[seat][2], HEADINGS // 4), i + 1), *_at(*poses[seat][:2]))
         poses = self.blended()
         for seat in self.seats:
-            put(over, little_tank(seat, step(poses[seat][2], HEADINGS)), *_at(*poses[seat][:2]))
+            put(over, small_tank(seat, step(poses[seat][2], HEADINGS)), *_at(*poses[seat][:2]))
         for seat, x, y, angle in self.shots:
-            put(light, little_bullet(seat, step(angle, effects.TURNS)), *_at(x, y))
+            put(light, small_bullet(seat, step(angle, effects.TURNS)), *_at(x, y))
         for x, y, seat, age in self.waves:
-            put(light, little_wave(seat, int(age / WAVE * effects.WAVE_STEPS)), *_at(x, y))
+            put(light, small_wave(seat, int(age / WAVE * effects.WAVE_STEPS)), *_at(x, y))
         screen.set_clip(ARENA)
         screen.fblits(under, ADD)
         screen.fblits(over, PRE)
@@ -143,7 +143,7 @@ class ArenaView:
             return
         batch: Batch = []
         for wall in self.walls:
-            put(batch, little_wall(*wall), *_at((wall[0] + wall[2]) / 2, (wall[1] + wall[3]) / 2))
+            put(batch, small_wall(*wall), *_at((wall[0] + wall[2]) / 2, (wall[1] + wall[3]) / 2))
         self.floor.blit(self.bare, (0, 0))
         self.floor.fblits([(image, (x - MATCH.x, y - MATCH.y)) for image, (x, y) in batch], PRE)
         self.painted = self.walls
@@ -155,12 +155,12 @@ def jobs(state: Any) -> Iterator[Job]:
         for i in range(state.wall_count):
             wall = state.walls[i]
             if wall.whole != SOLID:
-                yield partial(little_wall, wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, health)
+                yield partial(small_wall, wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, health)
     for seat in (0, 1):
         for turn in range(HEADINGS):
-            yield partial(little_tank, seat, turn)
+            yield partial(small_tank, seat, turn)
         for turn in range(effects.TURNS):
-            yield partial(little_bullet, seat, turn)
+            yield partial(small_bullet, seat, turn)
         for turn in range(HEADINGS // 4):
             for level in range(1, SHADOWS + 1):
                 yield partial(shadow, seat, turn, level)
@@ -171,7 +171,7 @@ def _at(x: float, y: float) -> tuple[float, float]:
     return ARENA.x + SCALE * x, ARENA.y + SCALE * y
 
 
-def little(sprite: Sprite) -> Sprite:
+def scaled(sprite: Sprite) -> Sprite:
     """Scale an arena sprite down to this view."""
     w, h = sprite.image.get_size()
     size = max(1, round(w * SCALE)), max(1, round(h * SCALE))
@@ -179,30 +179,30 @@ def little(sprite: Sprite) -> Sprite:
 
 
 @cached
-def little_tank(player: int, turn: int) -> Sprite:
+def small_tank(player: int, turn: int) -> Sprite:
     """Robot at heading `turn` of HEADINGS."""
-    return little(tank(player, turn))
+    return scaled(tank(player, turn))
 
 
 @cached
 def shadow(player: int, turn: int, level: int) -> Sprite:
     """Shadow of a robot at heading `turn` of HEADINGS / 4, brightness `level` of SHADOWS."""
-    sprite = little_tank(player, 4 * turn)
+    sprite = small_tank(player, 4 * turn)
     flat = pygame.Surface(sprite.image.get_size())
     flat.blit(sprite.image, (0, 0), special_flags=PRE)
     return faded(Sprite(flat, sprite.dx, sprite.dy), 0.45 * level / SHADOWS)
 
 
 @cached
-def little_bullet(player: int, turn: int) -> Sprite:
+def small_bullet(player: int, turn: int) -> Sprite:
     """Shot at heading `turn` of TURNS."""
-    return little(effects.bullet(player, turn * HEADINGS // effects.TURNS))
+    return scaled(effects.bullet(player, turn * HEADINGS // effects.TURNS))
 
 
 @cached
-def little_wave(player: int, stage: int) -> Sprite:
+def small_wave(player: int, stage: int) -> Sprite:
     """Shock wave of a hit, `stage` of WAVE_STEPS."""
-    return little(effects.wave(PLAYERS[player], stage))
+    return scaled(effects.wave(PLAYERS[player], stage))
 
 
 @cached
@@ -220,5 +220,5 @@ class _Wall:
 
 
 @cached
-def little_wall(ax: float, ay: float, bx: float, by: float, half: float, whole: int, health: int) -> Sprite:
-    return little(wall_sprite(_Wall(ax, ay, bx, by, half, whole), health))
+def small_wall(ax: float, ay: float, bx: float, by: float, half: float, whole: int, health: int) -> Sprite:
+    return scaled(wall_sprite(_Wall(ax, ay, bx, by, half, whole), health))

@@ -28,7 +28,7 @@ class LabHost(Protocol):
         """Restart from an empty table."""
 
 
-def behind(lab: LabHost) -> pygame.Surface:
+def dimmed_background(lab: LabHost) -> pygame.Surface:
     """The Lab, dimmed, as the background of a page."""
     canvas = pygame.Surface((1920, 1080))
     lab.draw(canvas)

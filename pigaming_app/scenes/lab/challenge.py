@@ -10,7 +10,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
-from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
+from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -76,8 +76,8 @@ class ChallengeResult:
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
-        mine, theirs = self.scores
-        self.context.sounds.play("win" if mine > theirs else "lose" if mine < theirs else "tie", 0)
+        own, theirs = self.scores
+        self.context.sounds.play("win" if own > theirs else "lose" if own < theirs else "tie", 0)
 
     def on(self, event: InputEvent) -> Turn:
         """FIRE starts a rematch with the device that pressed it; BACK, held, returns to the Lab."""
@@ -112,27 +112,27 @@ class ChallengeResult:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the result over the last frame of the match."""
         if self.picture is None:
-            mine, theirs = self.scores
-            color = PLAYERS[0] if mine > theirs else PLAYERS[ROBOT] if theirs > mine else ICE
+            own, theirs = self.scores
+            color = PLAYERS[0] if own > theirs else PLAYERS[ROBOT] if theirs > own else ICE
             self.picture = overlay(self.fight.inner.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
         self.prompts.draw(screen)
         if self.leaving.share:
-            filled(screen, self.leaving.share)
+            hold_bar(screen, self.leaving.share)
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        mine, theirs = self.scores
+        own, theirs = self.scores
         name = self.fight.kind.name.upper()
-        if mine == theirs:
+        if own == theirs:
             sheet_title(layer, None, words("results.tie"), ICE)
         else:
-            seat = 0 if mine > theirs else ROBOT
+            seat = 0 if own > theirs else ROBOT
             sheet_title(
-                layer, seat, words("lab.you_win") if mine > theirs else words("lab.it_wins", name=name), PLAYERS[seat]
+                layer, seat, words("lab.you_win") if own > theirs else words("lab.it_wins", name=name), PLAYERS[seat]
             )
         middle = (HEAD + FOOT) / 2
-        for seat, side, score, player_name in ((0, -1, mine, words("lab.you")), (ROBOT, 1, theirs, name)):
+        for seat, side, score, player_name in ((0, -1, own, words("lab.you")), (ROBOT, 1, theirs, name)):
             layer.canvas.text(
                 str(score).replace("-", "−"), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
             )

@@ -89,8 +89,8 @@ class ComparePage:
         while self.pairs and perf_counter() < end:
             self._play()
         for row, player in enumerate(self.order()):
-            away = TOP + PITCH * row - player.y
-            player.y += away * min(1.0, GLIDE * seconds) if abs(away) > 1.0 else away
+            offset = TOP + PITCH * row - player.y
+            player.y += offset * min(1.0, GLIDE * seconds) if abs(offset) > 1.0 else offset
         return None
 
     def draw(self, screen: pygame.Surface) -> None:

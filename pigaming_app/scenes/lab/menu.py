@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.lab.bench import IDLE, LabHost, behind
+from pigaming_app.scenes.lab.bench import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.compare_page import ComparePage
 from pigaming_app.scenes.lab.name_page import NamePage
 from pigaming_app.scenes.lab.open_page import OpenPage
@@ -51,7 +51,7 @@ class LabMenu:
 
     def draw(self, screen: pygame.Surface) -> None:
         if self.picture is None:
-            self.picture = overlay(behind(self.lab), ICE, self._paint)
+            self.picture = overlay(dimmed_background(self.lab), ICE, self._paint)
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen, ALARM if self.sure else FOCUS)
         label = self.context.words("lab.sure" if self.sure else f"lab.{self.focus.name}")

@@ -48,7 +48,7 @@ class Progress:
         self._sector = 0
         self._save_checkpoint()
 
-    def go_on(self, training: Training) -> None:
+    def replace_training(self, training: Training) -> None:
         """Continue with the same table in another implementation (compiled or interpreted)."""
         self.training = training
         if self._exam:
@@ -60,7 +60,7 @@ class Progress:
         training = self.training
         return training.matches + min(1.0, int(training.match.tick) / (training.minutes * 60 * HZ)) % 1.0
 
-    def practise(self, ticks: int) -> None:
+    def train(self, ticks: int) -> None:
         """Train for `ticks`, recording checkpoints at match boundaries."""
         training = self.training
         whole = round(training.minutes * 60 * HZ)
@@ -71,7 +71,7 @@ class Progress:
             ticks -= batch
             self._save_checkpoint()
 
-    def look(self, fast: bool) -> None:
+    def publish(self, fast: bool) -> None:
         """Publish a frame and evaluate one direction of the rose, when due."""
         now = perf_counter()
         if now - self._last_frame >= PICTURE[fast]:
@@ -94,7 +94,7 @@ class Progress:
                 self._exam = self._evaluation(self.training.checkpoint().kind)
         return self._exam
 
-    def note(self) -> None:
+    def record_exam(self) -> None:
         """Record the result of a finished evaluation."""
         if self._exam and self._exam.over:
             self.measures = [*self.measures, Measure(self._exam_start, self._exam.share)]

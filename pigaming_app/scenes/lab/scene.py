@@ -41,8 +41,8 @@ class Lab:
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         self.context = context
         self.trainer = Trainer(FIRST, new_seed(), fast, context.compiler)
-        self.lagged: Progress | None = None  # the training that has been behind the hand-made robot
-        self.cheered: Progress | None = None  # the training whose overtaking was celebrated
+        self.was_behind: Progress | None = None  # the training that has been behind the hand-made robot
+        self.celebrated: Progress | None = None  # the training whose overtaking was celebrated
         self.name = ""  # under which it was saved or opened
         self.shown = LabState()
         self.page: LabPage | None = None
@@ -212,7 +212,7 @@ class Lab:
         if self.page:
             self.page.update(seconds)
         now.matches, now.knowing, now.measures = moment.matches, moment.knowing, trainer.progress.measures
-        self._cheer(trainer.progress)
+        self._celebrate(trainer.progress)
         now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
         now.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = trainer.progress.plan
@@ -220,13 +220,13 @@ class Lab:
         now.levels = [level(entry.worth / scale) if entry else 0 for entry in plan]
         now.signs = [entry.deed if entry else SIGNS[-1] for entry in plan]
 
-    def _cheer(self, progress: Progress) -> None:
+    def _celebrate(self, progress: Progress) -> None:
         """Celebrate once per training that it overtook the hand-made robot."""
         share = self.page.curve.share if self.page else None
         if share is not None and share < EVEN:
-            self.lagged = progress
-        elif share is not None and share > EVEN and self.lagged is progress is not self.cheered:
-            self.cheered = progress
+            self.was_behind = progress
+        elif share is not None and share > EVEN and self.was_behind is progress is not self.celebrated:
+            self.celebrated = progress
             self.say(self.context.words("lab.outdone"))
             self.context.sounds.play("win")
 

@@ -131,15 +131,15 @@ class Trainer:
         end = perf_counter() + SLICE
         self._follow_recipe()
         if self.speed < FASTEST:
-            self.progress.practise(self._due(seconds))
+            self.progress.train(self._due(seconds))
         else:
             while perf_counter() < end - (1 - TRAINING_SHARE) * SLICE:
-                self.progress.practise(20)
-        self.progress.look(self.speed == FASTEST)
+                self.progress.train(20)
+        self.progress.publish(self.speed == FASTEST)
         exam = self.progress.exam_due()
         while exam and not exam.over and perf_counter() < end:
             exam.play(20)
-        self.progress.note()
+        self.progress.record_exam()
 
     def _follow_recipe(self) -> None:
         if self.training.recipe != self.recipe:
@@ -184,7 +184,7 @@ class Trainer:
             old = self.training
             if old.fast != fast:
                 self.training = Training(self.recipe, old.seed, old.arena, fast, old.table, old.minutes)
-                self.progress.go_on(self.training)
+                self.progress.replace_training(self.training)
 
     def _run(self) -> None:
         last = perf_counter()
@@ -195,13 +195,13 @@ class Trainer:
                 ticks = CHUNK if self.speed == FASTEST else self._due(now - last)
                 exam = self.progress.exam_due()
                 if not (exam and self.speed == FASTEST):
-                    self.progress.practise(ticks)
-                self.progress.look(self.speed == FASTEST)
+                    self.progress.train(ticks)
+                self.progress.publish(self.speed == FASTEST)
                 progress = self.progress
             last = now
             if exam and not exam.over:
                 exam.play(CHUNK * HZ)
             with self._lock:
-                progress.note()
+                progress.record_exam()
             if self.speed < FASTEST:
                 sleep(max(0.0, 1 / HZ - (perf_counter() - now)))

@@ -158,7 +158,7 @@ class MatchSetupPage:
         if name == "rules":
             line = words(f"setup.{now.variant}_line")
             return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
-        return choice.begin(words("setup.go"))
+        return choice.start_button(words("setup.go"))
 
     def _change(self, name: str, delta: int) -> None:
         """Step a row's value by `delta`."""
@@ -168,9 +168,9 @@ class MatchSetupPage:
             now.arena = self.arenas[(self.arenas.index(now.arena) + delta) % len(self.arenas)]
             self.slide, self.direction = 0.0, delta
         elif name == "goal":
-            now.goal = stepped(game.goals, now.goal, delta)
+            now.goal = step_clamped(game.goals, now.goal, delta)
         elif name == "minutes":
-            now.minutes = stepped(game.minutes, now.minutes, delta)
+            now.minutes = step_clamped(game.minutes, now.minutes, delta)
         elif name == "rules":
             now.variant = game.variants[(game.variants.index(now.variant) + delta) % len(game.variants)]
         if now != before:
@@ -204,7 +204,7 @@ class MatchSetupPage:
             if best:
                 name = self.context.words(f"setup.best_{feat.name}")
                 lines.append((name, self.context.words.decimal(format_score(best[0].score, feat)), best[0].initials))
-        if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
+        if lines and low + choice.records_height(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
     def _lineup(self) -> tuple[tuple[int, str], ...]:
@@ -222,7 +222,7 @@ class MatchSetupPage:
         picture(self.game.name, self.chosen.arena).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
-        starts = begins(self.game.name, self.chosen.arena, self.seats.seats())
+        starts = start_positions(self.game.name, self.chosen.arena, self.seats.seats())
         for i, _ in self._lineup():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
@@ -246,7 +246,7 @@ def picture(game: str, name: str) -> Steps[LitImage]:
 
 
 @lru_cache(maxsize=16)
-def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
+def start_positions(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
     """Start positions of the robots of these seats, px."""
     rules, state = games()[game], games()[game].state()
     setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
@@ -265,6 +265,6 @@ def rows(game: Game) -> dict[str, pygame.Rect]:
     return {**boxes, "go": GO}
 
 
-def stepped(values: Sequence[int], value: int, delta: int) -> int:
+def step_clamped(values: Sequence[int], value: int, delta: int) -> int:
     """The element `delta` places after `value`, clamped at both ends."""
     return values[max(0, min(len(values) - 1, values.index(value) + delta))]

@@ -72,7 +72,7 @@ def chip_at(count: int, x: float) -> int | None:
 @cached
 def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
     """Best scores, one line each: feat, value, initials; top left at (0, 0)."""
-    layer = Layer(0, 0, W, records_high(len(lines)))
+    layer = Layer(0, 0, W, records_height(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
         y = 38 + 56 * i
         icon(layer.glow, "crown", PAD + 18, y - 2, 16, FOCUS, 3)
@@ -82,13 +82,13 @@ def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
     return layer.done()
 
 
-def records_high(lines: int) -> int:
+def records_height(lines: int) -> int:
     """Height of the best scores, px."""
     return 20 + 56 * lines
 
 
 @cached
-def begin(label: str) -> LitImage:
+def start_button(label: str) -> LitImage:
     """The start button; top left at (0, 0)."""
     layer = Layer(0, 0, W, 96)
     layer.glow.line(cut_box(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)

@@ -52,14 +52,14 @@ class Lobby:
         self.page = LobbyPage(context, self.seats, self.now, lambda: choice_summary(context, game), self.access)
         self.focus = Focus(spots(self.seats))
         self.ahead = PrewarmQueue(card.ahead())
-        self.rehearsal: MatchRunner | None = None
+        self.warmup: MatchRunner | None = None
 
     def entered(self) -> None:
         """Reset on first display and on return from match setup: everyone has to confirm again."""
         self.context.sounds.music(True)
         self.now.starting = None
-        self.seats.unready()
-        for seat in self.seats.like(HUMAN):
+        self.seats.reset_ready()
+        for seat in self.seats.of_kind(HUMAN):
             device = self.seats.places[seat].device
             if device and not self.context.controls.connected(device):
                 self._unplugged(device)
@@ -122,12 +122,12 @@ class Lobby:
         if not self.ahead.work(PREWARM_MS):
             return
         now = last_choice(self.context, self.game)
-        if self.rehearsal is None and self.context.preloader.ready(self.game, now.arena):
+        if self.warmup is None and self.context.preloader.ready(self.game, now.arena):
             one, two, three, four = (Seat("idle", team) for team in games()[self.game].teams)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
-            self.rehearsal = MatchRunner(self.context, Match(setup), loud=False)
-        elif self.rehearsal:
-            self.rehearsal.warm(PREWARM_MS)
+            self.warmup = MatchRunner(self.context, Match(setup), loud=False)
+        elif self.warmup:
+            self.warmup.warm(PREWARM_MS)
 
     # ---- input
 
@@ -137,7 +137,7 @@ class Lobby:
             self._fire(event.device)
         elif event.button in (Button.BACK, Button.X, Button.Y):
             words = self.context.words
-            full = len(self.seats.like(HUMAN)) == PLACES
+            full = len(self.seats.of_kind(HUMAN)) == PLACES
             self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
             self.now.label = words.printed(self.context.controls.label(event.device, Button.FIRE))
             self.now.message_left = MESSAGE_SECONDS
@@ -164,7 +164,7 @@ class Lobby:
         if not self.seats.robots and device.kind != "mouse":
             self._fire(device)
             return None
-        self._fill()
+        self._add_opponents()
         if message := problem(self.seats, self.context.words):
             self._say(message, "error")
             return None
@@ -214,7 +214,7 @@ class Lobby:
             return
         if self.seats.teams and seat is not None and act in (Button.LEFT, Button.RIGHT):
             self._change_team(seat)
-        elif self.seats.strengthen(1 if act in (Button.RIGHT, Button.UP) else -1):
+        elif self.seats.change_strength(1 if act in (Button.RIGHT, Button.UP) else -1):
             self._save_strength()
             self.context.sounds.play("move")
 
@@ -255,7 +255,7 @@ class Lobby:
         elif what == "real":
             self._swap(seat)
         elif what in ("weaker", "stronger"):
-            self.seats.strengthen(1 if what == "stronger" else -1, seat)
+            self.seats.change_strength(1 if what == "stronger" else -1, seat)
             self._save_strength()
             self.context.sounds.play("move")
         elif kind == AI:
@@ -272,16 +272,16 @@ class Lobby:
     def _update_countdown(self) -> None:
         """Start the countdown when all are ready, cancel it otherwise."""
         self.focus.place(spots(self.seats))
-        alone = len(self.seats.like(HUMAN)) == 1
-        if not self.seats.like(HUMAN) or self.seats.waiting:
+        alone = len(self.seats.of_kind(HUMAN)) == 1
+        if not self.seats.of_kind(HUMAN) or self.seats.waiting:
             self.now.starting = None
         elif self.now.starting is None:
-            self._fill()
+            self._add_opponents()
             if not problem(self.seats, self.context.words):
                 self.now.starting = self.now.countdown = COUNTDOWN_ALONE if alone else COUNTDOWN
 
-    def _fill(self) -> None:
-        for seat in self.seats.fill():
+    def _add_opponents(self) -> None:
+        for seat in self.seats.add_opponents():
             self.now.seated[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:

@@ -48,19 +48,19 @@ class Seats:
         """The seat of a device, if any."""
         return next((i for i, place in enumerate(self.places) if place.device == device), None)
 
-    def like(self, kind: str) -> list[int]:
+    def of_kind(self, kind: str) -> list[int]:
         """Seats of a kind: EMPTY, HUMAN or AI."""
         return [i for i, place in enumerate(self.places) if place.kind == kind]
 
     @property
     def robots(self) -> int:
         """Number of occupied seats."""
-        return PLACES - len(self.like(EMPTY))
+        return PLACES - len(self.of_kind(EMPTY))
 
     @property
     def waiting(self) -> list[int]:
         """Seats of people who are not ready."""
-        return [i for i in self.like(HUMAN) if not self.places[i].ready]
+        return [i for i in self.of_kind(HUMAN) if not self.places[i].ready]
 
     @property
     def one_team(self) -> bool:
@@ -92,9 +92,9 @@ class Seats:
         """Seat a device on the next empty seat, else on the last AI's. Returns the seat, None if four people are
         seated.
         """
-        seat = next(iter(self.like(EMPTY)), None)
+        seat = next(iter(self.of_kind(EMPTY)), None)
         if seat is None:
-            seat = next(iter(reversed(self.like(AI))), None)
+            seat = next(iter(reversed(self.of_kind(AI))), None)
         if seat is not None:
             self.places[seat] = SeatState(HUMAN, device, team=self._smaller_team(seat), real=self.places[seat].real)
         return seat
@@ -111,7 +111,7 @@ class Seats:
 
     def add(self, seat: int | None = None) -> int | None:
         """Add an AI on a seat, or on the next empty one. Returns the seat, None if all are taken."""
-        seat = next(iter(self.like(EMPTY)), None) if seat is None else seat
+        seat = next(iter(self.of_kind(EMPTY)), None) if seat is None else seat
         if seat is not None:
             real = self.places[seat].real
             self.places[seat] = SeatState(AI, strength=self.strength, team=self._smaller_team(seat), real=real)
@@ -119,12 +119,12 @@ class Seats:
 
     def clear(self) -> None:
         """Remove all AIs."""
-        for seat in self.like(AI):
+        for seat in self.of_kind(AI):
             self.leave(seat)
 
-    def strengthen(self, delta: int, seat: int | None = None) -> bool:
+    def change_strength(self, delta: int, seat: int | None = None) -> bool:
         """Step the strength of one seat's AI, or of all, through `rivals`; it becomes the default. True if changed."""
-        chosen = self.like(AI) if seat is None else [seat]
+        chosen = self.of_kind(AI) if seat is None else [seat]
         if not chosen:
             return False
         now, count = self.rivals.index(self.places[chosen[0]].strength) + delta, len(self.rivals)
@@ -134,20 +134,20 @@ class Seats:
             self.places[i].strength = self.strength
         return changed
 
-    def unready(self) -> None:
+    def reset_ready(self) -> None:
         """Reset everyone's readiness."""
         for place in self.places:
             place.ready = False
 
-    def fill(self) -> list[int]:
+    def add_opponents(self) -> list[int]:
         """Add opponents for a single person, or for a pair without rivals: one AI, or all seats in team games. Returns
         the seats.
         """
-        lonely = self.robots == 1 or (self.team_mode == PAIRS and self.robots > 1 and self.one_team)
-        if not lonely:
+        alone = self.robots == 1 or (self.team_mode == PAIRS and self.robots > 1 and self.one_team)
+        if not alone:
             return []
         first = next(place for place in self.places if place.kind != EMPTY)
-        wanted = 1 if self.team_mode == FREE else len(self.like(EMPTY))
+        wanted = 1 if self.team_mode == FREE else len(self.of_kind(EMPTY))
         added = [seat for seat in (self.add() for _ in range(wanted)) if seat is not None]
         if self.team_mode == FREE:
             self.places[added[0]].team = 1 - first.team

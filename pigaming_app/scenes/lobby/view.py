@@ -66,11 +66,11 @@ class LobbyPage:
     def prompts(self) -> ButtonPrompts:
         """Prompts for the device used last, if it may act."""
         seat = self.seats.of(self.access.voice)
-        full = not self.seats.like(EMPTY)
+        full = not self.seats.of_kind(EMPTY)
         hints = [
             (Button.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
             (Button.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
-            (Button.Y, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
+            (Button.Y, "lobby.hint_clear" if full and self.seats.of_kind(AI) else "lobby.hint_add"),
         ]
         if self.seats.team_mode == FREE:
             hints.append((Button.X, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
@@ -88,7 +88,7 @@ class LobbyPage:
         title = words("lobby.seat", player=seat + 1)
         if place.kind == EMPTY:
             card.empty(seat, title).draw(screen, x, y)
-            level = pulse(self.now.clock) if seat == self.seats.like(EMPTY)[0] else 0
+            level = pulse(self.now.clock) if seat == self.seats.of_kind(EMPTY)[0] else 0
             card.invitation(seat, words("lobby.press_to_join"), self.invited, level).draw(screen, x, y)
             return
         card.frame(seat, title, place.ready or place.kind == AI).draw(screen, x, y)

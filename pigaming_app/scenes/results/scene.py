@@ -139,7 +139,7 @@ class Results:
             else:
                 self.prompts.draw(screen)
             if self.leaving.share:
-                filled(screen, self.leaving.share)
+                hold_bar(screen, self.leaving.share)
 
     def _fire(self, event: InputEvent) -> None:
         """Count a vote; a free device takes a seat, after holding FIRE if it is an AI's."""
@@ -158,6 +158,6 @@ class Results:
         return Swap(self.again(self.context, self.setup, self.ballot.drivers(everyone)))
 
 
-def filled(screen: pygame.Surface, share: float) -> None:
+def hold_bar(screen: pygame.Surface, share: float) -> None:
     """Draw the hold progress of BACK, `share` 0..1, as a line at the bottom of the page."""
     pygame.draw.line(screen, FOCUS, (960 - 400 * share, 1034), (960 + 400 * share, 1034), 6)

@@ -39,8 +39,8 @@ class FaultPage:
         self.held = 0.0
         hints = [(Button.X, "mat.hint_simulate"), (Button.START, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
-        mending = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
-        self.mending = self.context.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
+        repair_prompts = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
+        self.repair_prompts = self.context.prompts(repair_prompts, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
         """Play the alert."""
@@ -57,7 +57,7 @@ class FaultPage:
             return None
         event = admitted
         lasting = self.match.plant.safety.lasting
-        event = self.prompts.as_button(self.mending.as_button(event) if lasting else event)
+        event = self.prompts.as_button(self.repair_prompts.as_button(event) if lasting else event)
         if event.button is Button.X:
             self._simulate()
         elif lasting and event.button is Button.FIRE and not self.match.plant.safety.stopped:
@@ -104,7 +104,7 @@ class FaultPage:
             screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         self.prompts.draw(screen)
         if self.match.plant.safety.lasting:
-            self.mending.draw(screen)
+            self.repair_prompts.draw(screen)
         self.match.shine(screen)
 
     # ---- inside

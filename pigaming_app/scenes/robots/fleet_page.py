@@ -12,7 +12,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Turn
 from pigaming_app.scenes.robots.avoid_discs import BlockLayout
-from pigaming_app.scenes.robots.fleet_state import FleetState, worst
+from pigaming_app.scenes.robots.fleet_state import FleetState, worst_finding
 from pigaming_app.scenes.robots.flood_light import FloodLight
 from pigaming_app.scenes.robots.marker_discs import MarkerDiscs, tag
 from pigaming_app.sim.world import ROBOTS
@@ -107,7 +107,7 @@ class FleetPage:
             if pairing:
                 self._report_pairing()
             else:
-                self.navigation.say(words("fleet.measured" if self.check.late else "fleet.nobody"))
+                self.navigation.say(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
             self.context.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
@@ -118,7 +118,7 @@ class FleetPage:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the page in blocks that avoid the discs, then the discs."""
         words = self.context.words
-        if self.flood.whole:
+        if self.flood.full:
             self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
             return
         screen.blit(backdrop(), (0, 0))
@@ -264,7 +264,7 @@ class FleetPage:
 
     def _report_pairing(self) -> None:
         """Report the result of the pairing."""
-        words, finding = self.context.words, worst(self.check.findings)
+        words, finding = self.context.words, worst_finding(self.check.findings)
         if finding is None:
             self.navigation.say(words("fleet.paired"))
         else:

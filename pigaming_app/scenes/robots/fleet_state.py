@@ -43,7 +43,7 @@ class FleetState:
     refusal: OperatorMessage | None = None
     rate: float = 0.0  # frames/s
     findings: list[PairingFinding] = field(default_factory=list)
-    late: dict[int, float | None] = field(default_factory=dict)  # latency in s, by robot; None: not measurable
+    latencies: dict[int, float | None] = field(default_factory=dict)  # latency in s, by robot; None: not measurable
     pairing: Pairing | None = None
     shake: LatencyTest | None = None
 
@@ -132,7 +132,7 @@ class FleetState:
         """Status of a robot."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
         share = self.link.quality(robot).share if report else 0.0
-        return RobotStatus(report.battery if report else None, share, self._seen(robot), self.late.get(robot))
+        return RobotStatus(report.battery if report else None, share, self._seen(robot), self.latencies.get(robot))
 
     # ---- inside
 
@@ -152,7 +152,7 @@ class FleetState:
 
     def _measure(self) -> bool:
         self._todo = [robot for robot in range(ROBOTS) if self.heard(robot) and self._seen(robot)]
-        self.late = {}
+        self.latencies = {}
         return self._next()
 
     def _count(self, rig: Rig, seconds: float) -> None:
@@ -176,8 +176,8 @@ class FleetState:
     def _shake_on(self, shake: LatencyTest) -> bool:
         if not shake.tick():
             return False
-        found = shake.result()
-        self.late[shake.robot] = found.total if found else None
+        result = shake.result()
+        self.latencies[shake.robot] = result.total if result else None
         return not self._next()
 
     def _next(self) -> bool:
@@ -186,7 +186,7 @@ class FleetState:
         return self.shake is not None
 
 
-def worst(findings: list[PairingFinding]) -> PairingFinding | None:
+def worst_finding(findings: list[PairingFinding]) -> PairingFinding | None:
     """The most important finding of a pairing: a robot not found, then a swapped one."""
     order = (PairingCase.TWICE, PairingCase.SEVERAL, PairingCase.WIRED, PairingCase.NONE, PairingCase.SWAPPED)
     faults = [finding for case in order for finding in findings if finding.case is case]

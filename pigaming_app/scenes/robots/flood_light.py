@@ -26,7 +26,7 @@ class FloodLight:
         self.level = 1.0  # 0..1
 
     @property
-    def whole(self) -> bool:
+    def full(self) -> bool:
         """True at full grey."""
         return self.level >= 1.0
 
@@ -39,7 +39,7 @@ class FloodLight:
         """Draw the light over a page, and the texts at full grey."""
         if self.level <= 0.0:
             return
-        if not self.whole:
+        if not self.full:
             veil = pygame.Surface(screen.get_size())
             veil.fill((LIGHT,) * 3)
             veil.set_alpha(round(255 * self.level))
@@ -48,10 +48,10 @@ class FloodLight:
         screen.fill((LIGHT,) * 3)
         for caption, size, y in ((title, BODY, TITLE_Y), (line, 34, LINE_Y)):
             if caption:
-                written(screen, caption, size, y)
+                dark_text(screen, caption, size, y)
 
 
-def written(screen: pygame.Surface, caption: str, size: int, y: int) -> None:
+def dark_text(screen: pygame.Surface, caption: str, size: int, y: int) -> None:
     """Draw black text by subtraction."""
     lit = text(caption, size, (LIGHT,) * 3, "body", "c", 1760)
     screen.blit(lit.image, (960 + lit.at[0], y + lit.at[1]), special_flags=pygame.BLEND_RGB_SUB)

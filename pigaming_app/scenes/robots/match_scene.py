@@ -65,7 +65,7 @@ class RealMatch(MatchScene):
         self.plant = plant
         self.discs = MarkerDiscs(rig)
         self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.voice)
-        self.gone = False  # rig released
+        self.released = False  # rig released
         self.waiting = FixedTimestep()  # clock while the match waits
         self.logged: set[tuple[str, int | None]] = set()
         self._mark_real()
@@ -84,8 +84,8 @@ class RealMatch(MatchScene):
 
     def left(self) -> None:
         """Stop the robots; release camera and radio, unless the next match already uses them."""
-        if not self.gone:
-            self.gone = True
+        if not self.released:
+            self.released = True
             self.session.close()
 
     def on(self, event: InputEvent) -> Turn:
@@ -135,7 +135,7 @@ class RealMatch(MatchScene):
             super().draw(screen)
         else:
             self.gathering.draw(screen)
-            if self.gathering.flood.whole:
+            if self.gathering.flood.full:
                 draw_corners(screen)
                 return
         self.shine(screen)

@@ -10,7 +10,7 @@ from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.flow.timestep import FixedTimestep
-from pigaming_app.scenes.robots.fleet_state import worst
+from pigaming_app.scenes.robots.fleet_state import worst_finding
 from pigaming_app.scenes.robots.flood_light import UNSEEN, FloodLight, looking
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.sim.world import ROBOTS
@@ -70,7 +70,7 @@ class PairAgain:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the discs on a dark page, or the floodlight while a robot is missing."""
         words = self.context.words
-        if self.flood.whole:
+        if self.flood.full:
             self.flood.draw(screen, looking(words, self.missing), words("mat.pairing"))
             draw_corners(screen)
             return
@@ -92,7 +92,7 @@ class PairAgain:
         """Apply the result; close if there is no fault."""
         turned = [finding.marker for finding in pairing.findings if finding.case in GOOD and finding.marker is not None]
         self.match.paired(pairing.channels, turned)
-        fault = worst([finding for finding in pairing.findings if finding.case not in GOOD])
+        fault = worst_finding([finding for finding in pairing.findings if finding.case not in GOOD])
         if fault is None:
             self.context.sounds.play("accept")
             return Pop()

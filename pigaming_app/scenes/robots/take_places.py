@@ -77,7 +77,7 @@ class TakePlaces:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw outlines, paths and captions; the discs are drawn on top by the caller."""
         words, places = self.context.words, self.plant.places
-        if self.flood.whole:
+        if self.flood.full:
             hints = "   ·   ".join(f"{label}: {action}" for label, action in self.prompts.said)
             faults = [fault_sentence(fault, words, "") for fault in self._faults()]
             self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)

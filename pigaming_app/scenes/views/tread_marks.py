@@ -20,7 +20,7 @@ class TreadMarks:
         self.marks: deque[tuple[float, float, float, int]] = deque(maxlen=MAX_MARKS)
         self.last: tuple[float, float] | None = None
 
-    def roll(self, x: float, y: float, heading: float, now: float) -> None:
+    def add(self, x: float, y: float, heading: float, now: float) -> None:
         """Record the robot's position at time `now`, s."""
         if self.last is None or math.dist(self.last, (x, y)) > 10 * APART:
             self.last = x, y

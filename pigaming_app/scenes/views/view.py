@@ -24,7 +24,7 @@ from pigaming_app.ui.i18n import Words
 REAL_WIDER = 42  # px, extra radius around a real robot
 JUMP = 100.0  # px per tick: above it a robot was placed, not driven
 Pose = tuple[float, float, float]  # canvas px, canvas px, rad
-Heard = tuple[str, int | None, float]  # sound name, player for the pitch, x in arena px
+SoundCue = tuple[str, int | None, float]  # sound name, player for the pitch, x in arena px
 
 
 class ViewOptions(Protocol):
@@ -58,7 +58,7 @@ class MatchView:
     def for_real(self, folder: Path) -> None:
         """Called for matches with people: persistent data, such as a best lap, is saved in this data folder."""
 
-    def watch(self, state: Any) -> list[Heard]:
+    def watch(self, state: Any) -> list[SoundCue]:
         """Process the last tick; returns its sounds."""
         raise NotImplementedError
 
@@ -97,7 +97,7 @@ class MatchView:
         """Draw treads, headlights and, if `fast`, the flame of a robot."""
         x, y, heading = pose
         now, marks = self.particles.clock, self.treads[seat]
-        marks.roll(x, y, heading, now)
+        marks.add(x, y, heading, now)
         marks.draw(under, now)
         put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
         if fast:

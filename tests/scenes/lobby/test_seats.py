@@ -32,15 +32,15 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
     assert seats.join(CARLA) == 2
     assert seats.join(DAVID) == 1
     assert seats.join(EVA) is None
-    assert seats.like(HUMAN) == [0, 1, 2, 3]
+    assert seats.of_kind(HUMAN) == [0, 1, 2, 3]
 
 
 def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
     seats = Seats(teams=True)
     seats.join(ANA)
-    assert seats.fill() == [1]
+    assert seats.add_opponents() == [1]
     assert seats.places[0].team != seats.places[1].team
-    assert seats.fill() == []
+    assert seats.add_opponents() == []
     assert not seats.one_team
 
 
@@ -62,8 +62,8 @@ def test_all_ais_become_stronger_or_weaker_up_to_an_end(steps: int, strength: st
     seats.add()
     seats.add()
     for _ in range(abs(steps)):
-        seats.strengthen(1 if steps > 0 else -1)
-    assert {seats.places[i].strength for i in seats.like(AI)} == {strength}
+        seats.change_strength(1 if steps > 0 else -1)
+    assert {seats.places[i].strength for i in seats.of_kind(AI)} == {strength}
     seats.add()
     assert seats.places[2].strength == strength
 
@@ -72,10 +72,10 @@ def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
     seats = Seats()
     seats.add()
     seats.add()
-    seats.strengthen(1, 0)
-    seats.strengthen(1, 0)
+    seats.change_strength(1, 0)
+    seats.change_strength(1, 0)
     assert [seats.places[i].strength for i in (0, 1)] == ["easy", "normal"]
-    assert not Seats().strengthen(1)
+    assert not Seats().change_strength(1)
 
 
 def test_sending_the_ais_away_leaves_the_people() -> None:
@@ -83,7 +83,7 @@ def test_sending_the_ais_away_leaves_the_people() -> None:
     seats.join(ANA)
     seats.add()
     seats.clear()
-    assert (seats.like(HUMAN), seats.like(AI), seats.like(EMPTY)) == ([0], [], [1, 2, 3])
+    assert (seats.of_kind(HUMAN), seats.of_kind(AI), seats.of_kind(EMPTY)) == ([0], [], [1, 2, 3])
 
 
 def team_of(seats: Seats) -> list[int]:
@@ -94,10 +94,10 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
     seats = Seats(team_mode=PAIRS)
     assert [seats.join(ANA), seats.join(BEN)] == [0, 1]
     assert team_of(seats) == [0, 1]
-    assert not seats.fill(), "one against one is a match too"
+    assert not seats.add_opponents(), "one against one is a match too"
     seats.change_team(1)
     assert seats.one_team
-    assert seats.fill() == [2, 3], "two who want to play together get two rivals"
+    assert seats.add_opponents() == [2, 3], "two who want to play together get two rivals"
     assert team_of(seats) == [0, 0, 1, 1]
     assert [seat.team for seat in seats.seats()] == [0, 0, 1, 1]
 
@@ -105,7 +105,7 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
 def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
     seats = Seats(team_mode=PAIRS)
     seats.join(ANA)
-    assert seats.fill() == [1, 2, 3]
+    assert seats.add_opponents() == [1, 2, 3]
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
@@ -123,7 +123,7 @@ def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
 def test_in_a_race_everyone_drives_alone_against_three() -> None:
     seats = Seats(team_mode=ALONE, teams=True)
     seats.join(ANA)
-    assert seats.fill() == [1, 2, 3]
+    assert seats.add_opponents() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
     assert not seats.one_team
 
@@ -132,7 +132,7 @@ def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
     seats = Seats(rivals=("easy", "normal", "hard", "q1", "q2"))
     seats.add()
     for wanted in ("hard", "q1", "q2", "q2"):
-        seats.strengthen(1)
+        seats.change_strength(1)
         assert seats.seats()[0] == Seat(wanted, 0)
-    seats.strengthen(1, 0)
+    seats.change_strength(1, 0)
     assert seats.places[0].strength == "easy"

@@ -125,7 +125,7 @@ def test_the_delay_of_the_whole_loop_is_measured(arcade: Arcade) -> None:
     page.check._todo = [0]
     assert page.check._next()
     idle(arcade, page)
-    late = page.check.late[0]
+    late = page.check.latencies[0]
     assert late is not None
     assert 0.05 < late < 0.15
 

@@ -110,10 +110,10 @@ def test_a_pallet_that_was_just_moved_is_larger_for_a_moment(screen):
     feed(state, 0, INPUT_A)
     feed(state, 0, 0, ON_ROBOT)
     view.watch(state)
-    assert view.popping.tenths(0, view.particles.clock) > 10
-    assert view.popping.tenths(1, view.particles.clock) == 10
+    assert view.pops.tenths(0, view.particles.clock) > 10
+    assert view.pops.tenths(1, view.particles.clock) == 10
     view.particles.advance(1.0)
-    assert view.popping.tenths(0, view.particles.clock) == 10
+    assert view.pops.tenths(0, view.particles.clock) == 10
 
 
 def test_a_load_lies_on_the_forks(screen):

@@ -17,7 +17,7 @@ from pigaming_app.scenes.views.factory.events import (
 )
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
-from pigaming_app.scenes.views.view import Heard, ViewOptions
+from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.ui.draw import ALARM
 
 POP = 0.12  # s, pop animation of a moved crate
@@ -40,14 +40,14 @@ class CratePops:
 
 
 def react(
-    events: Iterable[FactoryEvent], state: Factory, particles: Particles, popping: CratePops, options: ViewOptions
-) -> list[Heard]:
+    events: Iterable[FactoryEvent], state: Factory, particles: Particles, pops: CratePops, options: ViewOptions
+) -> list[SoundCue]:
     """Add particles for the events; returns their sounds."""
-    heard: list[Heard] = []
+    cues: list[SoundCue] = []
     for event in events:
         x, y = LEFT + event.x, TOP + event.y
         if event.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
-            popping.begin(event.what, particles.clock)
+            pops.begin(event.what, particles.clock)
         match event.kind:
             case "delivered":
                 color = TEAMS[state.pallets[event.what].team]
@@ -69,5 +69,5 @@ def react(
             case _:
                 pass
         if event.kind not in (THAWED, STARTED):
-            heard.append((event.kind, event.player, event.x))
-    return heard
+            cues.append((event.kind, event.player, event.x))
+    return cues

@@ -32,7 +32,7 @@ from pigaming_app.scenes.views.factory.next_step import NextStepGuide
 from pigaming_app.scenes.views.factory.prewarm import jobs
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
@@ -54,16 +54,16 @@ class FactoryView(MatchView):
         self.hud = FactoryHud(self.background, players)
         self.detector = FactoryEventDetector(state)
         self.guide = NextStepGuide(players)
-        self.popping = CratePops()
+        self.pops = CratePops()
         self.people = self.people_before = _people(state)
         self.ahead(self.hud.jobs())
         self.ahead(jobs(self.seats))
 
-    def watch(self, state: Factory) -> list[Heard]:
+    def watch(self, state: Factory) -> list[SoundCue]:
         self.follow(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.look(state)
-        return react(self.detector.look(state), state, self.particles, self.popping, self.options)
+        return react(self.detector.look(state), state, self.particles, self.pops, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)
@@ -105,7 +105,7 @@ class FactoryView(MatchView):
                 put(over, self._crate(p, pallet), LEFT + x, TOP + y)
 
     def _crate(self, p: int, pallet: Any) -> Any:
-        return crates.crate(pallet.team, pallet.state, self.popping.tenths(p, self.particles.clock))
+        return crates.crate(pallet.team, pallet.state, self.pops.tenths(p, self.particles.clock))
 
     def _people(self, over: Batch, top: Batch, state: Factory, blend: float) -> None:
         for old, new, worker in zip(self.people_before, self.people, state.workers, strict=True):

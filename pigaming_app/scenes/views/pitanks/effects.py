@@ -6,7 +6,7 @@ from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.pitanks.events import PiTanksEvent
-from pigaming_app.scenes.views.view import Heard, ViewOptions
+from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
 
@@ -27,14 +27,14 @@ SOUNDS = {
 }
 
 
-def react(events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions) -> list[Heard]:
+def react(events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions) -> list[SoundCue]:
     """Add particles for the events; returns their sounds."""
-    heard: list[Heard] = []
+    cues: list[SoundCue] = []
     for event in events:
         _show(event, state, particles, options)
         if event.kind in SOUNDS:
-            heard.append((SOUNDS[event.kind], event.player, event.x))
-    return heard
+            cues.append((SOUNDS[event.kind], event.player, event.x))
+    return cues
 
 
 def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: ViewOptions) -> None:

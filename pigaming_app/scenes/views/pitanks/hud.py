@@ -99,8 +99,8 @@ class PiTanksHud:
         self.points = points
         for slot in self.slots:
             leads = slot.seat == ahead and not self.sums
-            says = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
-            self.parts.show(slot, says, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *says))
+            content = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
+            self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *content))
         for panel in self.sums:
             total = totals[panel.team], panel.team == ahead
             if self.parts.changed(panel, total):

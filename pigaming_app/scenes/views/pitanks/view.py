@@ -15,7 +15,7 @@ from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -46,7 +46,7 @@ class PiTanksView(MatchView):
         self.marked = [slot.seat for event in self.hud.sums for slot in event.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 
-    def watch(self, state: PiTanks) -> list[Heard]:
+    def watch(self, state: PiTanks) -> list[SoundCue]:
         self.follow(state)
         for i, bullet in enumerate(state.bullets):
             was = self.detector.shots[i]

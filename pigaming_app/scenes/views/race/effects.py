@@ -12,7 +12,7 @@ from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
-from pigaming_app.scenes.views.view import Heard, Pose, ViewOptions, decimal
+from pigaming_app.scenes.views.view import Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
@@ -86,7 +86,7 @@ def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
         x += advance
 
 
-def heard(events: Sequence[RaceEvent], state: Race) -> list[Heard]:
+def sound_cues(events: Sequence[RaceEvent], state: Race) -> list[SoundCue]:
     """Sounds of the events: for each robot only the most important one."""
     loudest: dict[int, str] = {}
     for event in events:

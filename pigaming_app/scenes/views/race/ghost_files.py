@@ -84,8 +84,8 @@ def ghost_of(line: int, seconds: float, crossed: Sequence[float], track: Sequenc
 
 def file_of(folder: Path, arena: Arena) -> Path:
     """File of a track's ghost; a different track of the same name has a different file."""
-    made_of = hashlib.sha256(arena.source.encode()).hexdigest()[:8]
-    return folder / FOLDER / f"{arena.name}-{made_of}.json"
+    digest = hashlib.sha256(arena.source.encode()).hexdigest()[:8]
+    return folder / FOLDER / f"{arena.name}-{digest}.json"
 
 
 def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
@@ -105,8 +105,8 @@ def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
 def drivable(ghost: Ghost, arena: Arena) -> bool:
     """True if a lap is no faster than the rules allow and crosses each line at the recorded time."""
     rules, course, place = Rules(), arena.plan.course, CoursePosition()
-    way = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
-    if way > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
+    length = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
+    if length > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
         return False
     for later in range(LINES):
         line = (ghost.line + later) % LINES

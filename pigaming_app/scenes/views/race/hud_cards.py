@@ -201,8 +201,8 @@ def wrong_mark() -> pygame.Surface:
 
 def u_turn(ink: GlowCanvas, x: float, y: float, k: float) -> GlowCanvas:
     """U-turn arrow, 72 px high at scale 1."""
-    bow = [(18 * math.cos(t / 8), -8 - 18 * math.sin(t / 8)) for t in range(26)]
-    way = [(18.0, 30.0), (18.0, -8.0), *bow, (-18.0, 6.0)]
+    arc = [(18 * math.cos(t / 8), -8 - 18 * math.sin(t / 8)) for t in range(26)]
+    way = [(18.0, 30.0), (18.0, -8.0), *arc, (-18.0, 6.0)]
     ink.line([(x + k * a, y + k * b) for a, b in way], WHITE, 11 * k)
     return ink.fill([(x + k * a, y + k * b) for a, b in ((-39, 4), (3, 4), (-18, 32))], WHITE)
 

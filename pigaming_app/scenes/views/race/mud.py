@@ -27,30 +27,30 @@ Indices = npt.NDArray[np.int64]
 def mud(course: Course) -> Steps[pygame.Surface]:
     """The 1600 x 900 arena with mud outside the track, as additive light."""
     coarse = yield from _distances(course)
-    away = _upsampled(_upsampled(coarse, 0), 1)
-    h, w = away.shape
+    distance = _upsampled(_upsampled(coarse, 0), 1)
+    h, w = distance.shape
     yield
     clods = _clods(h, w)
     yield
     rgb = np.empty((w, h, 3), np.uint8)
     for top in range(0, h, ROWS):
         rows = slice(top, top + ROWS)
-        rgb[:, rows] = _rows(away[rows], clods[rows], top).swapaxes(0, 1)
+        rgb[:, rows] = _rows(distance[rows], clods[rows], top).swapaxes(0, 1)
         yield
     small = pygame.surfarray.make_surface(rgb)
     yield
     return pygame.transform.smoothscale(small, (int(WIDTH), int(HEIGHT)))
 
 
-def _rows(away: Heights, clods: Heights, top: int) -> npt.NDArray[np.uint8]:
+def _rows(distance: Heights, clods: Heights, top: int) -> npt.NDArray[np.uint8]:
     """Pixels of a block of picture rows starting at `top`."""
-    h, w = away.shape
+    h, w = distance.shape
     ys, xs = np.mgrid[top : top + h, 0:w].astype(np.float32) * FINE
     waves = 9 * np.sin(xs / 61 + 2 * np.sin(ys / 83)) + 9 * np.sin(ys / 47 - 1.7 * np.sin(xs / 71))
-    heights = away + (waves + 5 * np.sin((xs + ys) / 23)) * np.clip(away / 40, 0, 1)
+    heights = distance + (waves + 5 * np.sin((xs + ys) / 23)) * np.clip(distance / 40, 0, 1)
     line = np.clip(2.5 - np.abs(heights % APART - APART / 2), 0, 1)
-    fade = np.clip(1.0 - away / 420, 0.5, 1) * np.clip((away - 14) / 10, 0, 1)
-    bright = np.maximum(line, clods) * fade * 0.80 + 0.12 * np.clip((away - 12) / 16, 0, 1)
+    fade = np.clip(1.0 - distance / 420, 0.5, 1) * np.clip((distance - 14) / 10, 0, 1)
+    bright = np.maximum(line, clods) * fade * 0.80 + 0.12 * np.clip((distance - 12) / 16, 0, 1)
     return np.asarray((bright[..., None] * np.array(MUD, np.float32)).clip(0, 255), np.uint8)
 
 
@@ -73,9 +73,9 @@ def _distances(course: Course) -> Steps[Heights]:
 
 def _on_leg(points: Numbers, centre: Numbers, half: Numbers, a: Indices, b: Indices) -> tuple[Numbers, Numbers]:
     """Distance of each point to its leg, from course point a to b, and half the track width there; px."""
-    leg, away = centre[b] - centre[a], points - centre[a]
-    share = np.clip((leg * away).sum(1) / (leg**2).sum(1), 0.0, 1.0)
-    gap = np.linalg.norm(away - share[:, None] * leg, axis=1)
+    leg, distance = centre[b] - centre[a], points - centre[a]
+    share = np.clip((leg * distance).sum(1) / (leg**2).sum(1), 0.0, 1.0)
+    gap = np.linalg.norm(distance - share[:, None] * leg, axis=1)
     return gap, half[a] + share * (half[b] - half[a])
 
 
@@ -93,9 +93,9 @@ def _clods(h: int, w: int) -> Heights:
     """Random dots that give the ground a texture."""
     rng, clods = random.Random(3), np.zeros((h, w), np.float32)
     ys, xs = np.mgrid[-4:5, -4:5]
-    away = np.sqrt(xs * xs + ys * ys)
+    distance = np.sqrt(xs * xs + ys * ys)
     for _ in range(CLODS):
         x, y, r = rng.randrange(8, w - 8), rng.randrange(8, h - 8), rng.choice((1.2, 1.6, 2.2))
         patch = clods[y - 4 : y + 5, x - 4 : x + 5]
-        np.maximum(patch, np.clip(r + 0.5 - away, 0, 1), out=patch)
+        np.maximum(patch, np.clip(r + 0.5 - distance, 0, 1), out=patch)
     return clods

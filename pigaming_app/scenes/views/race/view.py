@@ -12,7 +12,7 @@ from pigaming_app.scenes.views.hud_parts import Y
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground
-from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, heard, spray
+from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, sound_cues, spray
 from pigaming_app.scenes.views.race.events import SHOWN_FROM, RaceEvent, RaceEventDetector
 from pigaming_app.scenes.views.race.ghost import GhostRecorder
 from pigaming_app.scenes.views.race.hud import RaceHud
@@ -20,7 +20,7 @@ from pigaming_app.scenes.views.race.prewarm import jobs, void_words
 from pigaming_app.scenes.views.race.track import LineFrame, frame
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -47,11 +47,11 @@ class RaceView(MatchView):
         self.cards = RaceHud(self.background, state, players, words)
         self.detector = RaceEventDetector(state)
         self.notes = Announcements()
-        self.reactions = RaceEffects(self.particles, self.notes, options, words)
+        self.event_effects = RaceEffects(self.particles, self.notes, options, words)
         self.recorder: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
-        self.voided = [-VOID_LASTS] * len(state.robots)
+        self.void_at = [-VOID_LASTS] * len(state.robots)
         self.ahead(self.cards.jobs(state))
         self.ahead(jobs(self.seats, words))
 
@@ -59,7 +59,7 @@ class RaceView(MatchView):
         """Load the track's ghost, and save people's best laps."""
         self.recorder = GhostRecorder(folder, self.arena, self.players)
 
-    def watch(self, state: Race) -> list[Heard]:
+    def watch(self, state: Race) -> list[SoundCue]:
         self.follow(state)
         self.cards.follow(state)
         events = self.detector.look(state)
@@ -67,16 +67,16 @@ class RaceView(MatchView):
         golden = self.recorder.golden if self.recorder else {}
         for event in events:
             fresh = golden.get(event.seat)
-            self.reactions.show(event, state, fresh if fresh and fresh[1] == state.tick else None)
+            self.event_effects.show(event, state, fresh if fresh and fresh[1] == state.tick else None)
             self._note(event, state)
         for seat in records:
-            self.reactions.record(LEFT + state.robots[seat].x, TOP + state.robots[seat].y)
+            self.event_effects.record(LEFT + state.robots[seat].x, TOP + state.robots[seat].y)
         for seat in self.seats:
             robot = state.robots[seat]
             if not state.racers[seat].place.on and abs(robot.linear) > SPRAYED:
                 back = robot.heading + (math.pi if robot.linear > 0.0 else 0.0)
                 spray(self.particles, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
-        return heard(events, state)
+        return sound_cues(events, state)
 
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)
@@ -108,7 +108,7 @@ class RaceView(MatchView):
                 x = self.cards.xs[int(event.number) - 1]
                 self.particles.bloom(x, Y, 0.4, race_cards.pulse(event.seat))
         elif event.kind == "void":
-            self.voided[event.seat] = self.particles.clock
+            self.void_at[event.seat] = self.particles.clock
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: Race, seat: int, pose: Pose) -> None:
         x, y, heading = pose
@@ -129,7 +129,7 @@ class RaceView(MatchView):
     def _sign(self, top: Batch, state: Race, seat: int, pose: Pose) -> bool:
         """Draw a robot's sign above it or, near the upper edge, below; False if it has none."""
         racer = state.racers[seat]
-        said = bool(racer.missed) and self.particles.clock - self.voided[seat] < VOID_LASTS
+        said = bool(racer.missed) and self.particles.clock - self.void_at[seat] < VOID_LASTS
         below = pose[1] - TOP < (260.0 if said else 165.0)
         sprite = self._sign_of(racer, seat, said, below)
         if sprite is None or (racer.finished and not self._shows_place(state, racer)):
