@@ -281,7 +281,7 @@ class Lobby:
                 self.now.starting = self.now.countdown = COUNTDOWN_ALONE if alone else COUNTDOWN
 
     def _add_opponents(self) -> None:
-        for seat in self.seats.add_opponents():
+        for seat in self.seats.fill():
             self.now.seated[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:

@@ -139,7 +139,7 @@ class Seats:
         for place in self.places:
             place.ready = False
 
-    def add_opponents(self) -> list[int]:
+    def fill(self) -> list[int]:
         """Add opponents for a single person, or for a pair without rivals: one AI, or all seats in team games. Returns
         the seats.
         """

@@ -133,7 +133,7 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     assert here.trainer.recipe.still == -2.0
     assert lab(arcade).held == "still"
     arcade.press(Button.BACK)
-    assert lab(arcade).held == "", "BACK lets go of the knob and does not leave"
+    assert lab(arcade).held == "", "BACK releases the knob without leaving"
     arcade.press(Button.LEFT)
     assert here.trainer.recipe.still == -2.0
     arcade.frame()
@@ -197,12 +197,12 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     arcade.until(lambda: fight.inner.match.state.tick > 200)
     robot = fight.inner.match.state.robots[ROBOT]
     start = fight.inner.match.arena.starts[ROBOT]
-    assert (robot.x, robot.y, robot.heading) != (start.x, start.y, start.heading), "it plays"
+    assert (robot.x, robot.y, robot.heading) != (start.x, start.y, start.heading), "the robot moves"
     while not fight.inner.match.over:
         fight.inner.match.tick()
     arcade.wait(3.0)
     arcade.shown(ChallengeResult)
-    assert here.trainer.training.experiences == experiences, "it rests meanwhile"
+    assert here.trainer.training.experiences == experiences, "training is paused"
     assert here.trainer.join()
     for kind, seconds in ((pygame.KEYDOWN, 0.2), (pygame.KEYUP, 5.0), (pygame.KEYDOWN, 0.8), (pygame.KEYUP, 0.1)):
         pygame.event.post(pygame.Event(kind, key=0, scancode=pygame.KSCAN_ESCAPE, mod=0))
@@ -360,5 +360,5 @@ def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(controls
     rects = box.get_bounding_rects()
     line = rects[0].unionall(rects[1:]).move(lit.at)
     assert CURVE.contains(line)
-    assert line.right < PLOT.right, "the number beside the plot keeps its place"
+    assert line.right < PLOT.right, "the notice overlaps the percentage"
     assert not line.colliderect(MATCH)

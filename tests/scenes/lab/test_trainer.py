@@ -69,7 +69,7 @@ def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(t
     feed(trainer, lambda: trainer.training.experiences > 10)
     assert not trainer.fast
     feed(trainer, lambda: trainer.fast)
-    assert trainer.training.experiences > 10, "what it had learned is not lost"
+    assert trainer.training.experiences > 10, "the table was lost"
     feed(trainer, lambda: trainer.training.matches >= 12 and len(trainer.progress.measures) >= 2)
     assert {0, 10} <= set(trainer.checkpoints())
     assert trainer.checkpoints()[10].matches == 10
@@ -150,7 +150,7 @@ def test_leaving_and_returning_waits_for_the_same_process(endless: Compiler) -> 
     for _ in range(2):
         trainer.close()
         assert trainer.join(10.0)
-        assert process.poll() is None, "it goes on compiling while the Lab is left"
+        assert process.poll() is None, "compiling continues after leaving the Lab"
         feed(trainer, lambda: trainer.compiling)
         assert endless._process is process
     trainer.close()
@@ -212,7 +212,7 @@ def test_when_the_arcade_is_killed_the_process_ends_by_itself() -> None:
         os.kill(arcade.pid, signal.SIGKILL)
     end = time.monotonic() + 20.0
     while runs(compiling):
-        assert time.monotonic() < end, "it is left behind"
+        assert time.monotonic() < end, "the process is still running"
         time.sleep(0.05)
 
 

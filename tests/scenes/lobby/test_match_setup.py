@@ -53,7 +53,7 @@ def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) 
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, games()["pitanks"].variants[1])
     arcade.press(Button.FIRE)
-    assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
+    assert page(arcade).chosen.variant == variant, "hammering on FIRE does not start the match"
     arcade.wait(0.5)
     arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
@@ -129,7 +129,7 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
     rules = games()[game]
     seats = Seats(team_mode=rules.team_mode)
     seats.join(KEYS[0])
-    seats.add_opponents()
+    seats.fill()
     arcade.open(MatchSetupPage(arcade.context, game, seats))
     arcade.press(Button.DOWN)
     for button, last in ((Button.RIGHT, max(rules.goals)), (Button.LEFT, min(rules.goals))):

@@ -89,7 +89,7 @@ def test_every_ending_is_shown(
     lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
     lit.invert()
     edge = [box for box in lit.get_bounding_rects() if box.left < 20 or box.right > whole.right - 20]
-    assert not edge, "nothing runs over the edge"
+    assert not edge, "a widget is clipped at the edge"
 
 
 def test_players_still_firing_do_not_skip_the_results(arcade: Arcade) -> None:
@@ -117,7 +117,7 @@ def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
     assert match.devices == [KEYS[0], KEYS[1], None, None]
     assert replace(match.setup, seed=0) == replace(results.setup, seed=0)
     assert match.setup.seed != results.setup.seed
-    assert len(arcade.stack.scenes) == 3, "the choice of the match still lies below"
+    assert len(arcade.stack.scenes) == 3, "match setup is still below"
 
 
 def test_start_waits_for_nobody(arcade: Arcade) -> None:
@@ -377,10 +377,10 @@ def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None
     [(x, y)] = plot.marked()
     assert x == pytest.approx(plot.to(1.0, 9.87)[0])
     assert y == pytest.approx(plot.to(1.0, 9.87)[1], abs=5.0)
-    assert [said for _, said in plot.marks()] == ["1", "2", "3"]
-    assert len(plot.corners(curves[1].series)) == 2, "an only lap is a stroke that can be seen"
+    assert [label for _, label in plot.marks()] == ["1", "2", "3"]
+    assert len(plot.corners(curves[1].series)) == 2, "a single lap is a visible stroke"
     assert len(plot.heads(0.1)) == 0
-    assert len(plot.heads(1.0)) == 2, "who drove no lap has no line"
+    assert len(plot.heads(1.0)) == 2, "a driver without a lap has no line"
     assert LapPlot(100, 100, 800, 500, [Curve((0,), ())], 3).marked() == []
 
 

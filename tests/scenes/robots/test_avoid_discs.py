@@ -38,7 +38,7 @@ def test_wherever_robots_stand_no_block_is_hidden_nor_over_another_one(seed: int
     boxes = [block.box for block in placed]
     assert all(ROOM.contains(box) for box in boxes)
     assert not [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.colliderect(b)]
-    assert placed[0].scale >= 0.5, "20 px for what had 40"
+    assert placed[0].scale >= 0.5, "40 px text is at least 20 px"
 
 
 def test_a_block_stays_until_a_robot_reaches_it_and_comes_home_when_all_have_gone() -> None:

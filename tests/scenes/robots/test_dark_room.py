@@ -60,7 +60,7 @@ def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedSession, ambient
     assert page.missing == []
     play(arcade, FADE + 0.1, lit=True)
     assert arcade.screen.get_at((960, 540))[:3] == (0, 0, 0)
-    assert page.missing == [], "the discs are enough from now on"
+    assert page.missing == [], "the discs suffice from here on"
 
 
 @pytest.mark.long

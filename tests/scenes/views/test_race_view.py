@@ -284,7 +284,7 @@ def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
     assert view.cards.gaps.gap(state, 0) == 0.0
     leader.finished, leader.finish = 1, 400.0
     other.finished, other.finish = 1, 561.0
-    assert view.cards.gaps.gap(state, 1) == pytest.approx(3.22), "in the end, behind the winner"
+    assert view.cards.gaps.gap(state, 1) == pytest.approx(3.22), "after the finish, to the winner"
 
 
 def test_a_gap_is_no_longer_than_four_characters():
